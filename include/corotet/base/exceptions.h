@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_exceptions_h
+#define corotet_base_exceptions_h
+
+#include <stdexcept>
+#include <string>
+
+namespace corotet
+{
+  /**
+   * What ends a run. Each kind has the exit status that scripts rely on.
+   */
+  class Error : public std::runtime_error
+  {
+  public:
+    Error(const int exit_status, const std::string &message)
+      : std::runtime_error(message)
+      , exit_status(exit_status)
+    {}
+
+    const int exit_status;
+  };
+
+  /**
+   * The input is wrong: exit status 1. The message says what is wrong, what was found and what is allowed.
+   *
+   * @p entry is the path of the parameter to blame, as "Section/Subsection/Entry" (the program shows the file and the line
+   * where it is set), or empty if @p message names the place by itself.
+   */
+  class InputError : public Error
+  {
+  public:
+    InputError(const std::string &entry, const std::string &message)
+      : Error(1, message)
+      , entry(entry)
+    {}
+
+    const std::string entry;
+  };
+
+  /**
+   * The computation failed (no convergence, blow-up): exit status 2. Everything computed before is saved.
+   */
+  class ComputationError : public Error
+  {
+  public:
+    explicit ComputationError(const std::string &message)
+      : Error(2, message)
+    {}
+  };
+
+  /**
+   * The machine failed (disk full, no permission): exit status 3.
+   */
+  class MachineError : public Error
+  {
+  public:
+    explicit MachineError(const std::string &message)
+      : Error(3, message)
+    {}
+  };
+} // namespace corotet
+
+#endif

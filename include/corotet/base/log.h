@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_log_h
+#define corotet_base_log_h
+
+#include <mpi.h>
+
+#include <fstream>
+#include <string>
+
+namespace corotet
+{
+  /**
+   * What the program tells its user, line by line: on the terminal of rank 0 (unless quiet) and in log.txt.
+   *
+   * Lines that come before the file is opened are kept and written into it then. A progress line goes to a terminal
+   * only, where it stands below the last line and is overwritten by the next; it is never part of the file.
+   */
+  class Log
+  {
+  public:
+    /// On ranks other than 0 of @p comm nothing is shown or written.
+    Log(const MPI_Comm comm, const bool quiet);
+    ~Log();
+
+    Log(const Log &) = delete;
+    Log &
+    operator=(const Log &) = delete;
+
+    void
+    line(const std::string &text);
+
+    /// A line that starts with "warning: ".
+    void
+    warning(const std::string &text);
+
+    /// Replaces the live line. Without a terminal, or when quiet, it does nothing.
+    void
+    progress(const std::string &text);
+
+    /// Whether a live line can be shown.
+    bool
+    on_terminal() const
+    {
+      return terminal;
+    }
+
+    /// From now on lines go to @p path too, those shown so far first. Throws MachineError if it cannot be written.
+    void
+    open(const std::string &path);
+
+  private:
+    void
+    clear_progress();
+
+    bool          root;
+    bool          quiet;
+    bool          terminal;
+    bool          progress_shown = false;
+    std::string   kept;
+    std::ofstream file;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_timing_h
+#define corotet_base_timing_h
+
+#include <chrono>
+
+namespace corotet
+{
+  /**
+   * Adds the wall time [s] from its construction to its destruction to a sum.
+   */
+  class ScopedTimer
+  {
+  public:
+    explicit ScopedTimer(double &sum)
+      : sum(sum)
+      , start(std::chrono::steady_clock::now())
+    {}
+
+    ~ScopedTimer()
+    {
+      sum += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    ScopedTimer(const ScopedTimer &) = delete;
+    ScopedTimer &
+    operator=(const ScopedTimer &) = delete;
+
+  private:
+    double                                     &sum;
+    const std::chrono::steady_clock::time_point start;
+  };
+
+  /**
+   * Where the wall time [s] of a run went.
+   */
+  struct WallTimes
+  {
+    double setup    = 0;
+    double assembly = 0;
+    double solve    = 0;
+    double output   = 0;
+  };
+} // namespace corotet
+
+#endif

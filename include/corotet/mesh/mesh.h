@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_mesh_h
+#define corotet_mesh_mesh_h
+
+#include <corotet/base/log.h>
+#include <corotet/base/selectable.h>
+#include <corotet/mesh/mesh_source.h>
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+
+#include <map>
+#include <string>
+
+namespace corotet
+{
+  /**
+   * The parameters of section Mesh: the source, uniform refinements and a scale.
+   */
+  struct MeshParameters
+  {
+    MeshParameters();
+
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    Selectable<MeshSource> source;
+    unsigned int           n_refinements = 0;
+    double                 scale         = 1;
+  };
+
+  /**
+   * Ids by name, and names by id, of the regions or of the boundaries of a mesh.
+   */
+  class MeshNames
+  {
+  public:
+    /// @p kind is "region" or "boundary"; @p names holds every id that the mesh has (an empty name: known by its id).
+    MeshNames(const std::string &kind, const std::map<unsigned int, std::string> &names);
+
+    /**
+     * The id that @p name_or_id means. Throws InputError blamed on the parameter @p entry ("Section/Entry"), with the
+     * names that there are and the nearest one.
+     */
+    unsigned int
+    id(const std::string &name_or_id, const std::string &entry) const;
+
+    /// The name of @p id, or the id itself as text if it has none.
+    std::string
+    name(const unsigned int id) const;
+
+    /// All of them, by id.
+    const std::map<unsigned int, std::string> &
+    all() const
+    {
+      return names;
+    }
+
+  private:
+    std::string                         kind;
+    std::map<unsigned int, std::string> names;
+  };
+
+  /**
+   * A checked tetrahedral mesh, distributed over the ranks of a communicator. All cells are on level 0 (refinements are
+   * flattened), in an order that keeps neighbours close in memory. Lengths in metres.
+   */
+  class Mesh
+  {
+  public:
+    /**
+     * Makes the mesh on rank 0, checks it, logs its statistics and distributes it. @p folder is that of the parameter
+     * file. Throws InputError. Collective.
+     */
+    Mesh(const MeshParameters &parameters, const std::string &folder, const MPI_Comm comm, Log &log);
+
+    /// The same for a mesh that is already made (it is read on rank 0 only).
+    Mesh(SerialMesh mesh, const unsigned int n_refinements, const double scale, const MPI_Comm comm, Log &log);
+
+    /// Cells carry the region as material id and the surface's faces the boundary as boundary id.
+    const dealii::parallel::fullydistributed::Triangulation<3> &
+    triangulation() const
+    {
+      return tria;
+    }
+
+    const MeshNames &
+    regions() const
+    {
+      return region_names;
+    }
+
+    const MeshNames &
+    boundaries() const
+    {
+      return boundary_names;
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return tria.get_communicator();
+    }
+
+  private:
+    dealii::parallel::fullydistributed::Triangulation<3> tria;
+    MeshNames                                            region_names;
+    MeshNames                                            boundary_names;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_mesh_source_h
+#define corotet_mesh_mesh_source_h
+
+#include <corotet/mesh/serial_mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace corotet
+{
+  /**
+   * Where a mesh comes from: a generator or a file reader with its parameters.
+   */
+  class MeshSource
+  {
+  public:
+    virtual ~MeshSource() = default;
+
+    virtual void
+    declare_parameters(dealii::ParameterHandler &prm) = 0;
+
+    /**
+     * The mesh, with coordinates as the source has them. Called on one rank only, so it must not communicate.
+     * Relative file names are relative to @p folder, that of the parameter file. Throws InputError.
+     */
+    virtual SerialMesh
+    create(const std::string &folder) const = 0;
+  };
+} // namespace corotet
+
+#endif
