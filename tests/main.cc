@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Runs all tests of an executable, on one rank or on several. Only rank 0 reports, unless a test fails elsewhere.
+// Runs all tests of an executable, on one rank or on several. Only rank 0
+// reports, unless a test fails elsewhere.
 
 #include <deal.II/base/mpi.h>
 

@@ -13,7 +13,8 @@ namespace corotet
 {
   namespace
   {
-    // Exit status (0: no error), entry and message of an Error, as they travel between ranks.
+    // Exit status (0: no error), entry and message of an Error, as they travel
+    // between ranks.
     using Outcome = std::tuple<int, std::string, std::string>;
 
     Outcome
@@ -67,7 +68,9 @@ namespace corotet
     const Outcome      outcome = outcome_of(action);
     const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
     const unsigned int none    = dealii::Utilities::MPI::n_mpi_processes(comm);
-    const unsigned int first   = dealii::Utilities::MPI::min(std::get<0>(outcome) != 0 ? rank : none, comm);
+    const unsigned int first =
+      dealii::Utilities::MPI::min(std::get<0>(outcome) != 0 ? rank : none,
+                                  comm);
     if (first != none)
       throw_if_error(dealii::Utilities::MPI::broadcast(comm, outcome, first));
   }

@@ -24,10 +24,12 @@ namespace corotet
   };
 
   /**
-   * The input is wrong: exit status 1. The message says what is wrong, what was found and what is allowed.
+   * The input is wrong: exit status 1. The message says what is wrong, what was
+   * found and what is allowed.
    *
-   * @p entry is the path of the parameter to blame, as "Section/Subsection/Entry" (the program shows the file and the line
-   * where it is set), or empty if @p message names the place by itself.
+   * @p entry is the path of the parameter to blame, as
+   * "Section/Subsection/Entry" (the program shows the file and the line where
+   * it is set), or empty if @p message names the place by itself.
    */
   class InputError : public Error
   {
@@ -41,7 +43,8 @@ namespace corotet
   };
 
   /**
-   * The computation failed (no convergence, blow-up): exit status 2. Everything computed before is saved.
+   * The computation failed (no convergence, blow-up): exit status 2. Everything
+   * computed before is saved.
    */
   class ComputationError : public Error
   {

@@ -12,10 +12,12 @@
 namespace corotet
 {
   /**
-   * What the program tells its user, line by line: on the terminal of rank 0 (unless quiet) and in log.txt.
+   * What the program tells its user, line by line: on the terminal of rank 0
+   * (unless quiet) and in log.txt.
    *
-   * Lines that come before the file is opened are kept and written into it then. A progress line goes to a terminal
-   * only, where it stands below the last line and is overwritten by the next; it is never part of the file.
+   * Lines that come before the file is opened are kept and written into it
+   * then. A progress line goes to a terminal only, where it stands below the
+   * last line and is overwritten by the next; it is never part of the file.
    */
   class Log
   {
@@ -35,7 +37,8 @@ namespace corotet
     void
     warning(const std::string &text);
 
-    /// Replaces the live line. Without a terminal, or when quiet, it does nothing.
+    /// Replaces the live line. Without a terminal, or when quiet, it does
+    /// nothing.
     void
     progress(const std::string &text);
 
@@ -46,7 +49,8 @@ namespace corotet
       return terminal;
     }
 
-    /// From now on lines go to @p path too, those shown so far first. Throws MachineError if it cannot be written.
+    /// From now on lines go to @p path too, those shown so far first. Throws
+    /// MachineError if it cannot be written.
     void
     open(const std::string &path);
 

@@ -11,14 +11,16 @@
 namespace corotet
 {
   /**
-   * Runs @p action on rank 0 of @p comm only. An Error that it throws there is thrown on every rank, with the same kind,
-   * entry and message; so no rank is left waiting. Collective.
+   * Runs @p action on rank 0 of @p comm only. An Error that it throws there is
+   * thrown on every rank, with the same kind, entry and message; so no rank is
+   * left waiting. Collective.
    */
   void
   on_root(const MPI_Comm comm, const std::function<void()> &action);
 
   /**
-   * Runs @p action on every rank. If it throws an Error on some ranks, every rank throws the one of the lowest of them.
+   * Runs @p action on every rank. If it throws an Error on some ranks, every
+   * rank throws the one of the lowest of them.
    * @p action must not communicate. Collective.
    */
   void

@@ -14,7 +14,8 @@
 namespace corotet
 {
   /**
-   * One candidate of a run-time choice: the name that a parameter file selects it by, and how to make it.
+   * One candidate of a run-time choice: the name that a parameter file selects
+   * it by, and how to make it.
    */
   template <typename Base>
   struct Candidate
@@ -24,7 +25,8 @@ namespace corotet
   };
 
   /**
-   * The candidate called @p name of class @p Derived: one line in a layer's list registers it.
+   * The candidate called @p name of class @p Derived: one line in a layer's
+   * list registers it.
    */
   template <typename Base, typename Derived>
   Candidate<Base>
@@ -34,17 +36,19 @@ namespace corotet
   }
 
   /**
-   * A named run-time choice among classes derived from @p Base: the entry `Type`, and a subsection with the parameters of
-   * each candidate.
+   * A named run-time choice among classes derived from @p Base: the entry
+   * `Type`, and a subsection with the parameters of each candidate.
    *
-   * @p Base has a member `void declare_parameters(dealii::ParameterHandler &)`. All candidates live as long as this object,
-   * which must not be moved after declare_parameters(): the handler writes into it while it reads a file.
+   * @p Base has a member `void declare_parameters(dealii::ParameterHandler &)`.
+   * All candidates live as long as this object, which must not be moved after
+   * declare_parameters(): the handler writes into it while it reads a file.
    */
   template <typename Base>
   class Selectable
   {
   public:
-    Selectable(const std::vector<Candidate<Base>> &candidates, const std::string &default_name)
+    Selectable(const std::vector<Candidate<Base>> &candidates,
+               const std::string                  &default_name)
       : selected_name(default_name)
     {
       for (const Candidate<Base> &c : candidates)
@@ -56,12 +60,16 @@ namespace corotet
     operator=(const Selectable &) = delete;
 
     void
-    declare_parameters(dealii::ParameterHandler &prm, const std::string &documentation)
+    declare_parameters(dealii::ParameterHandler &prm,
+                       const std::string        &documentation)
     {
       std::string names;
       for (const auto &[name, object] : objects)
         names += (names.empty() ? "" : "|") + name;
-      prm.add_parameter("Type", selected_name, documentation, dealii::Patterns::Selection(names));
+      prm.add_parameter("Type",
+                        selected_name,
+                        documentation,
+                        dealii::Patterns::Selection(names));
       for (auto &[name, object] : objects)
         {
           prm.enter_subsection(name);
@@ -82,7 +90,9 @@ namespace corotet
       for (const auto &[name, object] : objects)
         if (name == selected_name)
           return *object;
-      AssertThrow(false, dealii::ExcMessage("No candidate is called " + selected_name));
+      AssertThrow(false,
+                  dealii::ExcMessage("No candidate is called " +
+                                     selected_name));
       return *objects.front().second;
     }
 

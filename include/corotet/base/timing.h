@@ -21,7 +21,9 @@ namespace corotet
 
     ~ScopedTimer()
     {
-      sum += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      sum +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
     }
 
     ScopedTimer(const ScopedTimer &) = delete;

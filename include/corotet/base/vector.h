@@ -9,7 +9,8 @@
 namespace corotet
 {
   /**
-   * A distributed vector of unknowns: three per node (x, y, z), contiguous. Owned entries come first, then ghosts.
+   * A distributed vector of unknowns: three per node (x, y, z), contiguous.
+   * Owned entries come first, then ghosts.
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 } // namespace corotet

@@ -18,11 +18,13 @@
 namespace corotet
 {
   /**
-   * Geometry of a straight-sided cell: x = p0 + J xi, with xi in the reference tetrahedron.
+   * Geometry of a straight-sided cell: x = p0 + J xi, with xi in the reference
+   * tetrahedron.
    */
   struct CellGeometry
   {
-    /// Rows are the gradients of the reference coordinates xi_k with respect to x: J^{-1}. Unit 1/m.
+    /// Rows are the gradients of the reference coordinates xi_k with respect to
+    /// x: J^{-1}. Unit 1/m.
     dealii::Tensor<2, 3> inverse_jacobian;
     /// Volume in m^3, positive.
     double volume;
@@ -36,19 +38,22 @@ namespace corotet
   struct BoundaryFace
   {
     unsigned int cell;
-    /// Number of the face in the cell, 0 to 3, as dealii::ReferenceCells::Tetrahedron numbers it.
+    /// Number of the face in the cell, 0 to 3, as
+    /// dealii::ReferenceCells::Tetrahedron numbers it.
     unsigned int face;
     unsigned int boundary;
   };
 
   /**
-   * Continuous tetrahedral elements of degree p for a displacement: FESystem(FE_SimplexP(p), 3) with p = 1, 2, 3 on a
-   * distributed mesh.
+   * Continuous tetrahedral elements of degree p for a displacement:
+   * FESystem(FE_SimplexP(p), 3) with p = 1, 2, 3 on a distributed mesh.
    *
-   * Nodes are numbered such that the unknowns of node n are 3n, 3n+1, 3n+2 (x, y, z), on each rank in the order in which its
-   * cells meet them. Cells, nodes and unknowns are addressed by local numbers: owned cells come first, then ghost cells (all
-   * that share a vertex with an owned one); owned nodes come first, then ghost nodes (all others of local cells). Local
-   * node n has the local unknowns 3n, 3n+1, 3n+2 of vectors made by initialize_vector().
+   * Nodes are numbered such that the unknowns of node n are 3n, 3n+1, 3n+2 (x,
+   * y, z), on each rank in the order in which its cells meet them. Cells, nodes
+   * and unknowns are addressed by local numbers: owned cells come first, then
+   * ghost cells (all that share a vertex with an owned one); owned nodes come
+   * first, then ghost nodes (all others of local cells). Local node n has the
+   * local unknowns 3n, 3n+1, 3n+2 of vectors made by initialize_vector().
    *
    * @p mesh must outlive this object.
    */
@@ -101,11 +106,14 @@ namespace corotet
       return mesh_pointer->triangulation().n_global_active_cells();
     }
 
-    /// Local numbers of the nodes of local cell @p cell, in the order of FE_SimplexP.
+    /// Local numbers of the nodes of local cell @p cell, in the order of
+    /// FE_SimplexP.
     dealii::ArrayView<const unsigned int>
     cell_nodes(const unsigned int cell) const
     {
-      return {nodes_of_cells.data() + static_cast<std::size_t>(cell) * n_cell_nodes, n_cell_nodes};
+      return {nodes_of_cells.data() +
+                static_cast<std::size_t>(cell) * n_cell_nodes,
+              n_cell_nodes};
     }
 
     const CellGeometry &
@@ -153,7 +161,8 @@ namespace corotet
       return vector_partitioner;
     }
 
-    /// Makes @p vector one of unknowns with ghost entries for all local nodes; all zero.
+    /// Makes @p vector one of unknowns with ghost entries for all local nodes;
+    /// all zero.
     void
     initialize_vector(Vector &vector) const
     {
@@ -204,19 +213,20 @@ namespace corotet
     void
     set_up_positions();
 
-    const Mesh            *mesh_pointer;
-    dealii::FESystem<3>    fe;
-    dealii::MappingFE<3>   linear_mapping;
-    dealii::DoFHandler<3>  dofs;
-    unsigned int           n_cell_nodes;
-    unsigned int           n_owned = 0;
+    const Mesh           *mesh_pointer;
+    dealii::FESystem<3>   fe;
+    dealii::MappingFE<3>  linear_mapping;
+    dealii::DoFHandler<3> dofs;
+    unsigned int          n_cell_nodes;
+    unsigned int          n_owned = 0;
 
     std::vector<CellGeometry> geometries;
     std::vector<unsigned int> nodes_of_cells;
     std::vector<BoundaryFace> surface;
 
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> vector_partitioner;
-    Vector                                                     positions;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
+           vector_partitioner;
+    Vector positions;
   };
 } // namespace corotet
 

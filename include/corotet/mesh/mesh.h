@@ -16,7 +16,8 @@
 namespace corotet
 {
   /**
-   * The parameters of section Mesh: the source, uniform refinements and a scale.
+   * The parameters of section Mesh: the source, uniform refinements and a
+   * scale.
    */
   struct MeshParameters
   {
@@ -31,17 +32,21 @@ namespace corotet
   };
 
   /**
-   * Ids by name, and names by id, of the regions or of the boundaries of a mesh.
+   * Ids by name, and names by id, of the regions or of the boundaries of a
+   * mesh.
    */
   class MeshNames
   {
   public:
-    /// @p kind is "region" or "boundary"; @p names holds every id that the mesh has (an empty name: known by its id).
-    MeshNames(const std::string &kind, const std::map<unsigned int, std::string> &names);
+    /// @p kind is "region" or "boundary"; @p names holds every id that the mesh
+    /// has (an empty name: known by its id).
+    MeshNames(const std::string                         &kind,
+              const std::map<unsigned int, std::string> &names);
 
     /**
-     * The id that @p name_or_id means. Throws InputError blamed on the parameter @p entry ("Section/Entry"), with the
-     * names that there are and the nearest one.
+     * The id that @p name_or_id means. Throws InputError blamed on the
+     * parameter @p entry ("Section/Entry"), with the names that there are and
+     * the nearest one.
      */
     unsigned int
     id(const std::string &name_or_id, const std::string &entry) const;
@@ -63,22 +68,32 @@ namespace corotet
   };
 
   /**
-   * A checked tetrahedral mesh, distributed over the ranks of a communicator. All cells are on level 0 (refinements are
-   * flattened), in an order that keeps neighbours close in memory. Lengths in metres.
+   * A checked tetrahedral mesh, distributed over the ranks of a communicator.
+   * All cells are on level 0 (refinements are flattened), in an order that
+   * keeps neighbours close in memory. Lengths in metres.
    */
   class Mesh
   {
   public:
     /**
-     * Makes the mesh on rank 0, checks it, logs its statistics and distributes it. @p folder is that of the parameter
-     * file. Throws InputError. Collective.
+     * Makes the mesh on rank 0, checks it, logs its statistics and distributes
+     * it. @p folder is that of the parameter file. Throws InputError.
+     * Collective.
      */
-    Mesh(const MeshParameters &parameters, const std::string &folder, const MPI_Comm comm, Log &log);
+    Mesh(const MeshParameters &parameters,
+         const std::string    &folder,
+         const MPI_Comm        comm,
+         Log                  &log);
 
     /// The same for a mesh that is already made (it is read on rank 0 only).
-    Mesh(SerialMesh mesh, const unsigned int n_refinements, const double scale, const MPI_Comm comm, Log &log);
+    Mesh(SerialMesh         mesh,
+         const unsigned int n_refinements,
+         const double       scale,
+         const MPI_Comm     comm,
+         Log               &log);
 
-    /// Cells carry the region as material id and the surface's faces the boundary as boundary id.
+    /// Cells carry the region as material id and the surface's faces the
+    /// boundary as boundary id.
     const dealii::parallel::fullydistributed::Triangulation<3> &
     triangulation() const
     {

@@ -22,8 +22,9 @@ namespace corotet
     declare_parameters(dealii::ParameterHandler &prm) = 0;
 
     /**
-     * The mesh, with coordinates as the source has them. Called on one rank only, so it must not communicate.
-     * Relative file names are relative to @p folder, that of the parameter file. Throws InputError.
+     * The mesh, with coordinates as the source has them. Called on one rank
+     * only, so it must not communicate. Relative file names are relative to @p
+     * folder, that of the parameter file. Throws InputError.
      */
     virtual SerialMesh
     create(const std::string &folder) const = 0;

@@ -14,18 +14,21 @@
 namespace corotet
 {
   /**
-   * A tetrahedral mesh as a MeshSource makes it: whole, on one rank, not yet checked.
+   * A tetrahedral mesh as a MeshSource makes it: whole, on one rank, not yet
+   * checked.
    */
   struct SerialMesh
   {
-    /// A tetrahedron: p3 sees the triangle p0 p1 p2 counter-clockwise [seed, 2.1.2.1], and the region it belongs to.
+    /// A tetrahedron: p3 sees the triangle p0 p1 p2 counter-clockwise
+    /// [seed, 2.1.2.1], and the region it belongs to.
     struct Cell
     {
       std::array<unsigned int, 4> vertices;
       unsigned int                region;
     };
 
-    /// A triangle of the surface (in any orientation), and the boundary it belongs to.
+    /// A triangle of the surface (in any orientation), and the boundary it
+    /// belongs to.
     struct Face
     {
       std::array<unsigned int, 3> vertices;
@@ -34,14 +37,17 @@ namespace corotet
 
     std::vector<dealii::Point<3>> vertices;
     std::vector<Cell>             cells;
-    /// Faces on the surface that belong to a named boundary. Others need not be listed.
+    /// Faces on the surface that belong to a named boundary. Others need not be
+    /// listed.
     std::vector<Face> faces;
 
-    /// Names by id. A region or boundary that the source gives no name is known by its id only.
+    /// Names by id. A region or boundary that the source gives no name is known
+    /// by its id only.
     std::map<unsigned int, std::string> region_names;
     std::map<unsigned int, std::string> boundary_names;
 
-    /// What an error in the mesh is blamed on: a file name, or empty for a generated mesh.
+    /// What an error in the mesh is blamed on: a file name, or empty for a
+    /// generated mesh.
     std::string origin;
   };
 } // namespace corotet

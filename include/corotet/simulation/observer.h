@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_observer_h
+#define corotet_simulation_observer_h
+
+#include <corotet/base/timing.h>
+#include <corotet/discretization/discretization.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The budget of one step, equal on all ranks. Units: SI.
+   */
+  struct StepRecord
+  {
+    unsigned int step              = 0;
+    double       time              = 0;
+    double       dt                = 0;
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+
+    double kinetic_energy    = 0;
+    double elastic_energy    = 0;
+    double dissipated_energy = 0;
+    double external_work     = 0;
+    /// Kinetic + elastic + dissipated energy - external work, less its value at
+    /// the start: what is left over.
+    double energy_balance = 0;
+
+    dealii::Tensor<1, 3> momentum;
+    /// About the origin, with current positions.
+    dealii::Tensor<1, 3> angular_momentum;
+
+    double       max_displacement = 0;
+    double       min_det_F        = 1;
+    unsigned int inverted_cells   = 0;
+    /// Since the start of the run [s].
+    double wall_time = 0;
+
+    /// Volume of the deformed body [m^3].
+    double volume = 0;
+    /// Sum of the forces that the supports exert on the body [N].
+    dealii::Tensor<1, 3> reaction;
+  };
+
+  /**
+   * Cell data of one state: a value per locally owned cell.
+   */
+  struct CellResults
+  {
+    /// Angle of the cell's rotation [rad], in [0, pi].
+    std::vector<double> rotation_angle;
+    /// det F at the cell's centre [-].
+    std::vector<double> det_F;
+    /// Von Mises stress at the cell's centre [Pa].
+    std::vector<double> von_mises;
+  };
+
+  /**
+   * What an observer sees of a finished step. References are valid during the
+   * call only.
+   */
+  struct Snapshot
+  {
+    const Discretization &discretization;
+    const StepRecord     &record;
+    /// Unit m, ghost entries up to date.
+    const Vector &displacement;
+    /// Unit m/s, ghost entries up to date.
+    const Vector &velocity;
+    /// Computes the cell data of this state. Collective.
+    std::function<CellResults()> cell_results;
+    /// Whether no step follows (the run ends here).
+    bool last;
+  };
+
+  /**
+   * How a run ended.
+   */
+  struct RunSummary
+  {
+    /// "done", or "failed" if the computation failed.
+    std::string status;
+    /// Why it failed; empty if it is done.
+    std::string message;
+
+    unsigned int ranks  = 1;
+    unsigned int degree = 0;
+    std::size_t  cells  = 0;
+    std::size_t  nodes  = 0;
+    std::size_t  dofs   = 0;
+    /// Of the body at rest [m^3].
+    double mesh_volume = 0;
+    /// In kg.
+    double total_mass = 0;
+
+    unsigned int steps    = 0;
+    double       end_time = 0;
+    StepRecord   final_record;
+
+    WallTimes wall_times;
+    double    total_wall_time = 0;
+  };
+
+  /**
+   * Watches a run without changing it. All calls are collective.
+   */
+  class Observer
+  {
+  public:
+    virtual ~Observer() = default;
+
+    /// The initial state: step 0.
+    virtual void
+    start(const Snapshot & /*initial*/)
+    {}
+
+    /// After every step.
+    virtual void
+    step(const Snapshot & /*state*/)
+    {}
+
+    /// At the end, also after a failure.
+    virtual void
+    finish(const RunSummary & /*summary*/)
+    {}
+  };
+} // namespace corotet
+
+#endif
