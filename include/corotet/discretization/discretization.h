@@ -208,10 +208,6 @@ namespace corotet
     renumber_nodes_by_cells();
     void
     set_up_cells();
-    void
-    set_up_surface();
-    void
-    set_up_positions();
 
     const Mesh           *mesh_pointer;
     dealii::FESystem<3>   fe;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_reference_element_h
+#define corotet_discretization_reference_element_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/table.h>
+
+#include <array>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Everything about FE_SimplexP(p) on the reference tetrahedron that cell and
+   * face integrals need, computed once: after set-up nothing asks a finite
+   * element again. Weights are fractions of the cell's (face's) measure: they
+   * sum to 1.
+   */
+  class ReferenceElement
+  {
+  public:
+    /// Shape values and gradients at points of the reference tetrahedron.
+    struct PointValues
+    {
+      std::vector<double>           weights;
+      std::vector<dealii::Point<3>> points;
+      /// [point][node]
+      dealii::Table<2, double> values;
+      /// [point][node][k]: derivative by the reference coordinate xi_k.
+      dealii::Table<3, double> gradients;
+    };
+
+    explicit ReferenceElement(const unsigned int degree);
+
+    unsigned int degree;
+    unsigned int n_nodes;
+
+    /// Exact for products of two gradients: degree 2(p-1); 1, 4, 14 points.
+    PointValues stiffness_rule;
+    /// For loads that are given as expressions; exact for degree 2p at least.
+    PointValues load_rule;
+    /// The barycentre, weight 1.
+    PointValues centre;
+    /// For each face, exact for degree 3p-2, that of a follower pressure.
+    std::array<PointValues, 4> face_rules;
+    /**
+     * Derivatives of xi by the two parameters of each face, ordered such that
+     * their cross product in a positive cell points outwards with the length
+     * of twice the face's area.
+     */
+    std::array<std::array<dealii::Tensor<1, 3>, 2>, 4> face_tangents;
+    /// Nodes on each face.
+    std::array<std::vector<unsigned int>, 4> face_nodes;
+
+    /// Mean of N_i N_j over the cell: the mass matrix of a unit mass.
+    dealii::Table<2, double> mass;
+    /// [i][j][3 k + l]: mean of d_k N_i d_l N_j over the cell.
+    dealii::Table<3, double> gradient_products;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/discretization/reference_element.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/grid/reference_cell.h>
+
+namespace corotet
+{
+  namespace
+  {
+    ReferenceElement::PointValues
+    tabulate(const dealii::FiniteElement<3>      &fe,
+             const std::vector<dealii::Point<3>> &points,
+             const std::vector<double>           &weights)
+    {
+      AssertThrow(!points.empty(),
+                  dealii::ExcMessage("The quadrature rule has no points."));
+      const unsigned int            n = fe.dofs_per_cell;
+      ReferenceElement::PointValues result;
+      result.points  = points;
+      result.weights = weights;
+      double sum     = 0;
+      for (const double w : weights)
+        sum += w;
+      for (double &w : result.weights)
+        w /= sum;
+      result.values.reinit(points.size(), n);
+      result.gradients.reinit(points.size(), n, 3);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            result.values[q][i]                 = fe.shape_value(i, points[q]);
+            const dealii::Tensor<1, 3> gradient = fe.shape_grad(i, points[q]);
+            for (unsigned int k = 0; k < 3; ++k)
+              result.gradients[q][i][k] = gradient[k];
+          }
+      return result;
+    }
+
+    // Vertices of face f of the reference tetrahedron, in an order that is
+    // counter-clockwise seen from outside.
+    std::array<dealii::Point<3>, 3>
+    outward_face(const unsigned int f)
+    {
+      const dealii::ReferenceCell tetrahedron =
+        dealii::ReferenceCells::Tetrahedron;
+      std::array<dealii::Point<3>, 3> v;
+      for (unsigned int i = 0; i < 3; ++i)
+        v[i] = tetrahedron.face_vertex_location<3>(f, i);
+      const dealii::Point<3>     centre(0.25, 0.25, 0.25);
+      const dealii::Tensor<1, 3> normal =
+        cross_product_3d(v[1] - v[0], v[2] - v[0]);
+      if (normal * (centre - v[0]) > 0)
+        std::swap(v[1], v[2]);
+      return v;
+    }
+  } // namespace
+
+  ReferenceElement::ReferenceElement(const unsigned int degree)
+    : degree(degree)
+  {
+    AssertThrow(degree >= 1 && degree <= 3, dealii::ExcInternalError());
+    const dealii::FE_SimplexP<3> fe(degree);
+    n_nodes = fe.dofs_per_cell;
+
+    // Degrees 0, 2, 4 need 1, 4, 14 points.
+    const dealii::Quadrature<3> stiffness =
+      degree == 1 ?
+        dealii::Quadrature<3>(dealii::QGaussSimplex<3>(1)) :
+      degree == 2 ?
+        dealii::Quadrature<3>(dealii::QWitherdenVincentSimplex<3>(1, false)) :
+        dealii::Quadrature<3>(dealii::QWitherdenVincentSimplex<3>(3));
+    // Of degree 2p+1 = 3, 5, 7.
+    const dealii::QWitherdenVincentSimplex<3> loads(degree + 1);
+    stiffness_rule =
+      tabulate(fe, stiffness.get_points(), stiffness.get_weights());
+    load_rule = tabulate(fe, loads.get_points(), loads.get_weights());
+    centre    = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
+
+    // Of degree 2(p+1)-1 = 3, 5, 7 >= 3p-2.
+    const dealii::QWitherdenVincentSimplex<2> on_face(degree + 1);
+    for (unsigned int f = 0; f < 4; ++f)
+      {
+        const auto                    v = outward_face(f);
+        std::vector<dealii::Point<3>> points;
+        for (const dealii::Point<2> &p : on_face.get_points())
+          points.push_back(v[0] + p[0] * (v[1] - v[0]) + p[1] * (v[2] - v[0]));
+        face_rules[f]    = tabulate(fe, points, on_face.get_weights());
+        face_tangents[f] = {v[1] - v[0], v[2] - v[0]};
+        const dealii::Tensor<1, 3> normal =
+          cross_product_3d(face_tangents[f][0], face_tangents[f][1]);
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          if (std::abs(normal * (fe.unit_support_point(i) - v[0])) < 1e-10)
+            face_nodes[f].push_back(i);
+      }
+
+    mass.reinit(n_nodes, n_nodes);
+    gradient_products.reinit(n_nodes, n_nodes, 9);
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      for (unsigned int j = 0; j < n_nodes; ++j)
+        {
+          for (unsigned int q = 0; q < load_rule.weights.size(); ++q)
+            mass[i][j] += load_rule.weights[q] * load_rule.values[q][i] *
+                          load_rule.values[q][j];
+          for (unsigned int q = 0; q < stiffness_rule.weights.size(); ++q)
+            for (unsigned int k = 0; k < 3; ++k)
+              for (unsigned int l = 0; l < 3; ++l)
+                gradient_products[i][j][3 * k + l] +=
+                  stiffness_rule.weights[q] *
+                  stiffness_rule.gradients[q][i][k] *
+                  stiffness_rule.gradients[q][j][l];
+        }
+  }
+} // namespace corotet
