@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_expression_h
+#define corotet_base_expression_h
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+
+namespace corotet
+{
+  /**
+   * A formula in x, y, z [m] and t [s] with one or more components, as a user
+   * writes it: muParser's syntax, components separated by semicolons, and the
+   * constant pi. Example: "0; 0; -9.81 * min(t, 1)".
+   *
+   * Values may be infinite or not a number; whoever evaluates decides about
+   * that. Copies share the compiled formula; one must not be evaluated by
+   * several threads at once.
+   */
+  class Expression
+  {
+  public:
+    /// Throws an InputError that blames @p entry if @p text has not @p
+    /// n_components components or is no formula.
+    Expression(const std::string &text,
+               const unsigned int n_components,
+               const std::string &entry);
+
+    double
+    value(const dealii::Point<3> &p,
+          const double            t,
+          const unsigned int      component = 0) const;
+
+    /// The value of an expression of three components.
+    dealii::Tensor<1, 3>
+    vector_value(const dealii::Point<3> &p, const double t) const;
+
+    unsigned int
+    n_components() const
+    {
+      return function->n_components;
+    }
+
+    bool
+    depends_on_space() const
+    {
+      return space_dependent;
+    }
+
+    bool
+    depends_on_time() const
+    {
+      return time_dependent;
+    }
+
+    /// Whether all components are constants of value zero.
+    bool
+    is_zero() const
+    {
+      return zero;
+    }
+
+  private:
+    void
+    compile(const std::vector<std::string> &components,
+            const std::string              &entry);
+
+    std::shared_ptr<dealii::FunctionParser<3>> function;
+
+    bool space_dependent = false;
+    bool time_dependent  = false;
+    bool zero            = false;
+  };
+} // namespace corotet
+
+#endif

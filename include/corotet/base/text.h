@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_text_h
+#define corotet_base_text_h
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The candidate that differs from @p word by the fewest inserted, removed or
+   * replaced characters (Levenshtein distance, whatever the case); the first of
+   * several equally near. Empty if none is near: more than a third of the
+   * characters, but at least one, would have to change.
+   */
+  std::string
+  nearest(const std::string &word, const std::vector<std::string> &candidates);
+
+  /**
+   * The parts, one after another, with @p separator between them.
+   */
+  std::string
+  join(const std::vector<std::string> &parts,
+       const std::string              &separator = ", ");
+
+  /**
+   * The parts of @p text between separators that stand outside of all () and
+   * [], without white space around them. A text without separator is one part;
+   * an empty text is one empty part.
+   */
+  std::vector<std::string>
+  split_outside_brackets(const std::string &text, const char separator);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace corotet
+{
+  namespace
+  {
+    bool
+    equal_letters(const char a, const char b)
+    {
+      return std::tolower(static_cast<unsigned char>(a)) ==
+             std::tolower(static_cast<unsigned char>(b));
+    }
+
+    // Levenshtein distance, one row of the table at a time.
+    std::size_t
+    distance(const std::string &a, const std::string &b)
+    {
+      std::vector<std::size_t> row(b.size() + 1);
+      std::iota(row.begin(), row.end(), std::size_t(0));
+      for (std::size_t i = 0; i < a.size(); ++i)
+        {
+          std::size_t diagonal = row[0];
+          row[0]               = i + 1;
+          for (std::size_t j = 0; j < b.size(); ++j)
+            {
+              const std::size_t replaced =
+                diagonal + (equal_letters(a[i], b[j]) ? 0 : 1);
+              diagonal   = row[j + 1];
+              row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+            }
+        }
+      return row.back();
+    }
+  } // namespace
+
+  std::string
+  nearest(const std::string &word, const std::vector<std::string> &candidates)
+  {
+    std::string best;
+    std::size_t best_distance = static_cast<std::size_t>(-1);
+    for (const std::string &candidate : candidates)
+      {
+        const std::size_t d = distance(word, candidate);
+        const std::size_t near =
+          std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
+        if (d <= near && d < best_distance)
+          {
+            best          = candidate;
+            best_distance = d;
+          }
+      }
+    return best;
+  }
+
+  std::string
+  join(const std::vector<std::string> &parts, const std::string &separator)
+  {
+    return fmt::format("{}", fmt::join(parts, separator));
+  }
+
+  std::vector<std::string>
+  split_outside_brackets(const std::string &text, const char separator)
+  {
+    std::vector<std::string> parts(1);
+    int                      depth = 0;
+    for (const char c : text)
+      {
+        if (c == '(' || c == '[')
+          ++depth;
+        else if (c == ')' || c == ']')
+          --depth;
+        if (c == separator && depth <= 0)
+          parts.emplace_back();
+        else
+          parts.back() += c;
+      }
+    for (std::string &part : parts)
+      part = dealii::Utilities::trim(part);
+    return parts;
+  }
+} // namespace corotet
