@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_parameter_file_h
+#define corotet_base_parameter_file_h
+
+#include <corotet/base/parameter_reader.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The parameters of a run: declared in handler(), then read from a file, then
+   * overridden by what the command line says. It knows where each entry was
+   * set.
+   *
+   * Declared names must not have a "/" or a "." in them. Everything that is
+   * bound to the handler by add_parameter() must outlive the calls of read().
+   */
+  class ParameterFile
+  {
+  public:
+    /// Where parameters are declared, and where they can be got from.
+    dealii::ParameterHandler &
+    handler()
+    {
+      return prm;
+    }
+
+    /**
+     * Reads the .prm, .json or .xml file @p path, then applies @p overrides,
+     * each of the form "Section/Subsection/Entry = value", in their order.
+     * Throws InputError, with file and line in the message, if something is
+     * misspelt, out of its range, or no statement at all.
+     */
+    void
+    read(const std::string &path, const std::vector<std::string> &overrides);
+
+    /**
+     * Where the entry or subsection "Section/Subsection/Entry" was last set:
+     * "FILE:LINE", "FILE" if that is not known or it has its default value,
+     * "--set" if it was overridden.
+     */
+    std::string
+    location(const std::string &entry) const;
+
+    /// The name of the file that was read, as given.
+    const std::string &
+    path() const
+    {
+      return file;
+    }
+
+    /// The folder that the file is in, for names relative to it.
+    std::string
+    folder() const;
+
+    /// Lists all entries. @p style: "prm", "json" or "markdown".
+    void
+    print(std::ostream &out, const std::string &style) const;
+
+    /**
+     * Writes every entry as used to a .prm file. Reading that reproduces the
+     * run: names of files relative to folder() become relative to the new
+     * file's. Throws MachineError if it cannot be written.
+     */
+    void
+    write_effective(const std::string &path) const;
+
+  private:
+    // All declared entries, with their present values.
+    nlohmann::ordered_json
+    tree() const;
+
+    void
+    apply(const ParameterStatement     &statement,
+          const nlohmann::ordered_json &declared);
+
+    dealii::ParameterHandler           prm;
+    std::string                        file;
+    std::map<std::string, std::string> places;
+  };
+} // namespace corotet
+
+#endif

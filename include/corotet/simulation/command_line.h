@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_command_line_h
+#define corotet_simulation_command_line_h
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * What the command line asks for.
+   */
+  struct CommandLine
+  {
+    /// As given. Empty only if there is a message, or if parameters are to be
+    /// printed without reading a file.
+    std::string parameter_file;
+    /// Each "Section/Subsection/Entry = value", in their order, not yet
+    /// checked.
+    std::vector<std::string> overrides;
+    /// Replaces the output directory of the parameter file.
+    std::optional<std::string> output_directory;
+    /// Read and check everything, run nothing.
+    bool validate = false;
+    /// Nothing on the terminal but errors.
+    bool quiet = false;
+    /// List all parameters in this style ("prm", "json" or "markdown") and do
+    /// nothing else.
+    std::optional<std::string> print_parameters;
+    /// The answer to --help or --version: print it and do nothing else.
+    std::optional<std::string> message;
+  };
+
+  /**
+   * Throws InputError if the command line is wrong.
+   */
+  CommandLine
+  parse_command_line(const int argc, const char *const *argv);
+} // namespace corotet
+
+#endif

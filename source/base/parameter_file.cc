@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/parameter_file.h>
+#include <corotet/base/parameter_listing.h>
+#include <corotet/base/text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace corotet
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    using Json = nlohmann::ordered_json;
+
+    [[noreturn]] void
+    fail(const ParameterStatement &statement, const std::string &message)
+    {
+      throw InputError("", statement.place + ": " + message);
+    }
+
+    std::vector<std::string>
+    split(const std::string &path)
+    {
+      return dealii::Utilities::split_string_list(path, '/');
+    }
+
+    // The sections that have an entry or subsection called @p name.
+    void
+    find_sections_with(const std::string        &name,
+                       const Json               &section,
+                       const std::string        &path,
+                       std::vector<std::string> &found)
+    {
+      for (const auto &[key, node] : section.items())
+        {
+          if (key == name)
+            found.push_back(path.empty() ? "the top level" :
+                                           "\"" + path + "\"");
+          if (node.is_object() && is_section(node))
+            find_sections_with(name,
+                               node,
+                               path.empty() ? key : path + "/" + key,
+                               found);
+        }
+    }
+
+    // @p section, at @p path, has nothing called @p name.
+    std::string
+    unknown_name_message(const std::string &name,
+                         const bool         is_section_name,
+                         const Json        &section,
+                         const std::string &path,
+                         const Json        &root)
+    {
+      std::vector<std::string> names;
+      for (const auto &[key, node] : section.items())
+        if (is_section(node) == is_section_name)
+          names.push_back(key);
+      const std::string kind = is_section_name ? "subsection" : "entry";
+      const std::string message =
+        fmt::format("there is no {} \"{}\" {}",
+                    kind,
+                    name,
+                    path.empty() ? "at the top level" : "in \"" + path + "\"");
+
+      const std::string suggestion = nearest(name, names);
+      if (!suggestion.empty())
+        return fmt::format("{}; did you mean \"{}\"?", message, suggestion);
+      std::vector<std::string> elsewhere;
+      find_sections_with(name, root, "", elsewhere);
+      if (!elsewhere.empty())
+        return fmt::format("{}; it belongs to {}",
+                           message,
+                           join(elsewhere, " or "));
+      return fmt::format("{}; {}",
+                         message,
+                         names.empty() ? "it has none" :
+                                         "allowed are " + join(names));
+    }
+
+    // The declared node that @p statement is about.
+    const Json &
+    find_node(const ParameterStatement &statement, const Json &root)
+    {
+      const Json              *node  = &root;
+      std::string              path  = "";
+      std::vector<std::string> names = split(statement.path);
+      for (std::size_t i = 0; i < names.size(); ++i)
+        {
+          const bool needs_section =
+            i + 1 < names.size() || !statement.value.has_value();
+          if (!node->contains(names[i]))
+            fail(
+              statement,
+              unknown_name_message(names[i], needs_section, *node, path, root));
+          node = &node->at(names[i]);
+          if (needs_section && !is_section(*node))
+            fail(statement,
+                 fmt::format("\"{}\" is an entry, not a subsection", names[i]));
+          if (!needs_section && is_section(*node))
+            fail(statement,
+                 fmt::format("\"{}\" is a subsection, not an entry", names[i]));
+          path += (path.empty() ? "" : "/") + names[i];
+        }
+      return *node;
+    }
+
+    // A value must survive being written to a .prm file and read again, and
+    // being listed as JSON.
+    void
+    check_text(const ParameterStatement &statement)
+    {
+      const std::string &value = *statement.value;
+      if (value.find_first_of("#\n\r") != std::string::npos ||
+          (!value.empty() && value.back() == '\\'))
+        fail(statement,
+             fmt::format("the value of \"{}\" has a #, a line break or a "
+                         "backslash at its end; a parameter cannot have these",
+                         statement.path));
+      try
+        {
+          Json(value).dump();
+        }
+      catch (const Json::exception &)
+        {
+          fail(statement,
+               fmt::format("the value of \"{}\" is not encoded in UTF-8",
+                           statement.path));
+        }
+    }
+
+    // File names that are relative to the folder @p from become relative to @p
+    // to.
+    void
+    move_file_names(Json &section, const fs::path &from, const fs::path &to)
+    {
+      for (auto &[key, node] : section.items())
+        if (is_entry(node))
+          {
+            const fs::path name = node.at("value").get<std::string>();
+            if (node.value("pattern_description", "").rfind("[FileName", 0) ==
+                  0 &&
+                !name.empty() && name.is_relative())
+              node["value"] = fs::relative(from / name, to).string();
+          }
+        else if (node.is_object())
+          move_file_names(node, from, to);
+    }
+  } // namespace
+
+  void
+  ParameterFile::read(const std::string              &path,
+                      const std::vector<std::string> &overrides)
+  {
+    file                = path;
+    const Json declared = tree();
+    for (const ParameterStatement &statement : read_parameter_statements(path))
+      apply(statement, declared);
+    for (const std::string &text : overrides)
+      apply(parse_override(text), declared);
+  }
+
+  void
+  ParameterFile::apply(const ParameterStatement &statement,
+                       const Json               &declared)
+  {
+    const Json &node       = find_node(statement, declared);
+    places[statement.path] = statement.place;
+    if (!statement.value)
+      return;
+    check_text(statement);
+
+    std::vector<std::string> sections = split(statement.path);
+    const std::string        entry    = sections.back();
+    sections.pop_back();
+    for (const std::string &section : sections)
+      prm.enter_subsection(section);
+    bool accepted = true;
+    try
+      {
+        prm.set(entry, *statement.value);
+      }
+    catch (const dealii::ExceptionBase &)
+      {
+        accepted = false;
+      }
+    for (std::size_t i = 0; i < sections.size(); ++i)
+      prm.leave_subsection();
+    if (!accepted)
+      fail(statement,
+           fmt::format("the value \"{}\" of \"{}\" is not allowed; allowed "
+                       "is {}",
+                       *statement.value,
+                       statement.path,
+                       describe_pattern(
+                         node.value("pattern_description", ""))));
+  }
+
+  std::string
+  ParameterFile::location(const std::string &entry) const
+  {
+    const auto place = places.find(entry);
+    return place == places.end() ? file : place->second;
+  }
+
+  std::string
+  ParameterFile::folder() const
+  {
+    const std::string parent = fs::path(file).parent_path().string();
+    return parent.empty() ? "." : parent;
+  }
+
+  void
+  ParameterFile::print(std::ostream &out, const std::string &style) const
+  {
+    if (style == "json")
+      print_json(tree(), out);
+    else if (style == "markdown")
+      print_markdown(tree(), out);
+    else
+      {
+        Assert(style == "prm", dealii::ExcMessage("Unknown style " + style));
+        print_prm(tree(), /* documented = */ true, out);
+      }
+  }
+
+  void
+  ParameterFile::write_effective(const std::string &path) const
+  {
+    Json           entries = tree();
+    const fs::path to      = fs::absolute(path).parent_path();
+    move_file_names(entries, fs::absolute(folder()), to);
+    std::ofstream out(path);
+    print_prm(entries, /* documented = */ false, out);
+    out.close();
+    if (!out)
+      throw MachineError(path + ": the parameters cannot be written");
+  }
+
+  nlohmann::ordered_json
+  ParameterFile::tree() const
+  {
+    std::ostringstream text;
+    prm.print_parameters(text,
+                         dealii::ParameterHandler::JSON |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
+    Json result = Json::parse(text.str());
+    return result.is_object() ? result : Json::object();
+  }
+} // namespace corotet

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/base/version.h>
+#include <corotet/simulation/command_line.h>
+
+#include <deal.II/base/config.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  namespace
+  {
+    const std::vector<std::string> styles = {"prm", "json", "markdown"};
+
+    [[noreturn]] void
+    fail(const std::string &message)
+    {
+      throw InputError("", "command line: " + message);
+    }
+
+    std::string
+    version_message()
+    {
+      return fmt::format("corotet {} (revision {}, deal.II {})\n",
+                         version,
+                         git_revision,
+                         DEAL_II_PACKAGE_VERSION);
+    }
+
+    // An argument that belongs to nothing is a misspelt option or one file too
+    // many.
+    void
+    refuse_leftover(const CLI::App &app)
+    {
+      const std::vector<std::string> leftover = app.remaining();
+      if (leftover.empty())
+        return;
+      const std::string &argument = leftover.front();
+      if (argument.rfind('-', 0) != 0)
+        fail(fmt::format("unexpected argument \"{}\"; one parameter file is "
+                         "allowed",
+                         argument));
+
+      std::vector<std::string> options;
+      for (const CLI::Option *option : app.get_options())
+        for (const std::string &name : option->get_lnames())
+          options.push_back("--" + name);
+      const std::string suggestion =
+        nearest(argument.substr(0, argument.find('=')), options);
+      fail(fmt::format("unknown option \"{}\"; {}",
+                       argument,
+                       suggestion.empty() ?
+                         "allowed are " + join(options) :
+                         "did you mean \"" + suggestion + "\"?"));
+    }
+
+    // The value of --print-parameters may be left out; then the parameter file
+    // behind it looks like one.
+    void
+    separate_style_from_file(CommandLine &command_line)
+    {
+      std::string &style = *command_line.print_parameters;
+      if (std::find(styles.begin(), styles.end(), style) != styles.end())
+        return;
+      if (!command_line.parameter_file.empty() ||
+          style.find('.') == std::string::npos)
+        fail(fmt::format("\"{}\" is no style of --print-parameters; allowed "
+                         "are {}",
+                         style,
+                         join(styles)));
+      command_line.parameter_file = style;
+      style                       = styles.front();
+    }
+  } // namespace
+
+  CommandLine
+  parse_command_line(const int argc, const char *const *argv)
+  {
+    CommandLine command_line;
+    CLI::App    app("Dynamic deformation of elastic solids on tetrahedra of "
+                    "degree 1, 2 and 3.",
+                 "corotet");
+    app.allow_extras();
+    app.set_help_flag("--help", "Print this and exit");
+    app.set_version_flag("--version",
+                         version_message(),
+                         "Print versions, exit");
+    app.add_option("FILE",
+                   command_line.parameter_file,
+                   "The parameter file: .prm, .json or .xml");
+    // Without the last setting the option would take the file behind it, too.
+    app
+      .add_option("--set",
+                  command_line.overrides,
+                  "Override an entry: \"Section/Subsection/Entry = value\" "
+                  "(repeatable)")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+    app.add_option("--output",
+                   command_line.output_directory,
+                   "Override the output directory");
+    app.add_flag("--validate",
+                 command_line.validate,
+                 "Read and check everything, the mesh included, run nothing");
+    CLI::Option *const print =
+      app
+        .add_option("--print-parameters",
+                    command_line.print_parameters,
+                    "List every entry: default, allowed values, units, meaning")
+        ->expected(0, 1)
+        ->type_name("[prm|json|markdown]");
+    app.add_flag("--quiet",
+                 command_line.quiet,
+                 "Show nothing on the terminal but errors");
+
+    try
+      {
+        app.parse(argc, argv);
+      }
+    catch (const CLI::CallForHelp &)
+      {
+        command_line.message = app.help();
+      }
+    catch (const CLI::CallForVersion &)
+      {
+        command_line.message = version_message();
+      }
+    catch (const CLI::ParseError &error)
+      {
+        fail(error.what());
+      }
+    if (command_line.message)
+      return command_line;
+
+    refuse_leftover(app);
+    if (print->count() > 0)
+      {
+        if (!command_line.print_parameters ||
+            command_line.print_parameters->empty())
+          command_line.print_parameters = styles.front();
+        separate_style_from_file(command_line);
+      }
+    else if (command_line.parameter_file.empty())
+      fail("a parameter file is needed: corotet [OPTIONS] FILE.prm (--help "
+           "lists the options)");
+    return command_line;
+  }
+} // namespace corotet
