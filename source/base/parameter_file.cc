@@ -108,7 +108,7 @@ namespace corotet
           if (needs_section && !is_section(*node))
             fail(statement,
                  fmt::format("\"{}\" is an entry, not a subsection", names[i]));
-          if (!needs_section && is_section(*node))
+          if (!needs_section && is_section(*node) && !statement.may_be_section)
             fail(statement,
                  fmt::format("\"{}\" is a subsection, not an entry", names[i]));
           path += (path.empty() ? "" : "/") + names[i];
@@ -177,7 +177,7 @@ namespace corotet
   {
     const Json &node       = find_node(statement, declared);
     places[statement.path] = statement.place;
-    if (!statement.value)
+    if (!statement.value || is_section(node))
       return;
     check_text(statement);
 

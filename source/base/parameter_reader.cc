@@ -220,10 +220,11 @@ namespace corotet
             path.empty() ? demangle(key) : path + "/" + demangle(key);
           const auto value = node.get_optional<std::string>("value");
           if (value || node.empty())
-            statements.push_back(
-              {name,
-               dealii::Utilities::trim(value ? *value : node.data()),
-               file});
+            {
+              const std::string text =
+                dealii::Utilities::trim(value ? *value : node.data());
+              statements.push_back({name, text, file, !value && text.empty()});
+            }
           else
             {
               statements.push_back({name, std::nullopt, file});
@@ -275,8 +276,11 @@ namespace corotet
               collect(value, name, file, statements);
             }
           else if (value.is_string())
-            statements.push_back(
-              {name, dealii::Utilities::trim(value.get<std::string>()), file});
+            {
+              const std::string text =
+                dealii::Utilities::trim(value.get<std::string>());
+              statements.push_back({name, text, file, !whole && text.empty()});
+            }
           else if (value.is_number() || value.is_boolean())
             statements.push_back({name, value.dump(), file});
           else

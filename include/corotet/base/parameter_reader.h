@@ -22,6 +22,9 @@ namespace corotet
     std::optional<std::string> value;
     /// "FILE:LINE", or "FILE" where lines are unknown.
     std::string place;
+    /// In .json and .xml files an empty text is an empty value or a subsection
+    /// without content.
+    bool may_be_section = false;
   };
 
   /**

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Expressions of x, y, z, t. Values are compared with the same formula in C++;
+// refusals with the message a user gets.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/expression.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace corotet;
+
+namespace
+{
+  std::string
+  refusal(const std::string &text, const unsigned int n_components)
+  {
+    testing::internal::CaptureStderr();
+    std::string message = "accepted";
+    try
+      {
+        const Expression expression(text, n_components, "Loads/Gravity");
+      }
+    catch (const InputError &error)
+      {
+        EXPECT_EQ(error.entry, "Loads/Gravity");
+        message = error.what();
+      }
+    // deal.II and muParser must not chat.
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    return message;
+  }
+} // namespace
+
+TEST(Expression, EvaluatesAllComponents)
+{
+  const Expression       e("x * sin(y); if(t > 1, z^2, -z); 2e1 + pi", 3, "");
+  const dealii::Point<3> p(0.5, 1.5, -2);
+  // The same operations in the same order: equal to round-off of one or two
+  // operations.
+  EXPECT_DOUBLE_EQ(e.value(p, 2, 0), 0.5 * std::sin(1.5));
+  EXPECT_DOUBLE_EQ(e.value(p, 2, 1), 4);
+  EXPECT_DOUBLE_EQ(e.value(p, 0.5, 1), 2);
+  const dealii::Tensor<1, 3> v = e.vector_value(p, 2);
+  EXPECT_DOUBLE_EQ(v[0], 0.5 * std::sin(1.5));
+  EXPECT_DOUBLE_EQ(v[1], 4);
+  EXPECT_DOUBLE_EQ(v[2], 20 + dealii::numbers::PI);
+  EXPECT_EQ(e.n_components(), 3);
+}
+
+TEST(Expression, KnowsWhatItDependsOn)
+{
+  const auto check = [](const std::string &text,
+                        const bool         space,
+                        const bool         time,
+                        const bool         zero) {
+    const Expression e(text, 1, "");
+    EXPECT_EQ(e.depends_on_space(), space) << text;
+    EXPECT_EQ(e.depends_on_time(), time) << text;
+    EXPECT_EQ(e.is_zero(), zero) << text;
+  };
+  check("0", false, false, true);
+  check("-0.0", false, false, true);
+  check("1 - 1", false, false, true);
+  check("1e5", false, false, false);
+  check("3 * y", true, false, false);
+  // No names: tan and exp have a t and an x, but only as letters.
+  check("tan(1) + exp(1)", false, false, false);
+  check("sin(2*pi*t)", false, true, false);
+  // Zero at the origin, but not everywhere.
+  check("x * t", true, true, false);
+  check("rand()", true, true, false);
+}
+
+TEST(Expression, IsZeroOnlyIfAllComponentsAre)
+{
+  EXPECT_TRUE(Expression("0; 0; 0", 3, "").is_zero());
+  EXPECT_FALSE(Expression("0; 0; 1", 3, "").is_zero());
+}
+
+TEST(Expression, CopiesStayValid)
+{
+  std::vector<Expression> list;
+  {
+    const Expression e("x + t", 1, "");
+    list.push_back(e);
+  }
+  EXPECT_EQ(list.front().value(dealii::Point<3>(1, 0, 0), 2), 3);
+}
+
+TEST(Expression, NonFiniteValuesAreTheCallersMatter)
+{
+  const Expression e("1/x", 1, "");
+  EXPECT_EQ(e.value(dealii::Point<3>(), 0),
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(Expression, RefusesWrongNumberOfComponents)
+{
+  EXPECT_EQ(refusal("0; 1", 3),
+            "the expression \"0; 1\" has 2 components; 3 are needed, separated "
+            "by semicolons");
+  EXPECT_EQ(refusal("0", 3),
+            "the expression \"0\" has 1 component; 3 are needed, separated by "
+            "semicolons");
+  EXPECT_EQ(refusal("0;1", 1),
+            "the expression \"0;1\" has 2 components; 1 is needed, separated "
+            "by semicolons");
+}
+
+TEST(Expression, RefusesWhatIsNoFormula)
+{
+  EXPECT_EQ(refusal("0; ; 1", 3),
+            "the expression \"\" is no formula: it is empty; a formula is "
+            "needed, for example 0");
+  // The reason is muParser's, whose words differ between versions.
+  for (const std::string text : {"(1 + x", "1 +", "sin()", "x y", "\"x\""})
+    {
+      const std::string message = refusal(text, 1);
+      const std::string start =
+        "the expression \"" + text + "\" is no formula: ";
+      EXPECT_EQ(message.rfind(start, 0), 0) << message;
+      EXPECT_GT(message.size(), start.size() + 10) << message;
+    }
+}
+
+// muParser would evaluate these to something: the value of the last of a list,
+// or of an assignment.
+TEST(Expression, RefusesWhatMuParserWouldMisunderstand)
+{
+  EXPECT_EQ(refusal("1, 2", 1),
+            "the expression \"1, 2\" is no formula: it has a comma outside of "
+            "parentheses; components are separated by semicolons");
+  EXPECT_EQ(refusal("x = 3", 1),
+            "the expression \"x = 3\" is no formula: it assigns by =; "
+            "comparisons are ==, !=, <, <=, > and >=");
+  EXPECT_EQ(refusal("if(x <= 3 && x == 1 || x != 2, 1, 0)", 1), "accepted");
+}
+
+TEST(Expression, RefusesUnknownNames)
+{
+  EXPECT_EQ(refusal("2 * u", 1),
+            "the expression \"2 * u\" is no formula: it has the unknown name "
+            "\"u\"; known are x, y, z, t, pi and muParser's functions");
+  EXPECT_EQ(refusal("sine(x)", 1),
+            "the expression \"sine(x)\" is no formula: it has the unknown name "
+            "\"sine\" (did you mean \"sin\"?); known are x, y, z, t, pi and "
+            "muParser's functions");
+}

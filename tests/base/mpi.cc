@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Errors on one rank must become errors on all of them, with nothing lost.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+using namespace corotet;
+
+namespace
+{
+  unsigned int
+  this_rank()
+  {
+    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  }
+} // namespace
+
+TEST(Mpi, OnRootRunsOnRankZeroOnly)
+{
+  bool ran = false;
+  on_root(MPI_COMM_WORLD, [&] { ran = true; });
+  EXPECT_EQ(ran, this_rank() == 0);
+}
+
+TEST(Mpi, OnRootThrowsOnEveryRank)
+{
+  try
+    {
+      on_root(MPI_COMM_WORLD, [] { throw InputError("Mesh/File", "no file"); });
+      FAIL() << "nothing was thrown";
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_EQ(error.exit_status, 1);
+      EXPECT_EQ(error.entry, "Mesh/File");
+      EXPECT_STREQ(error.what(), "no file");
+    }
+}
+
+TEST(Mpi, KindsOfErrorsSurvive)
+{
+  EXPECT_THROW(on_root(MPI_COMM_WORLD,
+                       [] { throw ComputationError("diverged"); }),
+               ComputationError);
+  EXPECT_THROW(on_root(MPI_COMM_WORLD, [] { throw MachineError("disk full"); }),
+               MachineError);
+}
+
+// With two ranks the last rank is another one than the first; with one it is
+// the same.
+TEST(Mpi, OnAllRanksThrowsTheErrorOfTheLowestRank)
+{
+  const unsigned int last =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
+  const auto message = [](const std::function<void()> &action) {
+    try
+      {
+        on_all_ranks(MPI_COMM_WORLD, action);
+      }
+    catch (const Error &error)
+      {
+        return std::string(error.what());
+      }
+    return std::string("nothing thrown");
+  };
+
+  EXPECT_EQ(message([&] {
+              if (this_rank() == last)
+                throw InputError("", "from the last");
+            }),
+            "from the last");
+  EXPECT_EQ(message([&] {
+              throw InputError("", "from " + std::to_string(this_rank()));
+            }),
+            "from 0");
+  EXPECT_EQ(message([] {}), "nothing thrown");
+}

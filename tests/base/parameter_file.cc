@@ -1,0 +1,472 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Reading parameter files. Values are those that the texts of the files say;
+// refusals are compared with the whole message a user gets. The listing of
+// parameters must be readable as a parameter file again.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/parameter_file.h>
+#include <corotet/base/parameter_listing.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+#include "temporary_folder.h"
+
+using namespace corotet;
+
+namespace
+{
+  // A parameter file with a little of everything declared.
+  struct Example
+  {
+    Example()
+    {
+      dealii::ParameterHandler &prm = parameters.handler();
+      prm.enter_subsection("Material");
+      prm.add_parameter("Density",
+                        density,
+                        "Mass per volume [kg/m^3].",
+                        dealii::Patterns::Double(0));
+      prm.add_parameter("Law",
+                        law,
+                        "Which law.",
+                        dealii::Patterns::Selection("linear|corotational"));
+      prm.enter_subsection("No parameters");
+      prm.leave_subsection();
+      prm.leave_subsection();
+      prm.enter_subsection("Mesh");
+      prm.add_parameter("File name",
+                        file_name,
+                        "A mesh.",
+                        dealii::Patterns::FileName());
+      prm.enter_subsection("Box");
+      prm.add_parameter("Cells (per side)",
+                        cells,
+                        "Number of cells [-].",
+                        dealii::Patterns::Integer(1));
+      prm.leave_subsection();
+      prm.leave_subsection();
+    }
+
+    std::string
+    refusal(const std::string              &name,
+            const std::string              &content,
+            const std::vector<std::string> &overrides = {})
+    {
+      folder.write(name, content);
+      return refusal_of(name, overrides);
+    }
+
+    std::string
+    refusal_of(const std::string              &name,
+               const std::vector<std::string> &overrides = {})
+    {
+      try
+        {
+          parameters.read(folder / name, overrides);
+        }
+      catch (const InputError &error)
+        {
+          // The message names the place by itself; without the folder, which
+          // is another one each time.
+          EXPECT_EQ(error.entry, "");
+          std::string       message = error.what();
+          const std::string prefix  = folder / "";
+          for (auto found = message.find(prefix); found != std::string::npos;
+               found      = message.find(prefix))
+            message.erase(found, prefix.size());
+          EXPECT_EQ(message.find('\n'), std::string::npos);
+          return message;
+        }
+      return "accepted";
+    }
+
+    double       density   = 1000;
+    std::string  law       = "linear";
+    std::string  file_name = "";
+    unsigned int cells     = 1;
+
+    ParameterFile   parameters;
+    TemporaryFolder folder;
+  };
+} // namespace
+
+TEST(ParameterFile, ReadsPrm)
+{
+  Example example;
+  example.parameters.read(example.folder.write("a.prm",
+                                               "# comment\n"
+                                               "subsection Material\n"
+                                               "\tset Density = 7.8e3 # iron\n"
+                                               "  set Law=corotational\n"
+                                               "  subsection No parameters\n"
+                                               "  end\n"
+                                               "end\n"
+                                               "\r\n"
+                                               "SUBSECTION Mesh\n"
+                                               "  set File name = a \\\n"
+                                               "    b.msh\n"
+                                               "  subsection Box\n"
+                                               "    SET Cells (per side) = 5\n"
+                                               "  end\n"
+                                               "END"),
+                          {});
+  EXPECT_EQ(example.density, 7800);
+  EXPECT_EQ(example.law, "corotational");
+  EXPECT_EQ(example.file_name, "a b.msh");
+  EXPECT_EQ(example.cells, 5);
+}
+
+TEST(ParameterFile, KnowsWhereEntriesWereSet)
+{
+  Example           example;
+  const std::string file = example.folder.write("a.prm",
+                                                "subsection Material\n"
+                                                "  set Density = 1\n"
+                                                "  set Density = \\\n"
+                                                "    2\n"
+                                                "end\n"
+                                                "subsection Mesh\n"
+                                                "end\n");
+  example.parameters.read(file, {" Mesh / Box/Cells (per side)=3"});
+  EXPECT_EQ(example.density, 2);
+  EXPECT_EQ(example.cells, 3);
+  const ParameterFile &parameters = example.parameters;
+  EXPECT_EQ(parameters.location("Material/Density"), file + ":3");
+  EXPECT_EQ(parameters.location("Mesh"), file + ":6");
+  EXPECT_EQ(parameters.location("Mesh/Box/Cells (per side)"), "--set");
+  EXPECT_EQ(parameters.location("Material/Law"), file);
+  EXPECT_EQ(parameters.folder() + "/a.prm", file);
+  EXPECT_EQ(parameters.path(), file);
+}
+
+TEST(ParameterFile, IncludesRelativeToTheIncludingFile)
+{
+  Example           example;
+  const std::string included =
+    example.folder.write("parts/iron.prm", "set Density = 7800\n");
+  example.parameters.read(example.folder.write("a.prm",
+                                               "subsection Material\n"
+                                               "  include parts/iron.prm\n"
+                                               "end\n"),
+                          {});
+  EXPECT_EQ(example.density, 7800);
+  EXPECT_EQ(example.parameters.location("Material/Density"), included + ":1");
+}
+
+TEST(ParameterFile, ReadsJsonShortAndInFull)
+{
+  Example           example;
+  const std::string file =
+    example.folder.write("a.json",
+                         R"json({"Material": {"Density": 12.5, "Law": {
+                             "value": "corotational", "documentation": "x"}},
+                             "Mesh": {"Box": {"Cells (per side)": "5"}}})json");
+  example.parameters.read(file, {"Material/Density = 3"});
+  EXPECT_EQ(example.density, 3);
+  EXPECT_EQ(example.law, "corotational");
+  EXPECT_EQ(example.cells, 5);
+  EXPECT_EQ(example.parameters.location("Material/Law"), file);
+}
+
+// What ParameterHandler itself prints as .xml, with the names it changes.
+TEST(ParameterFile, ReadsXml)
+{
+  for (const auto style :
+       {dealii::ParameterHandler::XML, dealii::ParameterHandler::ShortXML})
+    {
+      Example            written;
+      std::ostringstream text;
+      written.parameters.handler().enter_subsection("Mesh");
+      written.parameters.handler().enter_subsection("Box");
+      written.parameters.handler().set("Cells (per side)", 7L);
+      written.parameters.handler().leave_subsection();
+      written.parameters.handler().leave_subsection();
+      written.parameters.handler().print_parameters(text, style);
+
+      Example example;
+      example.parameters.read(example.folder.write("a.xml", text.str()), {});
+      EXPECT_EQ(example.cells, 7);
+    }
+}
+
+TEST(ParameterFile, ListsParametersInFormatsItReads)
+{
+  for (const std::string style : {"prm", "json"})
+    {
+      Example written;
+      written.parameters.read(written.folder.write("a.prm", ""),
+                              {"Mesh/Box/Cells (per side) = 9",
+                               "Material/Law = corotational"});
+      std::ostringstream text;
+      written.parameters.print(text, style);
+
+      Example example;
+      example.parameters.read(example.folder.write("b." + style, text.str()),
+                              {});
+      EXPECT_EQ(example.cells, 9) << style;
+      EXPECT_EQ(example.law, "corotational") << style;
+    }
+}
+
+TEST(ParameterFile, PrmListingDocumentsEveryEntry)
+{
+  const Example      example;
+  std::ostringstream text;
+  example.parameters.print(text, "prm");
+  EXPECT_EQ(text.str(),
+            "subsection Material\n"
+            "  # Mass per volume [kg/m^3]. [a number >= 0]\n"
+            "  set Density = 1000\n"
+            "\n"
+            "  # Which law. [one of linear, corotational]\n"
+            "  set Law     = linear\n"
+            "end\n"
+            "\n"
+            "subsection Mesh\n"
+            "  # A mesh. [a file name]\n"
+            "  set File name =\n"
+            "\n"
+            "  subsection Box\n"
+            "    # Number of cells [-]. [a whole number >= 1]\n"
+            "    set Cells (per side) = 1\n"
+            "  end\n"
+            "end\n");
+}
+
+TEST(ParameterFile, JsonListingHasDefaultDocumentationAndPattern)
+{
+  const Example      example;
+  std::ostringstream text;
+  example.parameters.print(text, "json");
+  const auto json  = nlohmann::json::parse(text.str());
+  const auto entry = json.at("Mesh").at("Box").at("Cells (per side)");
+  EXPECT_EQ(entry.at("value"), "1");
+  EXPECT_EQ(entry.at("default_value"), "1");
+  EXPECT_EQ(entry.at("documentation"), "Number of cells [-].");
+  EXPECT_EQ(entry.at("pattern_description"),
+            "[Integer range 1...2147483647 (inclusive)]");
+  EXPECT_EQ(entry.at("allowed"), "a whole number >= 1");
+  EXPECT_EQ(entry.size(), 5);
+}
+
+TEST(ParameterFile, MarkdownListingIsATablePerSection)
+{
+  const Example      example;
+  std::ostringstream text;
+  example.parameters.print(text, "markdown");
+  EXPECT_EQ(text.str(),
+            "## Material\n\n"
+            "| Entry | Default | Allowed | Meaning |\n"
+            "|---|---|---|---|\n"
+            "| Density | `1000` | a number >= 0 | Mass per volume "
+            "[kg/m^3]. |\n"
+            "| Law | `linear` | one of linear, corotational | Which law. |\n\n"
+            "## Mesh\n\n"
+            "| Entry | Default | Allowed | Meaning |\n"
+            "|---|---|---|---|\n"
+            "| File name |  | a file name | A mesh. |\n\n"
+            "## Mesh/Box\n\n"
+            "| Entry | Default | Allowed | Meaning |\n"
+            "|---|---|---|---|\n"
+            "| Cells (per side) | `1` | a whole number >= 1 | Number of cells "
+            "[-]. |\n\n");
+}
+
+// ParameterHandler writes a subsection without content as an empty text.
+TEST(ParameterFile, ReadsEmptySubsectionsInJson)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.json",
+                            R"({"Material": {"No parameters": ""},
+                                "Mesh": {"File name": "", "Box": {}}})"),
+            "accepted");
+  EXPECT_EQ(example.refusal("a.json", R"({"Material": "1"})"),
+            "a.json: \"Material\" is a subsection, not an entry");
+}
+
+// The written file, read again, gives the same values; the name of the mesh,
+// relative to the file, still means the same mesh.
+TEST(ParameterFile, EffectiveParametersReproduceTheRun)
+{
+  Example written;
+  written.parameters.read(
+    written.folder.write("cases/a.prm",
+                         "subsection Mesh\n"
+                         "  set File name = ../meshes/part.msh\n"
+                         "end\n"),
+    {"Material/Density = 0.1", "Mesh/Box/Cells (per side) = 4"});
+  written.folder.write("output/a/log.txt", "");
+  const std::string file = written.folder / "output/a/parameters.prm";
+  written.parameters.write_effective(file);
+
+  Example example;
+  example.parameters.read(file, {});
+  EXPECT_EQ(example.density, 0.1);
+  EXPECT_EQ(example.cells, 4);
+  EXPECT_EQ(example.file_name, "../../meshes/part.msh");
+}
+
+TEST(ParameterFile, RefusesToWriteIntoAFolderThatIsNotThere)
+{
+  const Example example;
+  EXPECT_THROW(example.parameters.write_effective(example.folder /
+                                                  "absent/parameters.prm"),
+               MachineError);
+}
+
+TEST(ParameterFile, RefusesFilesItCannotRead)
+{
+  Example example;
+  EXPECT_EQ(example.refusal_of("absent.prm"),
+            "absent.prm: there is no such file");
+  EXPECT_EQ(example.refusal("a.txt", ""),
+            "a.txt: a parameter file cannot end in \".txt\"; allowed are .prm, "
+            ".json and .xml");
+  example.folder.write("folder.prm/x", "");
+  EXPECT_EQ(example.refusal_of("folder.prm"),
+            "folder.prm: it cannot be read as a file");
+}
+
+TEST(ParameterFile, RefusesMisspeltNames)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Densty = 1\nend\n"),
+            "a.prm:2: there is no entry \"Densty\" in \"Material\"; did you "
+            "mean \"Density\"?");
+  EXPECT_EQ(example.refusal("a.prm", "\nsubsection material\nend\n"),
+            "a.prm:2: there is no subsection \"material\" at the top level; "
+            "did you mean \"Material\"?");
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Mesh\n  set Density = 1\nend\n"),
+            "a.prm:2: there is no entry \"Density\" in \"Mesh\"; it belongs "
+            "to \"Material\"");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\n  set A = 1\nend\n"),
+            "a.prm:2: there is no entry \"A\" in \"Mesh\"; allowed are File "
+            "name");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nset Box = 1\nend\n"),
+            "a.prm:2: \"Box\" is a subsection, not an entry");
+  EXPECT_EQ(example.refusal(
+              "a.prm", "subsection Material\nsubsection Density\nend\nend\n"),
+            "a.prm:2: \"Density\" is an entry, not a subsection");
+}
+
+TEST(ParameterFile, RefusesValuesThatAreNotAllowed)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Density = -1\nend\n"),
+            "a.prm:2: the value \"-1\" of \"Material/Density\" is not "
+            "allowed; allowed is a number >= 0");
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Law = linea\nend\n"),
+            "a.prm:2: the value \"linea\" of \"Material/Law\" is not allowed; "
+            "allowed is one of linear, corotational");
+  // ParameterHandler::parse_input() would take any text with a brace.
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Density = {1}\nend\n"),
+            "a.prm:2: the value \"{1}\" of \"Material/Density\" is not "
+            "allowed; allowed is a number >= 0");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Mesh/File name = a#b"}),
+            "--set: the value of \"Mesh/File name\" has a #, a line break or "
+            "a backslash at its end; a parameter cannot have these");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Mesh/File name = \xff"}),
+            "--set: the value of \"Mesh/File name\" is not encoded in UTF-8");
+}
+
+TEST(ParameterFile, RefusesBrokenPrm)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nsubsection Box\nend\n"),
+            "a.prm:1: subsection \"Mesh\" is opened here and never left; an "
+            "\"end\" is missing");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nend\nend\n"),
+            "a.prm:3: \"end\", but there is no subsection to leave here");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nend of Mesh\n"),
+            "a.prm:2: \"of Mesh\" behind \"end\"; nothing may follow");
+  EXPECT_EQ(example.refusal("a.prm", "subsection\n"),
+            "a.prm:1: \"subsection\" without a name");
+  EXPECT_EQ(example.refusal("a.prm", "set Density 3\n"),
+            "a.prm:1: \"set Density 3\" is not of the form \"set Entry = "
+            "value\"");
+  EXPECT_EQ(example.refusal("a.prm", "Density = 3\n"),
+            "a.prm:1: \"Density = 3\" is no statement; allowed are \"set Entry "
+            "= value\", \"subsection Name\", \"end\" and \"include FILE\"");
+  EXPECT_EQ(example.refusal("a.prm", "include b.prm\n"),
+            "a.prm:1: the file to include, \"b.prm\", does not exist");
+  EXPECT_EQ(example.refusal("a.prm", "include a.prm\n"),
+            "a.prm:1: files include each other more than 10 deep");
+}
+
+TEST(ParameterFile, RefusesBrokenJson)
+{
+  Example           example;
+  const std::string message = example.refusal("a.json", "{\n\"Material\" 3}");
+  EXPECT_EQ(message.rfind("a.json:2: it is no valid JSON: ", 0), 0) << message;
+  EXPECT_EQ(example.refusal("a.json", "[]"),
+            "a.json: it must be one JSON object, {...}");
+  EXPECT_EQ(example.refusal("a.json", R"({"Material": {"Density": [1]}})"),
+            "a.json: \"Material/Density\" is a list; allowed are a text, a "
+            "number, true and false");
+  // ParameterHandler::parse_input() would ignore this.
+  EXPECT_EQ(example.refusal("a.json", R"({"Material": {"Densty": 1}})"),
+            "a.json: there is no entry \"Densty\" in \"Material\"; did you "
+            "mean \"Density\"?");
+}
+
+TEST(ParameterFile, RefusesBrokenXml)
+{
+  Example           example;
+  const std::string message = example.refusal("a.xml", "<a>\n<b></a>");
+  EXPECT_EQ(message.rfind("a.xml:2: it is no valid XML: ", 0), 0) << message;
+  EXPECT_EQ(example.refusal("a.xml", "<a></a>"),
+            "a.xml: it must have one outermost element, called "
+            "ParameterHandler");
+}
+
+TEST(ParameterFile, RefusesWrongOverrides)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm", "", {"Material/Density"}),
+            "--set: \"Material/Density\" is not of the form "
+            "\"Section/Subsection/Entry = value\"");
+  EXPECT_EQ(example.refusal("a.prm", "", {" = 3"}),
+            "--set: \" = 3\" is not of the form \"Section/Subsection/Entry = "
+            "value\"");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Materal/Density = 1"}),
+            "--set: there is no subsection \"Materal\" at the top level; did "
+            "you mean \"Material\"?");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Density = 1"}),
+            "--set: there is no entry \"Density\" at the top level; it belongs "
+            "to \"Material\"");
+}
+
+// The texts on the left are those deal.II's patterns give.
+TEST(ParameterListing, DescribesPatternsInWords)
+{
+  using namespace dealii::Patterns;
+  EXPECT_EQ(describe_pattern(Double().description()), "a number");
+  EXPECT_EQ(describe_pattern(Double(0.5, 2).description()),
+            "a number from 0.5 to 2");
+  EXPECT_EQ(describe_pattern(Double(Double::min_double_value, 2).description()),
+            "a number <= 2");
+  EXPECT_EQ(describe_pattern(Integer().description()), "a whole number");
+  EXPECT_EQ(describe_pattern(Integer(1, 3).description()),
+            "a whole number from 1 to 3");
+  EXPECT_EQ(describe_pattern(Bool().description()), "true or false");
+  EXPECT_EQ(describe_pattern(Anything().description()), "a text");
+  EXPECT_EQ(describe_pattern(FileName().description()), "a file name");
+  EXPECT_EQ(describe_pattern(DirectoryName().description()), "a folder name");
+  EXPECT_EQ(describe_pattern(List(Double(0), 3, 3, ";").description()),
+            "3 values separated by \";\", each a number >= 0");
+  EXPECT_EQ(describe_pattern(List(Selection("a|b")).description()),
+            "any number of values separated by \",\", each one of a, b");
+  EXPECT_EQ(describe_pattern(List(Integer(0), 1, 2).description()),
+            "1 to 2 values separated by \",\", each a whole number >= 0");
+  EXPECT_EQ(describe_pattern("[Something new]"), "[Something new]");
+}

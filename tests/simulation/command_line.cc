@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The command line. Expected values are what the arguments say; refusals are
+// compared with the whole message a user gets.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/version.h>
+#include <corotet/simulation/command_line.h>
+
+#include <gtest/gtest.h>
+
+using namespace corotet;
+
+namespace
+{
+  CommandLine
+  parse(std::vector<const char *> arguments)
+  {
+    arguments.insert(arguments.begin(), "corotet");
+    return parse_command_line(static_cast<int>(arguments.size()),
+                              arguments.data());
+  }
+
+  std::string
+  refusal(const std::vector<const char *> &arguments)
+  {
+    try
+      {
+        parse(arguments);
+      }
+    catch (const InputError &error)
+      {
+        EXPECT_EQ(error.exit_status, 1);
+        EXPECT_EQ(error.entry, "");
+        return error.what();
+      }
+    return "accepted";
+  }
+} // namespace
+
+TEST(CommandLine, FileOnly)
+{
+  const CommandLine c = parse({"a.prm"});
+  EXPECT_EQ(c.parameter_file, "a.prm");
+  EXPECT_TRUE(c.overrides.empty());
+  EXPECT_FALSE(c.output_directory);
+  EXPECT_FALSE(c.validate);
+  EXPECT_FALSE(c.quiet);
+  EXPECT_FALSE(c.print_parameters);
+  EXPECT_FALSE(c.message);
+}
+
+TEST(CommandLine, AllOptions)
+{
+  const CommandLine c = parse({"--set",
+                               "A/B = 1, 2",
+                               "--quiet",
+                               "--validate",
+                               "--output",
+                               "out put",
+                               "--set",
+                               "C=x y",
+                               "a.prm"});
+  EXPECT_EQ(c.parameter_file, "a.prm");
+  EXPECT_EQ(c.overrides, (std::vector<std::string>{"A/B = 1, 2", "C=x y"}));
+  EXPECT_EQ(c.output_directory, "out put");
+  EXPECT_TRUE(c.validate);
+  EXPECT_TRUE(c.quiet);
+}
+
+TEST(CommandLine, OverrideDoesNotTakeTheFileBehindIt)
+{
+  const CommandLine c = parse({"--set", "A = 1", "a.prm"});
+  EXPECT_EQ(c.overrides, std::vector<std::string>{"A = 1"});
+  EXPECT_EQ(c.parameter_file, "a.prm");
+}
+
+TEST(CommandLine, PrintParametersWithAndWithoutStyleAndFile)
+{
+  EXPECT_EQ(parse({"--print-parameters"}).print_parameters, "prm");
+  EXPECT_EQ(parse({"--print-parameters", "json"}).print_parameters, "json");
+  EXPECT_EQ(parse({"--print-parameters=markdown"}).print_parameters,
+            "markdown");
+  EXPECT_EQ(parse({"--print-parameters", "json"}).parameter_file, "");
+  const CommandLine behind = parse({"--print-parameters", "a.prm"});
+  EXPECT_EQ(behind.print_parameters, "prm");
+  EXPECT_EQ(behind.parameter_file, "a.prm");
+  const CommandLine before = parse({"a.prm", "--print-parameters", "--quiet"});
+  EXPECT_EQ(before.print_parameters, "prm");
+  EXPECT_EQ(before.parameter_file, "a.prm");
+  EXPECT_TRUE(before.quiet);
+}
+
+TEST(CommandLine, HelpNamesEveryOption)
+{
+  const std::string help = *parse({"--help"}).message;
+  for (const char *option : {"FILE",
+                             "--set",
+                             "--output",
+                             "--validate",
+                             "--print-parameters",
+                             "--quiet",
+                             "--version",
+                             "--help"})
+    EXPECT_NE(help.find(option), std::string::npos) << option << '\n' << help;
+}
+
+TEST(CommandLine, VersionNamesProgramAndLibrary)
+{
+  const std::string message = *parse({"--version"}).message;
+  EXPECT_EQ(message.rfind("corotet " + version + " (revision ", 0), 0)
+    << message;
+  EXPECT_NE(message.find("deal.II"), std::string::npos) << message;
+}
+
+TEST(CommandLine, RefusesAMissingFile)
+{
+  EXPECT_EQ(refusal({}),
+            "command line: a parameter file is needed: corotet [OPTIONS] "
+            "FILE.prm (--help lists the options)");
+}
+
+TEST(CommandLine, RefusesUnknownOptions)
+{
+  EXPECT_EQ(refusal({"a.prm", "--valdate"}),
+            "command line: unknown option \"--valdate\"; did you mean "
+            "\"--validate\"?");
+  EXPECT_EQ(refusal({"a.prm", "--outptu=x"}),
+            "command line: unknown option \"--outptu=x\"; did you mean "
+            "\"--output\"?");
+  const std::string message = refusal({"a.prm", "-j8"});
+  EXPECT_EQ(message.rfind("command line: unknown option \"-j8\"; allowed are "
+                          "--",
+                          0),
+            0)
+    << message;
+}
+
+TEST(CommandLine, RefusesASecondFile)
+{
+  EXPECT_EQ(refusal({"a.prm", "b.prm"}),
+            "command line: unexpected argument \"b.prm\"; one parameter file "
+            "is allowed");
+}
+
+TEST(CommandLine, RefusesAnUnknownStyle)
+{
+  EXPECT_EQ(refusal({"--print-parameters", "xlm"}),
+            "command line: \"xlm\" is no style of --print-parameters; allowed "
+            "are prm, json, markdown");
+}
+
+TEST(CommandLine, RefusesAnOptionWithoutItsValue)
+{
+  const std::string message = refusal({"a.prm", "--output"});
+  EXPECT_EQ(message.rfind("command line: --output", 0), 0) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
