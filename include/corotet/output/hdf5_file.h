@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_hdf5_file_h
+#define corotet_output_hdf5_file_h
+
+#include <hdf5.h>
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The rows of a table that one rank holds: @p n_rows from row @p first of @p
+   * n_global_rows, with @p n_columns numbers each; 0 columns make a plain
+   * (one-dimensional) list. Ranks' rows do not overlap.
+   */
+  struct Hdf5Rows
+  {
+    hsize_t first;
+    hsize_t n_rows;
+    hsize_t n_global_rows;
+    hsize_t n_columns = 0;
+  };
+
+  /**
+   * Owns an HDF5 identifier of any kind.
+   */
+  class Hdf5Id
+  {
+  public:
+    Hdf5Id() = default;
+
+    explicit Hdf5Id(const hid_t id)
+      : id(id)
+    {}
+
+    Hdf5Id(Hdf5Id &&other) noexcept
+      : id(std::exchange(other.id, H5I_INVALID_HID))
+    {}
+
+    Hdf5Id &
+    operator=(Hdf5Id &&other) noexcept
+    {
+      std::swap(id, other.id);
+      return *this;
+    }
+
+    ~Hdf5Id()
+    {
+      if (id >= 0)
+        H5Idec_ref(id);
+    }
+
+    operator hid_t() const
+    {
+      return id;
+    }
+
+    /// Gives the identifier away.
+    hid_t
+    release()
+    {
+      return std::exchange(id, H5I_INVALID_HID);
+    }
+
+  private:
+    hid_t id = H5I_INVALID_HID;
+  };
+
+  /**
+   * A table that is the rows of others, one below the other, each in a file of
+   * its own: an HDF5 virtual dataset. Rows have the same length everywhere.
+   */
+  class Hdf5VirtualTable
+  {
+  public:
+    /// Each part has @p n_rows rows of @p n_columns numbers (0: a plain list).
+    Hdf5VirtualTable(const hsize_t n_rows, const hsize_t n_columns);
+
+    /// Appends table @p name of @p file, a path relative to the folder of the
+    /// file that the virtual table will be in.
+    void
+    append(const std::string &file, const std::string &name);
+
+  private:
+    friend class Hdf5File;
+
+    hsize_t n_rows;
+    hsize_t n_columns;
+    hsize_t n_parts = 0;
+    /// The creation properties hold the list of parts: adding one costs
+    /// nothing for those before.
+    Hdf5Id creation;
+    bool   good = true;
+  };
+
+  /**
+   * An HDF5 file that is written once, by all ranks of a communicator
+   * together.
+   *
+   * The file gets its name when it is complete: until then it is called
+   * PATH.tmp. So whatever happens, PATH is whole or absent (or, where it
+   * existed before, the old one).
+   *
+   * Errors (disk full, no permission) are collected, so that no rank leaves a
+   * collective call early, and are thrown by finish(). deal.II's HDF5 interface
+   * checks for them in debug mode only, and knows no 8 and 64 bit integers.
+   */
+  class Hdf5File
+  {
+  public:
+    /// Collective.
+    Hdf5File(const std::string &path, const MPI_Comm comm);
+
+    Hdf5File(const Hdf5File &) = delete;
+    Hdf5File &
+    operator=(const Hdf5File &) = delete;
+
+    /**
+     * Writes a table; @p data are the rows of this rank. Types: double,
+     * std::int32_t, std::int64_t, std::uint8_t. A name with slashes needs its
+     * group. Collective.
+     */
+    template <typename Number>
+    void
+    write(const std::string &name, const Number *data, const Hdf5Rows &rows);
+
+    /// Writes a table that rank 0 gives; the other ranks' @p values are not
+    /// read. All of them have the same size. Collective.
+    template <typename Number>
+    void
+    write_from_root(const std::string         &name,
+                    const std::vector<Number> &values,
+                    const hsize_t              n_columns = 0);
+
+    /// Collective.
+    void
+    write_virtual(const std::string &name, const Hdf5VirtualTable &table);
+
+    /// Collective.
+    void
+    create_group(const std::string &name);
+
+    /// Makes @p name stand for @p target of @p file, a path relative to this
+    /// file's folder. Collective.
+    void
+    link(const std::string &name,
+         const std::string &file,
+         const std::string &target);
+
+    /// Attribute @p name of @p object. Collective.
+    void
+    write_number_attribute(const std::string               &object,
+                           const std::string               &name,
+                           const std::vector<std::int64_t> &values);
+
+    /// Collective.
+    void
+    write_text_attribute(const std::string &object,
+                         const std::string &name,
+                         const std::string &text);
+
+    /// Closes the file and gives it its name. Throws MachineError on all ranks
+    /// if anything went wrong on any. Collective.
+    void
+    finish();
+
+  private:
+    /// Takes note of a failure; returns whether @p result is good.
+    bool
+    check(const long long result);
+
+    std::string path;
+    MPI_Comm    comm;
+    bool        good = true;
+    Hdf5Id      file;
+    Hdf5Id      collective_transfer;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_history_writer_h
+#define corotet_output_history_writer_h
+
+#include <corotet/output/probes.h>
+#include <corotet/simulation/observer.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * A row of the history: its columns by name, in order. @p displacements are
+   * those of the probes called @p names [m].
+   */
+  nlohmann::ordered_json
+  history_row(const StepRecord                        &record,
+              const std::vector<std::string>          &names,
+              const std::vector<dealii::Tensor<1, 3>> &displacements);
+
+  /**
+   * Writes history.csv: a row per step, step 0 included, each complete in the
+   * file before the next step. Numbers have as many digits as it takes to read
+   * the same double back. Not a number is written as nan.
+   */
+  class HistoryWriter : public Observer
+  {
+  public:
+    HistoryWriter(const std::string &directory, const Probes &probes);
+    ~HistoryWriter() override;
+
+    /// Throws MachineError if the file cannot be written, as does step().
+    void
+    start(const Snapshot &initial) override;
+
+    void
+    step(const Snapshot &state) override;
+
+    /// The last row, on all ranks; empty before start().
+    const nlohmann::ordered_json &
+    last_row() const
+    {
+      return *row;
+    }
+
+  private:
+    void
+    write_row(const Snapshot &state, const bool with_names);
+
+    std::string                             path;
+    Probes                                  probes;
+    std::ofstream                           file;
+    std::unique_ptr<nlohmann::ordered_json> row;
+  };
+} // namespace corotet
+
+#endif

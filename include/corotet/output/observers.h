@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_observers_h
+#define corotet_output_observers_h
+
+#include <corotet/base/log.h>
+#include <corotet/output/output_parameters.h>
+#include <corotet/simulation/observer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * All observers of a run, in the order in which they are to be called:
+   * time series, history, summary, progress. They write into @p directory,
+   * which must exist. @p end_time in s. @p discretization and @p log must
+   * outlive them.
+   *
+   * Throws InputError if a probe is wrong. Collective.
+   */
+  std::vector<std::unique_ptr<Observer>>
+  make_observers(const OutputParameters &parameters,
+                 const std::string      &directory,
+                 const Discretization   &discretization,
+                 const double            end_time,
+                 Log                    &log);
+} // namespace corotet
+
+#endif

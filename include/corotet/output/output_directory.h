@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_output_directory_h
+#define corotet_output_output_directory_h
+
+#include <mpi.h>
+
+#include <string>
+
+namespace corotet
+{
+  /**
+   * Makes @p directory (and its parents) an empty one for the results of a run.
+   *
+   * A directory that is not empty is refused, unless @p overwrite is set and it
+   * holds the results of an earlier run and nothing else: then these are
+   * removed. Anything that corotet does not write itself is left alone.
+   *
+   * Throws InputError blamed on Output/Directory, and MachineError if the
+   * directory cannot be made or emptied. Collective.
+   */
+  void
+  prepare_output_directory(const std::string &directory,
+                           const bool         overwrite,
+                           const MPI_Comm     comm);
+} // namespace corotet
+
+#endif

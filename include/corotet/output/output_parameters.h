@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_output_parameters_h
+#define corotet_output_output_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * A point of the undeformed body [m] whose displacement goes into the
+   * history.
+   */
+  struct ProbePoint
+  {
+    std::string      name;
+    dealii::Point<3> position;
+  };
+
+  /**
+   * The parameters of section Output.
+   */
+  struct OutputParameters
+  {
+    /// Declares the entries in the section that @p prm is in.
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    /**
+     * What entry Probes lists. Names are unique, consist of letters, digits and
+     * underscores (no digit first) and differ from the history's own columns.
+     * Throws InputError.
+     */
+    std::vector<ProbePoint>
+    probe_points() const;
+
+    /**
+     * The output directory of a run of @p parameter_file: as set, or
+     * output/STEM, both relative to the current folder.
+     */
+    std::string
+    directory_of_run(const std::string &parameter_file) const;
+
+    std::string directory;
+    bool        overwrite = false;
+    /// In s; 0: a result after every step.
+    double      time_between_results = 0;
+    std::string probes;
+  };
+} // namespace corotet
+
+#endif

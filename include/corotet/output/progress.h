@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_progress_h
+#define corotet_output_progress_h
+
+#include <corotet/base/log.h>
+#include <corotet/simulation/observer.h>
+
+#include <chrono>
+#include <string>
+
+namespace corotet
+{
+  /**
+   * What a Progress says of a step: step, time, share done, time left, Newton
+   * and linear iterations. @p seconds_left is left out if it is negative.
+   */
+  std::string
+  progress_text(const StepRecord &record,
+                const double      end_time,
+                const double      seconds_left);
+
+  /**
+   * Shows how far a run is. Every step becomes the live line of a terminal.
+   *
+   * Lines that stay (on the terminal, in a file or pipe, and in log.txt) come
+   * for the first and the last step, and between them at most every 2 seconds:
+   * when another per cent of the run is done or a minute has passed. So a
+   * long run leaves some hundred lines, however many steps it has.
+   */
+  class Progress : public Observer
+  {
+  public:
+    /// @p log must outlive this object. @p end_time in s.
+    Progress(const double end_time, Log &log);
+
+    void
+    start(const Snapshot &initial) override;
+
+    void
+    step(const Snapshot &state) override;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    double            end_time;
+    Log              &log;
+    Clock::time_point begin;
+    double            start_time = 0;
+
+    /// When the last line that stays was written, and the time [s] it told.
+    Clock::time_point line_written;
+    double            line_time  = 0;
+    bool              first_step = true;
+  };
+} // namespace corotet
+
+#endif

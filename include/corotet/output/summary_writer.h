@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_summary_writer_h
+#define corotet_output_summary_writer_h
+
+#include <corotet/output/history_writer.h>
+#include <corotet/simulation/observer.h>
+
+#include <string>
+
+namespace corotet
+{
+  /**
+   * Writes summary.json when the run ends, also if it failed. The file is
+   * complete or absent. Not a number is written as null.
+   *
+   * @p history, which must be called before this observer and must outlive it,
+   * gives the last row.
+   */
+  class SummaryWriter : public Observer
+  {
+  public:
+    SummaryWriter(const std::string   &directory,
+                  const HistoryWriter &history,
+                  const MPI_Comm       comm);
+
+    /// Throws MachineError if the file cannot be written.
+    void
+    finish(const RunSummary &summary) override;
+
+  private:
+    std::string          path;
+    const HistoryWriter &history;
+    MPI_Comm             comm;
+  };
+} // namespace corotet
+
+#endif

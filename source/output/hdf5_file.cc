@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/output/hdf5_file.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <array>
+#include <filesystem>
+#include <system_error>
+#include <type_traits>
+
+namespace corotet
+{
+  namespace
+  {
+    // Keeps HDF5 from printing its error stack: finish() tells the user.
+    class Silence
+    {
+    public:
+      Silence()
+      {
+        H5Eget_auto2(H5E_DEFAULT, &function, &data);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+      }
+
+      ~Silence()
+      {
+        H5Eset_auto2(H5E_DEFAULT, function, data);
+      }
+
+      Silence(const Silence &) = delete;
+      Silence &
+      operator=(const Silence &) = delete;
+
+    private:
+      H5E_auto2_t function = nullptr;
+      void       *data     = nullptr;
+    };
+
+    template <typename Number>
+    hid_t
+    native_type()
+    {
+      if constexpr (std::is_same_v<Number, double>)
+        return H5T_NATIVE_DOUBLE;
+      else if constexpr (std::is_same_v<Number, std::int64_t>)
+        return H5T_NATIVE_INT64;
+      else if constexpr (std::is_same_v<Number, std::int32_t>)
+        return H5T_NATIVE_INT32;
+      else
+        {
+          static_assert(std::is_same_v<Number, std::uint8_t>);
+          return H5T_NATIVE_UINT8;
+        }
+    }
+
+    // The data space of a table: two-dimensional, or one-dimensional for a
+    // plain list.
+    Hdf5Id
+    table_space(const hsize_t n_rows, const hsize_t n_columns)
+    {
+      const std::array<hsize_t, 2> sizes{{n_rows, n_columns}};
+      return Hdf5Id(
+        H5Screate_simple(n_columns == 0 ? 1 : 2, sizes.data(), nullptr));
+    }
+
+    // Selects rows of a table.
+    herr_t
+    select_rows(const Hdf5Id &space,
+                const hsize_t first,
+                const hsize_t n_rows,
+                const hsize_t n_columns)
+    {
+      if (n_rows == 0)
+        return H5Sselect_none(space);
+      const std::array<hsize_t, 2> start{{first, 0}};
+      const std::array<hsize_t, 2> count{{n_rows, n_columns}};
+      return H5Sselect_hyperslab(
+        space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+    }
+  } // namespace
+
+  Hdf5VirtualTable::Hdf5VirtualTable(const hsize_t n_rows,
+                                     const hsize_t n_columns)
+    : n_rows(n_rows)
+    , n_columns(n_columns)
+    , creation(H5Pcreate(H5P_DATASET_CREATE))
+  {}
+
+  void
+  Hdf5VirtualTable::append(const std::string &file, const std::string &name)
+  {
+    const Silence silence;
+    const hsize_t first = n_parts * n_rows;
+    ++n_parts;
+    const Hdf5Id source = table_space(n_rows, n_columns);
+    const Hdf5Id target = table_space(n_parts * n_rows, n_columns);
+    good =
+      select_rows(target, first, n_rows, n_columns) >= 0 &&
+      H5Pset_virtual(creation, target, file.c_str(), name.c_str(), source) >=
+        0 &&
+      good;
+  }
+
+  Hdf5File::Hdf5File(const std::string &path, const MPI_Comm comm)
+    : path(path)
+    , comm(comm)
+    , collective_transfer(H5Pcreate(H5P_DATASET_XFER))
+  {
+    const Silence silence;
+    const Hdf5Id  access(H5Pcreate(H5P_FILE_ACCESS));
+    // One rank needs no MPI to write a file, and is faster without.
+    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+      {
+        check(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL));
+        check(H5Pset_dxpl_mpio(collective_transfer, H5FD_MPIO_COLLECTIVE));
+      }
+    file = Hdf5Id(
+      H5Fcreate((path + ".tmp").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+    check(file);
+    // Without a file on some rank, no rank may go on to collective calls.
+    good = dealii::Utilities::MPI::min(good ? 1 : 0, comm) == 1;
+    if (!good)
+      file = Hdf5Id();
+  }
+
+  bool
+  Hdf5File::check(const long long result)
+  {
+    if (result < 0)
+      good = false;
+    return result >= 0;
+  }
+
+  template <typename Number>
+  void
+  Hdf5File::write(const std::string &name,
+                  const Number      *data,
+                  const Hdf5Rows    &rows)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    const Hdf5Id  space = table_space(rows.n_global_rows, rows.n_columns);
+    const Hdf5Id  dataset(H5Dcreate2(file,
+                                    name.c_str(),
+                                    native_type<Number>(),
+                                    space,
+                                    H5P_DEFAULT,
+                                    H5P_DEFAULT,
+                                    H5P_DEFAULT));
+    if (!check(dataset))
+      return;
+    const Hdf5Id memory = table_space(rows.n_rows, rows.n_columns);
+    check(select_rows(memory, 0, rows.n_rows, rows.n_columns));
+    check(select_rows(space, rows.first, rows.n_rows, rows.n_columns));
+    check(H5Dwrite(dataset,
+                   native_type<Number>(),
+                   memory,
+                   space,
+                   collective_transfer,
+                   data));
+  }
+
+  template <typename Number>
+  void
+  Hdf5File::write_from_root(const std::string         &name,
+                            const std::vector<Number> &values,
+                            const hsize_t              n_columns)
+  {
+    const hsize_t n_rows =
+      values.size() / (n_columns == 0 ? hsize_t(1) : n_columns);
+    const bool root = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    write(name, values.data(), {0, root ? n_rows : 0, n_rows, n_columns});
+  }
+
+  void
+  Hdf5File::write_virtual(const std::string      &name,
+                          const Hdf5VirtualTable &table)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    const Hdf5Id  space =
+      table_space(table.n_parts * table.n_rows, table.n_columns);
+    const Hdf5Id dataset(H5Dcreate2(file,
+                                    name.c_str(),
+                                    H5T_NATIVE_DOUBLE,
+                                    space,
+                                    H5P_DEFAULT,
+                                    table.creation,
+                                    H5P_DEFAULT));
+    check(dataset);
+    check(table.good ? 0 : -1);
+  }
+
+  void
+  Hdf5File::create_group(const std::string &name)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    const Hdf5Id  group(
+      H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    check(group);
+  }
+
+  void
+  Hdf5File::link(const std::string &name,
+                 const std::string &file_name,
+                 const std::string &target)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    check(H5Lcreate_external(file_name.c_str(),
+                             target.c_str(),
+                             file,
+                             name.c_str(),
+                             H5P_DEFAULT,
+                             H5P_DEFAULT));
+  }
+
+  void
+  Hdf5File::write_number_attribute(const std::string               &object,
+                                   const std::string               &name,
+                                   const std::vector<std::int64_t> &values)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    const hsize_t size = values.size();
+    const Hdf5Id  space(size == 1 ? H5Screate(H5S_SCALAR) :
+                                   H5Screate_simple(1, &size, nullptr));
+    const Hdf5Id  attribute(H5Acreate_by_name(file,
+                                             object.c_str(),
+                                             name.c_str(),
+                                             H5T_NATIVE_INT64,
+                                             space,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT));
+    if (check(attribute))
+      check(H5Awrite(attribute, H5T_NATIVE_INT64, values.data()));
+  }
+
+  void
+  Hdf5File::write_text_attribute(const std::string &object,
+                                 const std::string &name,
+                                 const std::string &text)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    const Hdf5Id  type(H5Tcopy(H5T_C_S1));
+    check(H5Tset_size(type, text.size()));
+    check(H5Tset_strpad(type, H5T_STR_NULLPAD));
+    const Hdf5Id space(H5Screate(H5S_SCALAR));
+    const Hdf5Id attribute(H5Acreate_by_name(file,
+                                             object.c_str(),
+                                             name.c_str(),
+                                             type,
+                                             space,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT));
+    if (check(attribute))
+      check(H5Awrite(attribute, type, text.data()));
+  }
+
+  void
+  Hdf5File::finish()
+  {
+    if (file >= 0)
+      {
+        const Silence silence;
+        // Releases the identifier even if the last data cannot be written.
+        check(H5Fclose(file.release()));
+      }
+    good = dealii::Utilities::MPI::min(good ? 1 : 0, comm) == 1;
+    on_root(comm, [&] {
+      std::error_code error;
+      if (good)
+        std::filesystem::rename(path + ".tmp", path, error);
+      if (good && !error)
+        return;
+      std::error_code ignored;
+      std::filesystem::remove(path + ".tmp", ignored);
+      throw MachineError(path + ": the file cannot be written" +
+                         (error ? ": " + error.message() :
+                                  " (is the disk full, or permission "
+                                  "missing?)"));
+    });
+  }
+
+  template void
+  Hdf5File::write(const std::string &, const double *, const Hdf5Rows &);
+  template void
+  Hdf5File::write(const std::string &, const std::int32_t *, const Hdf5Rows &);
+  template void
+  Hdf5File::write(const std::string &, const std::int64_t *, const Hdf5Rows &);
+  template void
+  Hdf5File::write(const std::string &, const std::uint8_t *, const Hdf5Rows &);
+  template void
+  Hdf5File::write_from_root(const std::string &,
+                            const std::vector<double> &,
+                            const hsize_t);
+  template void
+  Hdf5File::write_from_root(const std::string &,
+                            const std::vector<std::int64_t> &,
+                            const hsize_t);
+} // namespace corotet

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/output/history_writer.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <system_error>
+
+namespace corotet
+{
+  namespace
+  {
+    using dealii::Tensor;
+
+    void
+    add_vector(nlohmann::ordered_json &row,
+               const std::string      &name,
+               const Tensor<1, 3>     &value)
+    {
+      row[name + "_x"] = value[0];
+      row[name + "_y"] = value[1];
+      row[name + "_z"] = value[2];
+    }
+
+    // The names of a row, or its values, as a line of the file.
+    std::string
+    csv_line(const nlohmann::ordered_json &row, const bool names)
+    {
+      std::string line;
+      for (const auto &[name, value] : row.items())
+        {
+          line += line.empty() ? "" : ",";
+          if (names)
+            line += name;
+          else if (value.is_number_float())
+            line += fmt::format("{}", value.get<double>());
+          else
+            line += value.dump();
+        }
+      return line + "\n";
+    }
+  } // namespace
+
+  nlohmann::ordered_json
+  history_row(const StepRecord                &record,
+              const std::vector<std::string>  &names,
+              const std::vector<Tensor<1, 3>> &displacements)
+  {
+    AssertDimension(names.size(), displacements.size());
+    nlohmann::ordered_json row;
+    row["step"]              = record.step;
+    row["time"]              = record.time;
+    row["dt"]                = record.dt;
+    row["newton_iterations"] = record.newton_iterations;
+    row["linear_iterations"] = record.linear_iterations;
+    row["kinetic_energy"]    = record.kinetic_energy;
+    row["elastic_energy"]    = record.elastic_energy;
+    row["dissipated_energy"] = record.dissipated_energy;
+    row["external_work"]     = record.external_work;
+    row["energy_balance"]    = record.energy_balance;
+    add_vector(row, "momentum", record.momentum);
+    add_vector(row, "angular_momentum", record.angular_momentum);
+    row["max_displacement"] = record.max_displacement;
+    row["min_det_F"]        = record.min_det_F;
+    row["inverted_cells"]   = record.inverted_cells;
+    row["wall_time"]        = record.wall_time;
+    for (unsigned int p = 0; p < names.size(); ++p)
+      add_vector(row, names[p], displacements[p]);
+    row["volume"] = record.volume;
+    add_vector(row, "reaction", record.reaction);
+    return row;
+  }
+
+  HistoryWriter::HistoryWriter(const std::string &directory,
+                               const Probes      &probes)
+    : path(directory + "/history.csv")
+    , probes(probes)
+    , row(std::make_unique<nlohmann::ordered_json>(
+        nlohmann::ordered_json::object()))
+  {}
+
+  HistoryWriter::~HistoryWriter() = default;
+
+  void
+  HistoryWriter::start(const Snapshot &initial)
+  {
+    write_row(initial, true);
+  }
+
+  void
+  HistoryWriter::step(const Snapshot &state)
+  {
+    write_row(state, false);
+  }
+
+  void
+  HistoryWriter::write_row(const Snapshot &state, const bool with_names)
+  {
+    *row = history_row(state.record,
+                       probes.names(),
+                       probes.displacements(state.displacement));
+    on_root(state.discretization.communicator(), [&] {
+      errno = 0;
+      if (with_names)
+        {
+          file.open(path);
+          file << csv_line(*row, true);
+        }
+      file << csv_line(*row, false) << std::flush;
+      if (!file)
+        throw MachineError(
+          path + ": the history cannot be written: " +
+          std::generic_category().message(errno == 0 ? EIO : errno));
+    });
+  }
+} // namespace corotet

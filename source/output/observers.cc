@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/output/history_writer.h>
+#include <corotet/output/observers.h>
+#include <corotet/output/progress.h>
+#include <corotet/output/summary_writer.h>
+#include <corotet/output/vtkhdf_writer.h>
+
+namespace corotet
+{
+  std::vector<std::unique_ptr<Observer>>
+  make_observers(const OutputParameters &parameters,
+                 const std::string      &directory,
+                 const Discretization   &discretization,
+                 const double            end_time,
+                 Log                    &log)
+  {
+    auto history = std::make_unique<HistoryWriter>(
+      directory, Probes(parameters.probe_points(), discretization));
+    auto summary =
+      std::make_unique<SummaryWriter>(directory,
+                                      *history,
+                                      discretization.communicator());
+
+    std::vector<std::unique_ptr<Observer>> observers;
+    observers.push_back(
+      std::make_unique<VtkhdfWriter>(directory,
+                                     parameters.time_between_results));
+    observers.push_back(std::move(history));
+    observers.push_back(std::move(summary));
+    observers.push_back(std::make_unique<Progress>(end_time, log));
+    return observers;
+  }
+} // namespace corotet

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/output/output_directory.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <regex>
+#include <string_view>
+#include <vector>
+
+namespace corotet
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    const std::string directory_entry = "Output/Directory";
+
+    // Names of what a run writes, as regular expressions of paths relative to
+    // the output directory. A folder is removed if it is empty then.
+    const std::array<std::string_view, 4> own_files{
+      {R"((solution\.vtkhdf|history\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
+       R"(solution/(mesh|step_[0-9]+)\.h5(\.tmp)?)",
+       R"(checkpoint/[^/]+\.h5(\.tmp)?)",
+       R"(checkpoint/[^/]+\.tmp/[^/]+)"}};
+    const std::array<std::string_view, 3> own_folders{
+      {"solution", "checkpoint", R"(checkpoint/[^/]+\.tmp)"}};
+
+    // What at least one of must be there: files called parameters.prm or
+    // log.txt may be anybody's.
+    const std::array<std::string_view, 3> marks{
+      {"solution.vtkhdf", "history.csv", "summary.json"}};
+
+    template <typename Patterns>
+    bool
+    matches(const std::string &name, const Patterns &patterns)
+    {
+      return std::any_of(
+        patterns.begin(), patterns.end(), [&](const std::string_view pattern) {
+          return std::regex_match(name, std::regex(std::string(pattern)));
+        });
+    }
+
+    bool
+    is_own(const fs::path &relative_path, const fs::file_status status)
+    {
+      return (fs::is_regular_file(status) &&
+              matches(relative_path.generic_string(), own_files)) ||
+             (fs::is_directory(status) &&
+              matches(relative_path.generic_string(), own_folders));
+    }
+
+    // Everything below the directory, folders after what they hold. Throws if
+    // any of it is not a result.
+    std::vector<fs::path>
+    old_results(const fs::path &directory)
+    {
+      std::vector<fs::path> results;
+      bool                  marked = false;
+      for (const fs::directory_entry &entry :
+           fs::recursive_directory_iterator(directory))
+        {
+          const fs::path path = entry.path().lexically_relative(directory);
+          if (!is_own(path, entry.symlink_status()))
+            throw InputError(directory_entry,
+                             "the output directory '" + directory.string() +
+                               "' holds '" + path.string() +
+                               "', which is no result of corotet; only a "
+                               "directory of results can be overwritten");
+          marked =
+            marked ||
+            std::find(marks.begin(), marks.end(), path.string()) != marks.end();
+          results.push_back(entry.path());
+        }
+      if (!marked)
+        throw InputError(directory_entry,
+                         "the output directory '" + directory.string() +
+                           "' is not empty and holds no results of corotet "
+                           "(solution.vtkhdf, history.csv or summary.json); "
+                           "only a directory of results can be overwritten");
+      std::reverse(results.begin(), results.end());
+      return results;
+    }
+
+    void
+    prepare(const fs::path &directory, const bool overwrite)
+    {
+      if (fs::exists(directory) && !fs::is_directory(directory))
+        throw InputError(directory_entry,
+                         "the output directory '" + directory.string() +
+                           "' is a file; a directory or a new name is allowed");
+      fs::create_directories(directory);
+      if (fs::is_empty(directory))
+        return;
+      if (!overwrite)
+        throw InputError(directory_entry,
+                         "the output directory '" + directory.string() +
+                           "' is not empty; choose another one, or set "
+                           "Output/Overwrite = true to remove the results in "
+                           "it");
+      for (const fs::path &path : old_results(directory))
+        fs::remove(path);
+    }
+  } // namespace
+
+  void
+  prepare_output_directory(const std::string &directory,
+                           const bool         overwrite,
+                           const MPI_Comm     comm)
+  {
+    on_root(comm, [&] {
+      try
+        {
+          prepare(fs::path(directory).lexically_normal(), overwrite);
+        }
+      catch (const fs::filesystem_error &error)
+        {
+          throw MachineError(
+            "the output directory '" + directory +
+            "' cannot be made or emptied: " + error.code().message());
+        }
+    });
+  }
+} // namespace corotet

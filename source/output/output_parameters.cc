@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/output/output_parameters.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+namespace corotet
+{
+  namespace
+  {
+    const std::string probes_entry = "Output/Probes";
+
+    // The numbers of "X Y Z"; throws if these are not three.
+    dealii::Point<3>
+    parse_position(const std::string &name, const std::string &text)
+    {
+      std::istringstream       stream(text);
+      std::vector<std::string> words;
+      for (std::string word; stream >> word;)
+        words.push_back(word);
+      dealii::Point<3> position;
+      bool             good = words.size() == 3;
+      for (unsigned int c = 0; good && c < 3; ++c)
+        {
+          const char *end = words[c].data() + words[c].size();
+          const auto [stop, error] =
+            std::from_chars(words[c].data(), end, position[c]);
+          good =
+            error == std::errc() && stop == end && std::isfinite(position[c]);
+        }
+      if (!good)
+        throw InputError(probes_entry,
+                         fmt::format("probe '{}' is at '{}'; its position must "
+                                     "be three numbers (x y z, in m)",
+                                     name,
+                                     text));
+      return position;
+    }
+
+    void
+    check_name(const std::string &name)
+    {
+      const auto allowed = [](const unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_';
+      };
+      if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
+          !std::all_of(name.begin(), name.end(), allowed))
+        throw InputError(probes_entry,
+                         fmt::format("'{}' cannot be a probe's name; letters, "
+                                     "digits and _ are allowed, no digit first",
+                                     name));
+      // NAME_x would be two columns of the history.
+      const std::array<std::string, 3> taken{
+        {"momentum", "angular_momentum", "reaction"}};
+      if (std::find(taken.begin(), taken.end(), name) != taken.end())
+        throw InputError(probes_entry,
+                         fmt::format("'{}' cannot be a probe's name; {} are "
+                                     "columns of the history already",
+                                     name,
+                                     join({taken.begin(), taken.end()})));
+    }
+  } // namespace
+
+  void
+  OutputParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Directory",
+      directory,
+      "Directory for the results, relative to the current folder. Empty: "
+      "output/NAME for the parameter file NAME.prm.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Overwrite",
+      overwrite,
+      "Whether the results of an earlier run in the directory are removed. If "
+      "not, a directory that is not empty is refused; so is, in any case, one "
+      "that holds anything but results.");
+    prm.add_parameter(
+      "Time between results",
+      time_between_results,
+      "Simulated time between two states in solution.vtkhdf [s]; 0: every "
+      "step. The first and the last state are always written.",
+      dealii::Patterns::Double(0));
+    prm.add_parameter(
+      "Probes",
+      probes,
+      "Points of the undeformed body [m] whose displacement goes into "
+      "history.csv: NAME: X Y Z, separated by commas, for example "
+      "'tip: 1 0.05 0.05, middle: 0.5 0.05 0.05'.",
+      dealii::Patterns::Anything());
+  }
+
+  std::vector<ProbePoint>
+  OutputParameters::probe_points() const
+  {
+    std::vector<ProbePoint> points;
+    if (split_outside_brackets(probes, ',') == std::vector<std::string>{""})
+      return points;
+    std::set<std::string> names;
+    for (const std::string &probe : split_outside_brackets(probes, ','))
+      {
+        const std::vector<std::string> parts =
+          split_outside_brackets(probe, ':');
+        if (parts.size() != 2)
+          throw InputError(probes_entry,
+                           fmt::format("'{}' is no probe; a list of NAME: X Y "
+                                       "Z, separated by commas, is allowed",
+                                       probe));
+        check_name(parts[0]);
+        if (!names.insert(parts[0]).second)
+          throw InputError(probes_entry,
+                           fmt::format("two probes are called '{}'; each name "
+                                       "must be used once",
+                                       parts[0]));
+        points.push_back({parts[0], parse_position(parts[0], parts[1])});
+      }
+    return points;
+  }
+
+  std::string
+  OutputParameters::directory_of_run(const std::string &parameter_file) const
+  {
+    if (!directory.empty())
+      return directory;
+    return "output/" + std::filesystem::path(parameter_file).stem().string();
+  }
+} // namespace corotet

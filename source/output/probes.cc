@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/output/probes.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace corotet
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+    namespace mpi = dealii::Utilities::MPI;
+
+    // How far outside of a cell a point may be, in barycentric coordinates:
+    // round-off in the coordinates of a point on the surface.
+    constexpr double tolerance = 1e-8;
+
+    // The owned cell that a point is deepest in, the point's reference
+    // coordinates there, and the smallest of its barycentric coordinates.
+    struct Location
+    {
+      unsigned int cell = 0;
+      Point<3>     xi;
+      double       depth = -std::numeric_limits<double>::max();
+    };
+
+    Location
+    locate(const Point<3> &x, const Discretization &discretization)
+    {
+      Location best;
+      for (unsigned int cell = 0; cell < discretization.n_owned_cells(); ++cell)
+        {
+          // The first node is vertex 0, the origin of the reference cell.
+          const Point<3> origin =
+            discretization.node_position(discretization.cell_nodes(cell)[0]);
+          const Point<3> xi(discretization.geometry(cell).inverse_jacobian *
+                            (x - origin));
+          const double   depth =
+            std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]});
+          if (depth > best.depth)
+            best = {cell, xi, depth};
+        }
+      return best;
+    }
+
+    // "x in [0, 1], y in [0, 0.1], z in [0, 0.1]".
+    std::string
+    bounding_box(const Discretization &discretization)
+    {
+      std::array<double, 3> lower, upper;
+      lower.fill(std::numeric_limits<double>::max());
+      upper.fill(-std::numeric_limits<double>::max());
+      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            const double x = discretization.node_position(n)[c];
+            lower[c]       = std::min(lower[c], x);
+            upper[c]       = std::max(upper[c], x);
+          }
+      std::string text;
+      for (unsigned int c = 0; c < 3; ++c)
+        text += fmt::format("{}{} in [{:.6g}, {:.6g}]",
+                            c == 0 ? "" : ", ",
+                            "xyz"[c],
+                            mpi::min(lower[c], discretization.communicator()),
+                            mpi::max(upper[c], discretization.communicator()));
+      return text;
+    }
+  } // namespace
+
+  Probes::Probes(const std::vector<ProbePoint> &points,
+                 const Discretization          &discretization)
+    : comm(discretization.communicator())
+  {
+    const unsigned int rank   = mpi::this_mpi_process(comm);
+    const unsigned int nobody = mpi::n_mpi_processes(comm);
+    const auto        &fe     = discretization.finite_element().base_element(0);
+    for (const auto &[name, x] : points)
+      {
+        const Location     location = locate(x, discretization);
+        const unsigned int owner =
+          mpi::min(location.depth >= -tolerance ? rank : nobody, comm);
+        if (owner == nobody)
+          throw InputError("Output/Probes",
+                           fmt::format("probe '{}' at ({}, {}, {}) lies "
+                                       "outside the body, which has {} (m)",
+                                       name,
+                                       x[0],
+                                       x[1],
+                                       x[2],
+                                       bounding_box(discretization)));
+        if (owner == rank)
+          {
+            const auto nodes = discretization.cell_nodes(location.cell);
+            Located    probe;
+            probe.probe = probe_names.size();
+            probe.nodes.assign(nodes.begin(), nodes.end());
+            for (unsigned int i = 0; i < nodes.size(); ++i)
+              probe.shape_values.push_back(fe.shape_value(i, location.xi));
+            located.push_back(probe);
+          }
+        probe_names.push_back(name);
+      }
+  }
+
+  std::vector<Tensor<1, 3>>
+  Probes::displacements(const Vector &displacement) const
+  {
+    // Zero but on the rank that evaluates, so the sum is exact.
+    std::vector<double> values(3 * probe_names.size(), 0.);
+    for (const Located &probe : located)
+      for (unsigned int i = 0; i < probe.nodes.size(); ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          values[3 * probe.probe + c] +=
+            probe.shape_values[i] *
+            displacement.local_element(3 * probe.nodes[i] + c);
+    mpi::sum(values, comm, values);
+
+    std::vector<Tensor<1, 3>> result(probe_names.size());
+    for (unsigned int p = 0; p < result.size(); ++p)
+      for (unsigned int c = 0; c < 3; ++c)
+        result[p][c] = values[3 * p + c];
+    return result;
+  }
+} // namespace corotet

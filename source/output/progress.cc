@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/output/progress.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace corotet
+{
+  namespace
+  {
+    // 75 s: "0:01:15".
+    std::string
+    clock_text(const double seconds)
+    {
+      // More than some years are not worth a number that might not fit.
+      const long long s = std::llround(std::min(seconds, 1e9));
+      return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+    }
+  } // namespace
+
+  std::string
+  progress_text(const StepRecord &record,
+                const double      end_time,
+                const double      seconds_left)
+  {
+    std::string text =
+      fmt::format("step {}, time {:.6g} of {:.6g} s ({:.0f} %), {} Newton and "
+                  "{} linear iterations",
+                  record.step,
+                  record.time,
+                  end_time,
+                  end_time > 0 ? 100 * record.time / end_time : 100.,
+                  record.newton_iterations,
+                  record.linear_iterations);
+    if (seconds_left >= 0)
+      text += fmt::format(", {} left", clock_text(seconds_left));
+    return text;
+  }
+
+  Progress::Progress(const double end_time, Log &log)
+    : end_time(end_time)
+    , log(log)
+  {}
+
+  void
+  Progress::start(const Snapshot &initial)
+  {
+    begin        = Clock::now();
+    start_time   = initial.record.time;
+    line_written = begin;
+    line_time    = start_time;
+  }
+
+  void
+  Progress::step(const Snapshot &state)
+  {
+    const double            time          = state.record.time;
+    const Clock::time_point now           = Clock::now();
+    const auto              seconds_since = [&](const Clock::time_point t) {
+      return std::chrono::duration<double>(now - t).count();
+    };
+    double seconds_left = -1;
+    if (!state.last && time > start_time)
+      seconds_left =
+        seconds_since(begin) * (end_time - time) / (time - start_time);
+    const std::string text =
+      progress_text(state.record, end_time, seconds_left);
+
+    const double silence = seconds_since(line_written);
+    const bool   due =
+      silence >= 60 ||
+      (silence >= 2 && time - line_time >= 0.01 * (end_time - start_time));
+    if (first_step || state.last || due)
+      {
+        log.line(text);
+        first_step   = false;
+        line_written = now;
+        line_time    = time;
+      }
+    else
+      log.progress(text);
+  }
+} // namespace corotet

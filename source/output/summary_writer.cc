@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/version.h>
+#include <corotet/output/summary_writer.h>
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace corotet
+{
+  namespace
+  {
+    nlohmann::ordered_json
+    summary_object(const RunSummary             &summary,
+                   const nlohmann::ordered_json &last_row,
+                   const std::uint64_t           peak_memory_bytes)
+    {
+      nlohmann::ordered_json object;
+      object["status"] = summary.status;
+      if (!summary.message.empty())
+        object["message"] = summary.message;
+      object["version"]           = version;
+      object["git_revision"]      = git_revision;
+      object["dealii_version"]    = DEAL_II_PACKAGE_VERSION;
+      object["ranks"]             = summary.ranks;
+      object["cells"]             = summary.cells;
+      object["nodes"]             = summary.nodes;
+      object["dofs"]              = summary.dofs;
+      object["degree"]            = summary.degree;
+      object["mesh_volume"]       = summary.mesh_volume;
+      object["total_mass"]        = summary.total_mass;
+      object["steps"]             = summary.steps;
+      object["end_time"]          = summary.end_time;
+      object["final"]             = last_row;
+      object["wall_time"]         = {{"setup", summary.wall_times.setup},
+                                     {"assembly", summary.wall_times.assembly},
+                                     {"solve", summary.wall_times.solve},
+                                     {"output", summary.wall_times.output},
+                                     {"total", summary.total_wall_time}};
+      object["peak_memory_bytes"] = peak_memory_bytes;
+      return object;
+    }
+
+    // The file gets its name when it is complete.
+    void
+    write_whole_file(const std::string &path, const std::string &text)
+    {
+      const std::string temporary = path + ".tmp";
+      std::ofstream     file(temporary);
+      file << text;
+      file.close();
+      std::error_code error;
+      if (file)
+        std::filesystem::rename(temporary, path, error);
+      if (file && !error)
+        return;
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      throw MachineError(path +
+                         ": the summary cannot be written (is the disk full, "
+                         "or permission missing?)");
+    }
+  } // namespace
+
+  SummaryWriter::SummaryWriter(const std::string   &directory,
+                               const HistoryWriter &history,
+                               const MPI_Comm       comm)
+    : path(directory + "/summary.json")
+    , history(history)
+    , comm(comm)
+  {}
+
+  void
+  SummaryWriter::finish(const RunSummary &summary)
+  {
+    dealii::Utilities::System::MemoryStats memory;
+    dealii::Utilities::System::get_memory_stats(memory);
+    // VmHWM is in kB.
+    const std::uint64_t peak =
+      dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(memory.VmHWM),
+                                  comm) *
+      1024;
+    on_root(comm, [&] {
+      write_whole_file(
+        path,
+        summary_object(summary, history.last_row(), peak)
+            .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+          "\n");
+    });
+  }
+} // namespace corotet

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/output/vtkhdf_writer.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/fe_simplex_p.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+namespace corotet
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::Utilities::MPI::this_mpi_process;
+
+    // What is stored once, by name: all that VTK's reader wants in group
+    // VTKHDF.
+    const std::vector<std::string> mesh_tables{"NumberOfPoints",
+                                               "NumberOfCells",
+                                               "NumberOfConnectivityIds",
+                                               "Points",
+                                               "Connectivity",
+                                               "Offsets",
+                                               "Types"};
+    const std::vector<std::string> static_cell_data{"region", "rank"};
+
+    // Reference coordinates of the nodes of VTK's Lagrange tetrahedron.
+    std::vector<Point<3>>
+    vtk_nodes(const unsigned int degree)
+    {
+      const std::array<Point<3>, 4> vertices{
+        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+      const std::array<std::array<unsigned int, 2>, 6> edges{
+        {{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{1, 3}}, {{2, 3}}}};
+      const std::array<std::array<unsigned int, 3>, 4> faces{
+        {{{0, 1, 3}}, {{1, 2, 3}}, {{0, 2, 3}}, {{0, 1, 2}}}};
+
+      std::vector<Point<3>> nodes(vertices.begin(), vertices.end());
+      for (const auto &[begin, end] : edges)
+        for (unsigned int k = 1; k < degree; ++k)
+          {
+            const double s = double(k) / degree;
+            nodes.emplace_back((1 - s) * vertices[begin] + s * vertices[end]);
+          }
+      if (degree == 3)
+        for (const auto &[a, b, c] : faces)
+          nodes.emplace_back((vertices[a] + vertices[b] + vertices[c]) / 3);
+      return nodes;
+    }
+
+    std::string
+    step_file(const unsigned int step)
+    {
+      return fmt::format("solution/step_{:06}.h5", step);
+    }
+  } // namespace
+
+  std::vector<unsigned int>
+  vtk_node_order(const unsigned int degree)
+  {
+    Assert(degree >= 1 && degree <= 3, dealii::ExcIndexRange(degree, 1, 4));
+    const dealii::FE_SimplexP<3> fe(degree);
+    const auto                  &points = fe.get_unit_support_points();
+    std::vector<unsigned int>    order;
+    for (const Point<3> &node : vtk_nodes(degree))
+      for (unsigned int i = 0; i < points.size(); ++i)
+        if (points[i].distance(node) < 1e-10)
+          order.push_back(i);
+    AssertDimension(order.size(), points.size());
+    return order;
+  }
+
+  VtkhdfWriter::VtkhdfWriter(const std::string &directory,
+                             const double       time_between_results)
+    : directory(directory)
+    , time_between_results(time_between_results)
+  {}
+
+  void
+  VtkhdfWriter::start(const Snapshot &initial)
+  {
+    const Discretization &discretization = initial.discretization;
+    const MPI_Comm        comm           = discretization.communicator();
+    on_root(comm, [&] {
+      std::error_code error;
+      std::filesystem::create_directories(directory + "/solution", error);
+      if (error)
+        throw MachineError(
+          directory +
+          "/solution: the folder cannot be made: " + error.message());
+    });
+    write_mesh(discretization);
+
+    for (const std::string name : {"displacement", "velocity"})
+      point_data.emplace(name, Hdf5VirtualTable(nodes.n_global_rows, 3));
+    for (const std::string name : {"rotation_angle", "det_F", "von_mises"})
+      cell_data.emplace(name, Hdf5VirtualTable(cells.n_global_rows, 0));
+    write_state(initial);
+  }
+
+  void
+  VtkhdfWriter::step(const Snapshot &state)
+  {
+    if (state.last || is_due(state.record.time))
+      write_state(state);
+  }
+
+  bool
+  VtkhdfWriter::is_due(const double time) const
+  {
+    if (time_between_results == 0)
+      return true;
+    // A step that ends at a multiple, but for round-off, has reached it.
+    const auto interval = [&](const double t) {
+      return std::floor(t / time_between_results + 1e-6);
+    };
+    return interval(time) > interval(times.back());
+  }
+
+  void
+  VtkhdfWriter::write_mesh(const Discretization &discretization)
+  {
+    const MPI_Comm     comm    = discretization.communicator();
+    const unsigned int n_cells = discretization.n_owned_cells();
+    const unsigned int n_nodes = discretization.n_owned_nodes();
+    // Owned nodes are numbered consecutively, rank after rank.
+    nodes.first =
+      n_nodes > 0 ? static_cast<hsize_t>(discretization.global_node(0)) : 0;
+    nodes.n_rows        = n_nodes;
+    nodes.n_global_rows = discretization.n_global_nodes();
+    nodes.n_columns     = 3;
+    cells.first         = dealii::Utilities::MPI::partial_and_total_sum(
+                    static_cast<hsize_t>(n_cells), comm)
+                    .first;
+    cells.n_rows        = n_cells;
+    cells.n_global_rows = discretization.n_global_cells();
+    cells.n_columns     = 0;
+
+    Hdf5File file(directory + "/solution/mesh.h5", comm);
+    file.write("Points", discretization.node_positions().begin(), nodes);
+    write_connectivity(discretization, file);
+
+    const std::vector<std::uint8_t> types(n_cells, 71);
+    file.write("Types", types.data(), cells);
+    std::vector<std::int32_t> regions(n_cells);
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      regions[cell] = discretization.geometry(cell).region;
+    file.write("region", regions.data(), cells);
+    const std::vector<std::int32_t> ranks(n_cells, this_mpi_process(comm));
+    file.write("rank", ranks.data(), cells);
+
+    const auto list = [](const hsize_t number) {
+      return std::vector<std::int64_t>{static_cast<std::int64_t>(number)};
+    };
+    file.write_from_root("NumberOfPoints", list(nodes.n_global_rows));
+    file.write_from_root("NumberOfCells", list(cells.n_global_rows));
+    file.write_from_root("NumberOfConnectivityIds",
+                         list(cells.n_global_rows *
+                              discretization.n_nodes_per_cell()));
+    file.finish();
+  }
+
+  void
+  VtkhdfWriter::write_connectivity(const Discretization &discretization,
+                                   Hdf5File             &file)
+  {
+    const std::vector<unsigned int> order =
+      vtk_node_order(discretization.degree());
+    const hsize_t n = discretization.n_nodes_per_cell();
+
+    std::vector<std::int64_t> connectivity;
+    connectivity.reserve(cells.n_rows * n);
+    // Offsets has an entry more than there are cells. Rank 0 writes it, the
+    // leading zero.
+    const bool root = this_mpi_process(discretization.communicator()) == 0;
+    std::vector<std::int64_t> offsets;
+    offsets.reserve(cells.n_rows + 1);
+    if (root)
+      offsets.push_back(0);
+    for (unsigned int cell = 0; cell < cells.n_rows; ++cell)
+      {
+        for (const unsigned int i : order)
+          connectivity.push_back(
+            discretization.global_node(discretization.cell_nodes(cell)[i]));
+        offsets.push_back((cells.first + cell + 1) * n);
+      }
+    file.write("Connectivity",
+               connectivity.data(),
+               {cells.first * n, cells.n_rows * n, cells.n_global_rows * n});
+    file.write("Offsets",
+               offsets.data(),
+               {cells.first + (root ? 0 : 1),
+                offsets.size(),
+                cells.n_global_rows + 1});
+  }
+
+  void
+  VtkhdfWriter::write_state(const Snapshot &state)
+  {
+    const MPI_Comm    comm    = state.discretization.communicator();
+    const CellResults results = state.cell_results();
+    const std::string name    = step_file(state.record.step);
+
+    Hdf5File file(directory + "/" + name, comm);
+    file.write("displacement", state.displacement.begin(), nodes);
+    file.write("velocity", state.velocity.begin(), nodes);
+    file.write("rotation_angle", results.rotation_angle.data(), cells);
+    file.write("det_F", results.det_F.data(), cells);
+    file.write("von_mises", results.von_mises.data(), cells);
+    file.finish();
+
+    times.push_back(state.record.time);
+    for (auto *group : {&point_data, &cell_data})
+      for (auto &[table_name, table] : *group)
+        table.append(name, table_name);
+    write_index(comm);
+  }
+
+  void
+  VtkhdfWriter::write_index(const MPI_Comm comm) const
+  {
+    on_root(comm, [&] {
+      Hdf5File file(directory + "/solution.vtkhdf", MPI_COMM_SELF);
+      file.create_group("VTKHDF");
+      file.write_number_attribute("VTKHDF", "Version", {2, 0});
+      file.write_text_attribute("VTKHDF", "Type", "UnstructuredGrid");
+      for (const std::string &name : mesh_tables)
+        file.link("VTKHDF/" + name, "solution/mesh.h5", name);
+
+      file.create_group("VTKHDF/PointData");
+      for (const auto &[name, table] : point_data)
+        file.write_virtual("VTKHDF/PointData/" + name, table);
+      file.create_group("VTKHDF/CellData");
+      for (const auto &[name, table] : cell_data)
+        file.write_virtual("VTKHDF/CellData/" + name, table);
+      for (const std::string &name : static_cell_data)
+        file.link("VTKHDF/CellData/" + name, "solution/mesh.h5", name);
+
+      write_index_steps(file);
+      file.finish();
+    });
+  }
+
+  void
+  VtkhdfWriter::write_index_steps(Hdf5File &file) const
+  {
+    const std::string steps = "VTKHDF/Steps";
+    file.create_group(steps);
+    file.write_number_attribute(steps,
+                                "NSteps",
+                                {static_cast<std::int64_t>(times.size())});
+    file.write_from_root(steps + "/Values", times);
+
+    // Where the tables of each step begin: the mesh and what belongs to it are
+    // the same rows for all.
+    const std::vector<std::int64_t> same(times.size(), 0);
+    file.write_from_root(steps + "/PartOffsets", same);
+    file.write_from_root(steps + "/NumberOfParts",
+                         std::vector<std::int64_t>(times.size(), 1));
+    file.write_from_root(steps + "/PointOffsets", same);
+    file.write_from_root(steps + "/CellOffsets", same, 1);
+    file.write_from_root(steps + "/ConnectivityIdOffsets", same, 1);
+
+    const auto consecutive = [&](const hsize_t n_rows) {
+      std::vector<std::int64_t> offsets(times.size());
+      for (std::size_t i = 0; i < offsets.size(); ++i)
+        offsets[i] = i * n_rows;
+      return offsets;
+    };
+    file.create_group(steps + "/PointDataOffsets");
+    for (const auto &[name, table] : point_data)
+      file.write_from_root(steps + "/PointDataOffsets/" + name,
+                           consecutive(nodes.n_global_rows));
+    file.create_group(steps + "/CellDataOffsets");
+    for (const auto &[name, table] : cell_data)
+      file.write_from_root(steps + "/CellDataOffsets/" + name,
+                           consecutive(cells.n_global_rows));
+    for (const std::string &name : static_cell_data)
+      file.write_from_root(steps + "/CellDataOffsets/" + name, same);
+  }
+} // namespace corotet
