@@ -1,0 +1,38 @@
+# Shortcuts for people; CMake does the work, and scripts/toolchain finds or makes what it needs. Try: make help
+
+TOOLCHAIN := scripts/toolchain
+# The case that `make run` runs.
+PRM ?= parameters/cantilever.prm
+# Further arguments of the program, e.g. ARGUMENTS='--set "Time/End time = 1"'.
+ARGUMENTS ?=
+# The CMake presets that `make test` builds and tests.
+PRESETS ?= release debug
+
+.PHONY: help run test format check clean
+
+help:
+	@echo 'make run [PRM=parameters/x.prm]  build the program and run a case; its results replace those of the last run'
+	@echo 'make test                        build and test: Release and Debug'
+	@echo 'make format                      format the C++ files'
+	@echo 'make check                       check formatting and layering'
+	@echo 'make clean                       remove what was built (not results)'
+
+run:
+	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
+	  cmake --build --preset release --target corotet'
+	@$(TOOLCHAIN) build/release/corotet $(PRM) --set "Output/Overwrite = true" $(ARGUMENTS)
+
+test:
+	@for preset in $(PRESETS); do \
+	  $(TOOLCHAIN) sh -ec 'cmake --preset $$0; cmake --build --preset $$0; ctest --preset $$0' $$preset || exit 1; \
+	done
+
+format:
+	@$(TOOLCHAIN) scripts/check_format --fix
+
+check:
+	@$(TOOLCHAIN) scripts/check_format
+	@$(TOOLCHAIN) scripts/check_layers
+
+clean:
+	rm -rf build

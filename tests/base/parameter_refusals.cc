@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What a parameter file must not say. Refusals are compared with the whole
+// message that a user gets.
+
+#include "base/parameter_example.h"
+
+TEST(ParameterFile, RefusesFilesItCannotRead)
+{
+  Example example;
+  EXPECT_EQ(example.refusal_of("absent.prm"),
+            "absent.prm: there is no such file");
+  EXPECT_EQ(example.refusal("a.txt", ""),
+            "a.txt: a parameter file cannot end in \".txt\"; allowed are .prm, "
+            ".json and .xml");
+  example.folder.write("folder.prm/x", "");
+  EXPECT_EQ(example.refusal_of("folder.prm"),
+            "folder.prm: it cannot be read as a file");
+}
+
+TEST(ParameterFile, RefusesMisspeltNames)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Densty = 1\nend\n"),
+            "a.prm:2: there is no entry \"Densty\" in \"Material\"; did you "
+            "mean \"Density\"?");
+  EXPECT_EQ(example.refusal("a.prm", "\nsubsection material\nend\n"),
+            "a.prm:2: there is no subsection \"material\" at the top level; "
+            "did you mean \"Material\"?");
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Mesh\n  set Density = 1\nend\n"),
+            "a.prm:2: there is no entry \"Density\" in \"Mesh\"; it belongs "
+            "to \"Material\"");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\n  set A = 1\nend\n"),
+            "a.prm:2: there is no entry \"A\" in \"Mesh\"; allowed are File "
+            "name");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nset Box = 1\nend\n"),
+            "a.prm:2: \"Box\" is a subsection, not an entry");
+  EXPECT_EQ(example.refusal(
+              "a.prm", "subsection Material\nsubsection Density\nend\nend\n"),
+            "a.prm:2: \"Density\" is an entry, not a subsection");
+}
+
+TEST(ParameterFile, RefusesValuesThatAreNotAllowed)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Density = -1\nend\n"),
+            "a.prm:2: the value \"-1\" of \"Material/Density\" is not "
+            "allowed; allowed is a number >= 0");
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Law = linea\nend\n"),
+            "a.prm:2: the value \"linea\" of \"Material/Law\" is not allowed; "
+            "allowed is one of linear, corotational");
+  // ParameterHandler::parse_input() would take any text with a brace.
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Density = {1}\nend\n"),
+            "a.prm:2: the value \"{1}\" of \"Material/Density\" is not "
+            "allowed; allowed is a number >= 0");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Mesh/File name = a#b"}),
+            "--set: the value of \"Mesh/File name\" has a #, a line break or "
+            "a backslash at its end; a parameter cannot have these");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Mesh/File name = \xff"}),
+            "--set: the value of \"Mesh/File name\" is not encoded in UTF-8");
+}
+
+TEST(ParameterFile, RefusesBrokenPrm)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nsubsection Box\nend\n"),
+            "a.prm:1: subsection \"Mesh\" is opened here and never left; an "
+            "\"end\" is missing");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nend\nend\n"),
+            "a.prm:3: \"end\", but there is no subsection to leave here");
+  EXPECT_EQ(example.refusal("a.prm", "subsection Mesh\nend of Mesh\n"),
+            "a.prm:2: \"of Mesh\" behind \"end\"; nothing may follow");
+  EXPECT_EQ(example.refusal("a.prm", "subsection\n"),
+            "a.prm:1: \"subsection\" without a name");
+  EXPECT_EQ(example.refusal("a.prm", "set Density 3\n"),
+            "a.prm:1: \"set Density 3\" is not of the form \"set Entry = "
+            "value\"");
+  EXPECT_EQ(example.refusal("a.prm", "Density = 3\n"),
+            "a.prm:1: \"Density = 3\" is no statement; allowed are \"set Entry "
+            "= value\", \"subsection Name\", \"end\" and \"include FILE\"");
+  EXPECT_EQ(example.refusal("a.prm", "include b.prm\n"),
+            "a.prm:1: the file to include, \"b.prm\", does not exist");
+  EXPECT_EQ(example.refusal("a.prm", "include a.prm\n"),
+            "a.prm:1: files include each other more than 10 deep");
+}
+
+TEST(ParameterFile, RefusesBrokenJson)
+{
+  Example           example;
+  const std::string message = example.refusal("a.json", "{\n\"Material\" 3}");
+  EXPECT_EQ(message.rfind("a.json:2: it is no valid JSON: ", 0), 0) << message;
+  EXPECT_EQ(example.refusal("a.json", "[]"),
+            "a.json: it must be one JSON object, {...}");
+  EXPECT_EQ(example.refusal("a.json", R"({"Material": {"Density": [1]}})"),
+            "a.json: \"Material/Density\" is a list; allowed are a text, a "
+            "number, true and false");
+  // ParameterHandler::parse_input() would ignore this.
+  EXPECT_EQ(example.refusal("a.json", R"({"Material": {"Densty": 1}})"),
+            "a.json: there is no entry \"Densty\" in \"Material\"; did you "
+            "mean \"Density\"?");
+}
+
+TEST(ParameterFile, RefusesBrokenXml)
+{
+  Example           example;
+  const std::string message = example.refusal("a.xml", "<a>\n<b></a>");
+  EXPECT_EQ(message.rfind("a.xml:2: it is no valid XML: ", 0), 0) << message;
+  EXPECT_EQ(example.refusal("a.xml", "<a></a>"),
+            "a.xml: it must have one outermost element, called "
+            "ParameterHandler");
+}
+
+TEST(ParameterFile, RefusesWrongOverrides)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm", "", {"Material/Density"}),
+            "--set: \"Material/Density\" is not of the form "
+            "\"Section/Subsection/Entry = value\"");
+  EXPECT_EQ(example.refusal("a.prm", "", {" = 3"}),
+            "--set: \" = 3\" is not of the form \"Section/Subsection/Entry = "
+            "value\"");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Materal/Density = 1"}),
+            "--set: there is no subsection \"Materal\" at the top level; did "
+            "you mean \"Material\"?");
+  EXPECT_EQ(example.refusal("a.prm", "", {"Density = 1"}),
+            "--set: there is no entry \"Density\" at the top level; it belongs "
+            "to \"Material\"");
+}
