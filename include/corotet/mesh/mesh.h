@@ -93,7 +93,8 @@ namespace corotet
          Log               &log);
 
     /// Cells carry the region as material id and the surface's faces the
-    /// boundary as boundary id.
+    /// boundary as boundary id, or unnamed_boundary (triangulation.h) where
+    /// they belong to none.
     const dealii::parallel::fullydistributed::Triangulation<3> &
     triangulation() const
     {

@@ -49,6 +49,10 @@ namespace corotet
     /// What an error in the mesh is blamed on: a file name, or empty for a
     /// generated mesh.
     std::string origin;
+
+    /// What the user should know about how the mesh was made: lines for the
+    /// log.
+    std::vector<std::string> remarks;
   };
 } // namespace corotet
 

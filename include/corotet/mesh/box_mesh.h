@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_box_mesh_h
+#define corotet_mesh_box_mesh_h
+
+#include <corotet/mesh/mesh_source.h>
+
+#include <array>
+
+namespace corotet
+{
+  /**
+   * A box of cuboids, each cut into five tetrahedra: one regular in the middle
+   * (if the cuboid is a cube) and one at every other corner. Neighbours are
+   * mirror images, so the mesh is conforming and prefers no diagonal.
+   *
+   * The sides are the boundaries x-min, x-max, y-min, y-max, z-min, z-max with
+   * the ids 0 to 5; the volume is the region body with the id 0.
+   */
+  class BoxMesh : public MeshSource
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    SerialMesh
+    create(const std::string &folder) const override;
+
+  private:
+    std::array<double, 3>       origin  = {{0, 0, 0}};
+    std::array<double, 3>       size    = {{1, 0.1, 0.1}};
+    std::array<unsigned int, 3> n_cells = {{10, 1, 1}};
+  };
+} // namespace corotet
+
+#endif

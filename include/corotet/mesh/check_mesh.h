@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_check_mesh_h
+#define corotet_mesh_check_mesh_h
+
+#include <corotet/mesh/serial_mesh.h>
+
+namespace corotet
+{
+  /**
+   * Makes sure that a mesh can be computed on, or throws an InputError that
+   * says what is wrong and where (in the coordinates of @p mesh):
+   * - there are cells, and indices of vertices are in range;
+   * - every volume is positive;
+   * - a triangle belongs to one cell, or to two that lie on its two sides;
+   * - no two vertices of the surface coincide, and nowhere does the surface
+   *   touch itself other than in shared vertices and edges. (Where cells do not
+   *   fit together, at a hanging node or along an unglued interface, there are
+   *   two layers of surface.)
+   * - listed faces are faces of cells, and each has one boundary.
+   *
+   * Listed faces that lie inside the body (a named interface of two regions)
+   * are removed with a remark.
+   */
+  void
+  check_mesh(SerialMesh &mesh);
+
+  /**
+   * Throws the InputError that says @p message about @p mesh: blamed on the
+   * file it is from or, if it was generated, on the parameter that chose its
+   * generator.
+   */
+  [[noreturn]] void
+  refuse_mesh(const SerialMesh &mesh, const std::string &message);
+
+  /// A point as messages show it.
+  std::string
+  position(const dealii::Point<3> &p);
+
+  /// The centre of the triangle with these vertices.
+  dealii::Point<3>
+  centre(const SerialMesh &mesh, const std::array<unsigned int, 3> &triangle);
+} // namespace corotet
+
+#endif

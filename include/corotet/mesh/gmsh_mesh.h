@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_gmsh_mesh_h
+#define corotet_mesh_gmsh_mesh_h
+
+#include <corotet/mesh/mesh_source.h>
+
+namespace corotet
+{
+  /**
+   * A mesh that gmsh reads (.msh 2.2 or 4.1, ASCII or binary) or makes (.geo,
+   * in this process), https://gmsh.info.
+   *
+   * Physical volumes become regions and physical surfaces boundaries, with
+   * gmsh's names and ids. Without any physical volume all cells belong to
+   * region 0; if there are some, tetrahedra outside of them are left out with a
+   * remark, as gmsh does when it writes a file. Nodes that no element uses are
+   * dropped. Cells other than straight-sided tetrahedra are refused.
+   */
+  class GmshMesh : public MeshSource
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    SerialMesh
+    create(const std::string &folder) const override;
+
+  private:
+    std::string file;
+    double      element_size = 0;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_mesh_quality_h
+#define corotet_mesh_mesh_quality_h
+
+#include <corotet/mesh/serial_mesh.h>
+
+namespace corotet
+{
+  /**
+   * Figures that tell whether a mesh is what its user meant, and how well it is
+   * shaped.
+   */
+  struct MeshQuality
+  {
+    /// Sum over the cells, in m^3.
+    double volume = 0;
+    /// Between two faces of a cell, in degrees. At most 70.53, that of the
+    /// regular tetrahedron.
+    double smallest_dihedral_angle = 180;
+    /// Longest edge of a cell over 2 sqrt(6) times the radius of its inscribed
+    /// sphere: 1 for the regular tetrahedron, larger for all others.
+    double worst_aspect_ratio = 1;
+  };
+
+  /**
+   * Volume of the tetrahedron with these vertices in m^3, negative if p3 sees
+   * the triangle p0 p1 p2 clockwise.
+   */
+  double
+  signed_volume(const std::array<dealii::Point<3>, 4> &p);
+
+  /// The vertices of a cell of @p mesh.
+  std::array<dealii::Point<3>, 4>
+  cell_vertices(const SerialMesh &mesh, const SerialMesh::Cell &cell);
+
+  /// Volumes must be positive.
+  MeshQuality
+  mesh_quality(const SerialMesh &mesh);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/mesh/box_mesh.h>
+#include <corotet/mesh/triangulation.h>
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <fmt/format.h>
+
+namespace corotet
+{
+  void
+  BoxMesh::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Origin",
+                      origin,
+                      "The corner with the smallest x, y and z [m, before "
+                      "scaling].",
+                      List(Double(), 3, 3));
+    // The upper limits keep a typing error from becoming overflow.
+    prm.add_parameter("Size",
+                      size,
+                      "Lengths in x, y and z [m, before scaling].",
+                      List(Double(1e-30, 1e30), 3, 3));
+    prm.add_parameter("Cells",
+                      n_cells,
+                      "Numbers of cuboids in x, y and z. Each is cut into five "
+                      "tetrahedra.",
+                      List(Integer(1, 100000), 3, 3));
+  }
+
+
+
+  SerialMesh
+  BoxMesh::create(const std::string & /*folder*/) const
+  {
+    const double n_tetrahedra = 5. * n_cells[0] * n_cells[1] * n_cells[2];
+    if (n_tetrahedra > 1e8)
+      throw InputError("Mesh/box/Cells",
+                       fmt::format("too many cells: found {} x {} x {}, which "
+                                   "makes {:.3g} tetrahedra; at most 1e8 are "
+                                   "allowed",
+                                   n_cells[0],
+                                   n_cells[1],
+                                   n_cells[2],
+                                   n_tetrahedra));
+
+    dealii::Point<3> lower, upper;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        lower[d] = origin[d];
+        upper[d] = origin[d] + size[d];
+      }
+    dealii::Triangulation<3> tria;
+    dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(
+      tria, {n_cells.begin(), n_cells.end()}, lower, upper, true);
+
+    SerialMesh mesh = make_serial_mesh(tria);
+    // deal.II numbers the octants.
+    for (SerialMesh::Cell &cell : mesh.cells)
+      cell.region = 0;
+    mesh.region_names   = {{0, "body"}};
+    mesh.boundary_names = {{0, "x-min"},
+                           {1, "x-max"},
+                           {2, "y-min"},
+                           {3, "y-max"},
+                           {4, "z-min"},
+                           {5, "z-max"}};
+    return mesh;
+  }
+} // namespace corotet

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/mesh/gmsh_mesh.h>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <unordered_map>
+
+namespace corotet
+{
+  namespace
+  {
+    // What gmsh calls the elements that there may be.
+    constexpr int triangle_type    = 2;
+    constexpr int tetrahedron_type = 4;
+
+    // The library's state, which is global: from here to the end of the scope.
+    class Session
+    {
+    public:
+      Session()
+      {
+        // Neither the user's configuration nor a handler of Ctrl-C.
+        gmsh::initialize(0, nullptr, false, false);
+        gmsh::option::setNumber("General.Terminal", 0);
+      }
+
+      ~Session()
+      {
+        try
+          {
+            gmsh::finalize();
+          }
+        catch (...)
+          {
+            // Nothing is left to be saved.
+          }
+      }
+
+      Session(const Session &) = delete;
+      Session &
+      operator=(const Session &) = delete;
+    };
+
+
+
+    // An error of gmsh, "'PATH', line N: TEXT" or any other text, as
+    // "PATH:N: TEXT" or "PATH: TEXT".
+    std::string
+    message_of_gmsh(const std::string &path, std::string text)
+    {
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      const std::string start = "'" + path + "', line ";
+      if (text.compare(0, start.size(), start) != 0)
+        return path + ": gmsh: " + text;
+      const std::size_t colon = text.find(':', start.size());
+      return path + ":" + text.substr(start.size(), colon - start.size()) +
+             ": gmsh" + text.substr(std::min(colon, text.size()));
+    }
+
+
+
+    // gmsh takes whatever does not look like a mesh for a script.
+    void
+    check_file(const std::string &path)
+    {
+      if (!std::filesystem::is_regular_file(path))
+        throw InputError("Mesh/gmsh/File",
+                         "there is no mesh file: found '" + path + "'");
+      const std::string extension =
+        std::filesystem::path(path).extension().string();
+      if (extension != ".msh" && extension != ".geo")
+        throw InputError("Mesh/gmsh/File",
+                         "the kind of mesh file is unknown: found '" + path +
+                           "'; allowed are .msh and .geo");
+      std::ifstream stream(path);
+      if (!stream)
+        throw MachineError(path + ": cannot be read (permission?)");
+      if (extension == ".msh" && stream.get() != '$')
+        throw InputError("",
+                         path + ": is no gmsh mesh: it must start with "
+                                "'$MeshFormat'");
+    }
+
+
+
+    void
+    open_and_generate(const std::string &path, const double element_size)
+    {
+      gmsh::open(path);
+      if (std::filesystem::path(path).extension() != ".geo")
+        return;
+      // After the file, which may set them too.
+      gmsh::option::setNumber("Mesh.ElementOrder", 1);
+      if (element_size > 0)
+        {
+          gmsh::option::setNumber("Mesh.MeshSizeMin", element_size);
+          gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
+        }
+      gmsh::model::mesh::generate(3);
+    }
+
+
+
+    void
+    refuse_other_cells(const std::string &path)
+    {
+      std::vector<int>                      types;
+      std::vector<std::vector<std::size_t>> elements, nodes;
+      gmsh::model::mesh::getElements(types, elements, nodes, 3);
+
+      std::vector<std::string> others;
+      bool                     tetrahedra = false;
+      for (unsigned int i = 0; i < types.size(); ++i)
+        if (types[i] == tetrahedron_type)
+          tetrahedra = true;
+        else
+          {
+            std::string         name;
+            int                 dimension, order, n_nodes, n_primary_nodes;
+            std::vector<double> coordinates;
+            gmsh::model::mesh::getElementProperties(types[i],
+                                                    name,
+                                                    dimension,
+                                                    order,
+                                                    n_nodes,
+                                                    coordinates,
+                                                    n_primary_nodes);
+            others.push_back(
+              fmt::format("{} of the type '{}'", elements[i].size(), name));
+          }
+      if (!others.empty())
+        throw InputError("",
+                         path + ": cells other than tetrahedra with 4 nodes: " +
+                           "found " + join(others) +
+                           "; only 'Tetrahedron 4' is allowed");
+      if (!tetrahedra)
+        throw InputError("", path + ": the mesh has no tetrahedra");
+    }
+
+
+
+    // Physical groups of one dimension: names by id, and the id of each
+    // geometric entity that belongs to a group.
+    struct PhysicalGroups
+    {
+      std::map<unsigned int, std::string> names;
+      std::map<int, unsigned int>         of_entity;
+    };
+
+
+
+    PhysicalGroups
+    physical_groups(const std::string &path, const int dimension)
+    {
+      const std::string          kind = dimension == 3 ? "volume" : "surface";
+      PhysicalGroups             groups;
+      std::map<std::string, int> ids;
+      gmsh::vectorpair           tags;
+      gmsh::model::getPhysicalGroups(tags, dimension);
+      for (const auto &[dim, id] : tags)
+        {
+          std::string name;
+          gmsh::model::getPhysicalName(dim, id, name);
+          groups.names[id] = name;
+          if (!name.empty() && !ids.emplace(name, id).second)
+            throw InputError("",
+                             fmt::format("{}: two physical {}s have the name "
+                                         "'{}': found the ids {} and {}",
+                                         path,
+                                         kind,
+                                         name,
+                                         ids[name],
+                                         id));
+
+          std::vector<int> entities;
+          gmsh::model::getEntitiesForPhysicalGroup(dim, id, entities);
+          for (const int entity : entities)
+            {
+              const auto [place, is_new] = groups.of_entity.emplace(entity, id);
+              if (!is_new)
+                throw InputError(
+                  "",
+                  fmt::format("{}: {} {} belongs to two physical groups: found "
+                              "'{}' (id {}) and '{}' (id {}); one is allowed "
+                              "(a file of version 2.2 needs an elementary tag "
+                              "of its own for each group)",
+                              path,
+                              kind,
+                              entity,
+                              groups.names[place->second],
+                              place->second,
+                              name,
+                              id));
+            }
+        }
+      return groups;
+    }
+
+
+
+    // The nodes that elements use, in the order in which they are asked for:
+    // gmsh's tags may be sparse, and there may be nodes of no element.
+    class Nodes
+    {
+    public:
+      Nodes()
+      {
+        std::vector<std::size_t> tags;
+        std::vector<double>      parameters;
+        gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+        for (std::size_t i = 0; i < tags.size(); ++i)
+          positions.emplace(tags[i], i);
+      }
+
+      unsigned int
+      vertex(SerialMesh &mesh, const std::size_t tag)
+      {
+        const auto position = positions.find(tag);
+        if (position == positions.end())
+          throw InputError("",
+                           fmt::format("{}: an element has the node {}, which "
+                                       "the file does not contain",
+                                       mesh.origin,
+                                       tag));
+        const auto [number, is_new] =
+          numbers.emplace(tag, mesh.vertices.size());
+        if (is_new)
+          {
+            const double *x = coordinates.data() + 3 * position->second;
+            mesh.vertices.emplace_back(x[0], x[1], x[2]);
+          }
+        return number->second;
+      }
+
+    private:
+      std::vector<double>                           coordinates;
+      std::unordered_map<std::size_t, std::size_t>  positions;
+      std::unordered_map<std::size_t, unsigned int> numbers;
+    };
+
+
+
+    void
+    read_cells(SerialMesh &mesh, Nodes &nodes, const PhysicalGroups &groups)
+    {
+      std::size_t      n_left_out = 0;
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, 3);
+      for (const auto &[dimension, entity] : entities)
+        {
+          std::vector<std::size_t> elements, corners;
+          gmsh::model::mesh::getElementsByType(tetrahedron_type,
+                                               elements,
+                                               corners,
+                                               entity);
+          const auto group = groups.of_entity.find(entity);
+          if (group == groups.of_entity.end() && !groups.names.empty())
+            {
+              n_left_out += elements.size();
+              continue;
+            }
+          const unsigned int region =
+            group == groups.of_entity.end() ? 0 : group->second;
+          for (std::size_t i = 0; i < corners.size(); i += 4)
+            mesh.cells.push_back({{{nodes.vertex(mesh, corners[i]),
+                                    nodes.vertex(mesh, corners[i + 1]),
+                                    nodes.vertex(mesh, corners[i + 2]),
+                                    nodes.vertex(mesh, corners[i + 3])}},
+                                  region});
+        }
+      if (n_left_out > 0)
+        mesh.remarks.push_back(
+          fmt::format("{} tetrahedra belong to no physical volume, though "
+                      "others do; they are left out",
+                      n_left_out));
+    }
+
+
+
+    void
+    read_faces(SerialMesh &mesh, Nodes &nodes, const PhysicalGroups &groups)
+    {
+      for (const auto &[entity, boundary] : groups.of_entity)
+        {
+          std::vector<std::size_t> elements, corners;
+          gmsh::model::mesh::getElementsByType(triangle_type,
+                                               elements,
+                                               corners,
+                                               entity);
+          for (std::size_t i = 0; i < corners.size(); i += 3)
+            mesh.faces.push_back({{{nodes.vertex(mesh, corners[i]),
+                                    nodes.vertex(mesh, corners[i + 1]),
+                                    nodes.vertex(mesh, corners[i + 2])}},
+                                  boundary});
+        }
+    }
+
+
+
+    SerialMesh
+    read(const std::string &path)
+    {
+      refuse_other_cells(path);
+      const PhysicalGroups volumes  = physical_groups(path, 3);
+      const PhysicalGroups surfaces = physical_groups(path, 2);
+
+      SerialMesh mesh;
+      mesh.origin         = path;
+      mesh.region_names   = volumes.names;
+      mesh.boundary_names = surfaces.names;
+      Nodes nodes;
+      read_cells(mesh, nodes, volumes);
+      read_faces(mesh, nodes, surfaces);
+      return mesh;
+    }
+  } // namespace
+
+
+
+  void
+  GmshMesh::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("File",
+                      file,
+                      "A gmsh mesh (.msh, version 2.2 or 4.1, ASCII or binary) "
+                      "or geometry (.geo), relative to the folder of this "
+                      "file.",
+                      dealii::Patterns::FileName());
+    prm.add_parameter("Element size",
+                      element_size,
+                      "Target length of edges for a .geo [m, before scaling]; "
+                      "0 leaves it to the file.",
+                      dealii::Patterns::Double(0));
+  }
+
+
+
+  SerialMesh
+  GmshMesh::create(const std::string &folder) const
+  {
+    if (file.empty())
+      throw InputError("Mesh/gmsh/File",
+                       "no mesh file: found an empty name; give the name of a "
+                       ".msh or .geo file");
+    const std::string path =
+      (std::filesystem::path(folder) / file).lexically_normal().string();
+    check_file(path);
+
+    try
+      {
+        const Session session;
+        open_and_generate(path, element_size);
+        return read(path);
+      }
+    catch (const Error &)
+      {
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        throw InputError("", message_of_gmsh(path, error.what()));
+      }
+  }
+} // namespace corotet

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/mesh/triangulation.h>
+
+#include <deal.II/base/utilities.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria_description.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace corotet
+{
+  namespace
+  {
+    // deal.II gives faces of the surface that nobody mentions the boundary id
+    // 0, which may be a named boundary's. So ids travel with these two swapped.
+    dealii::types::boundary_id
+    swapped(const dealii::types::boundary_id id)
+    {
+      return id == 0 ? unnamed_boundary : id == unnamed_boundary ? 0 : id;
+    }
+
+
+
+    // One subdomain per rank, none of them empty.
+    void
+    partition(dealii::Triangulation<3> &tria, const unsigned int n_ranks)
+    {
+      dealii::GridTools::partition_triangulation(
+        n_ranks, tria, dealii::SparsityTools::Partitioner::metis);
+
+      std::vector<bool> has_cells(n_ranks, false);
+      for (const auto &cell : tria.active_cell_iterators())
+        has_cells[cell->subdomain_id()] = true;
+      if (std::find(has_cells.begin(), has_cells.end(), false) ==
+          has_cells.end())
+        return;
+
+      // METIS may leave ranks without cells where there are few of them. Equal
+      // pieces of the curve are good enough then.
+      const std::size_t n_cells = tria.n_active_cells();
+      for (const auto &cell : tria.active_cell_iterators())
+        cell->set_subdomain_id(cell->active_cell_index() * n_ranks / n_cells);
+    }
+
+
+
+    // The order of the vertices in which the cells meet them; invalid for
+    // others.
+    std::vector<unsigned int>
+    number_vertices_by_cells(const SerialMesh &mesh)
+    {
+      std::vector<unsigned int> new_number(
+        mesh.vertices.size(), dealii::numbers::invalid_unsigned_int);
+      unsigned int n = 0;
+      for (const SerialMesh::Cell &cell : mesh.cells)
+        for (const unsigned int v : cell.vertices)
+          if (new_number[v] == dealii::numbers::invalid_unsigned_int)
+            new_number[v] = n++;
+      return new_number;
+    }
+
+
+
+    // Cells by their place on the curve through their centres.
+    std::vector<unsigned int>
+    order_along_curve(const SerialMesh &mesh)
+    {
+      std::vector<dealii::Point<3>> centres(mesh.cells.size());
+      for (unsigned int c = 0; c < centres.size(); ++c)
+        for (const unsigned int v : mesh.cells[c].vertices)
+          centres[c] += mesh.vertices[v] / 4.;
+      const dealii::BoundingBox<3> box(centres);
+      double                       extent = 0;
+      for (unsigned int d = 0; d < 3; ++d)
+        extent = std::max(extent, box.side_length(d));
+
+      // The same unit of length in all directions: stretching a slender body
+      // to a cube would make far cells neighbours on the curve.
+      constexpr int n_bits = 21;
+      const double  unit   = extent > 0 ? ((1 << n_bits) - 1) / extent : 0;
+      std::vector<std::array<std::uint64_t, 3>> coordinates(centres.size());
+      for (unsigned int c = 0; c < centres.size(); ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+          coordinates[c][d] = static_cast<std::uint64_t>(
+            unit * (centres[c][d] - box.lower_bound(d)));
+      const auto place =
+        dealii::Utilities::inverse_Hilbert_space_filling_curve<3>(coordinates,
+                                                                  n_bits);
+
+      std::vector<unsigned int> order(centres.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](const unsigned int a, const unsigned int b) {
+                         return place[a] < place[b];
+                       });
+      return order;
+    }
+  } // namespace
+
+
+
+  void
+  make_triangulation(const SerialMesh &mesh, dealii::Triangulation<3> &tria)
+  {
+    std::vector<dealii::CellData<3>> cells;
+    cells.reserve(mesh.cells.size());
+    for (const SerialMesh::Cell &cell : mesh.cells)
+      {
+        dealii::CellData<3> &data = cells.emplace_back(4);
+        data.vertices.assign(cell.vertices.begin(), cell.vertices.end());
+        data.material_id = cell.region;
+      }
+
+    dealii::SubCellData surface;
+    surface.boundary_quads.reserve(mesh.faces.size());
+    for (const SerialMesh::Face &face : mesh.faces)
+      {
+        dealii::CellData<2> &data = surface.boundary_quads.emplace_back(3);
+        data.vertices.assign(face.vertices.begin(), face.vertices.end());
+        data.boundary_id = swapped(face.boundary);
+      }
+
+    tria.create_triangulation(mesh.vertices, cells, surface);
+    for (const auto &face : tria.active_face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(swapped(face->boundary_id()));
+  }
+
+
+
+  SerialMesh
+  make_serial_mesh(const dealii::Triangulation<3> &tria)
+  {
+    SerialMesh mesh;
+    mesh.vertices = tria.get_vertices();
+    mesh.cells.reserve(tria.n_active_cells());
+    for (const auto &cell : tria.active_cell_iterators())
+      mesh.cells.push_back({{{cell->vertex_index(0),
+                              cell->vertex_index(1),
+                              cell->vertex_index(2),
+                              cell->vertex_index(3)}},
+                            cell->material_id()});
+    for (const auto &face : tria.active_face_iterators())
+      if (face->at_boundary() && face->boundary_id() != unnamed_boundary)
+        mesh.faces.push_back({{{face->vertex_index(0),
+                                face->vertex_index(1),
+                                face->vertex_index(2)}},
+                              face->boundary_id()});
+    return mesh;
+  }
+
+
+
+  void
+  refine_uniformly(SerialMesh &mesh, const unsigned int n_refinements)
+  {
+    if (n_refinements == 0)
+      return;
+    dealii::Triangulation<3> tria;
+    make_triangulation(mesh, tria);
+    tria.refine_global(n_refinements);
+    SerialMesh refined = make_serial_mesh(tria);
+    mesh.vertices      = std::move(refined.vertices);
+    mesh.cells         = std::move(refined.cells);
+    mesh.faces         = std::move(refined.faces);
+  }
+
+
+
+  void
+  sort_along_curve(SerialMesh &mesh)
+  {
+    std::vector<SerialMesh::Cell> cells;
+    cells.reserve(mesh.cells.size());
+    for (const unsigned int c : order_along_curve(mesh))
+      cells.push_back(mesh.cells[c]);
+    mesh.cells = std::move(cells);
+
+    const std::vector<unsigned int> new_number = number_vertices_by_cells(mesh);
+    std::vector<dealii::Point<3>>   vertices(mesh.vertices.size());
+    unsigned int                    n_used = 0;
+    for (unsigned int v = 0; v < new_number.size(); ++v)
+      if (new_number[v] != dealii::numbers::invalid_unsigned_int)
+        {
+          vertices[new_number[v]] = mesh.vertices[v];
+          ++n_used;
+        }
+    vertices.resize(n_used);
+    mesh.vertices = std::move(vertices);
+    for (SerialMesh::Cell &cell : mesh.cells)
+      for (unsigned int &v : cell.vertices)
+        v = new_number[v];
+    for (SerialMesh::Face &face : mesh.faces)
+      for (unsigned int &v : face.vertices)
+        v = new_number[v];
+  }
+
+
+
+  void
+  distribute(const SerialMesh                                     &mesh,
+             dealii::parallel::fullydistributed::Triangulation<3> &tria)
+  {
+    const MPI_Comm     comm    = tria.get_communicator();
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    const auto description     = dealii::TriangulationDescription::Utilities::
+      create_description_from_triangulation_in_groups<3, 3>(
+        [&](dealii::Triangulation<3> &serial) {
+          make_triangulation(mesh, serial);
+        },
+        [&](dealii::Triangulation<3> &serial,
+            const MPI_Comm,
+            const unsigned int) { partition(serial, n_ranks); },
+        comm,
+        n_ranks);
+    tria.create_triangulation(description);
+
+    // Where the known part of the mesh ends, at the far side of ghost cells,
+    // deal.II sees a surface with the boundary id 0. It is none of the body's.
+    auto cell = tria.begin_active();
+    for (const auto &data : description.cell_infos[0])
+      {
+        for (const unsigned int f : cell->face_indices())
+          if (cell->at_boundary(f) &&
+              std::none_of(data.boundary_ids.begin(),
+                           data.boundary_ids.end(),
+                           [&](const auto &id) { return id.first == f; }))
+            cell->face(f)->set_boundary_id(unnamed_boundary);
+        ++cell;
+      }
+  }
+} // namespace corotet

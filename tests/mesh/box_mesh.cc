@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The generated box: its volume, the areas of its sides, its names, its
+// conformity and its shape are known exactly.
+
+#include <corotet/mesh/box_mesh.h>
+#include <corotet/mesh/check_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/tools.h"
+
+using namespace corotet;
+using namespace corotet_tests;
+
+namespace
+{
+  SerialMesh
+  make_box(const std::string &origin,
+           const std::string &size,
+           const std::string &cells)
+  {
+    BoxMesh                  source;
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("Origin", origin);
+    prm.set("Size", size);
+    prm.set("Cells", cells);
+    return source.create("");
+  }
+} // namespace
+
+// Five cells a cuboid; sides by their areas; even and odd numbers of cells
+// (neighbouring cuboids are mirrored, which must fit for both). Sums of n
+// positive terms of round-off 2e-16 each: 1e-13.
+TEST(BoxMesh, VolumeAndSides)
+{
+  SerialMesh mesh = make_box("-1, 2, 0.5", "2, 0.5, 0.25", "5, 2, 3");
+  check_mesh(mesh);
+  EXPECT_TRUE(mesh.remarks.empty());
+  EXPECT_EQ(mesh.cells.size(), 5u * 5 * 2 * 3);
+  EXPECT_EQ(mesh.vertices.size(), 6u * 3 * 4);
+  EXPECT_EQ(mesh.faces.size(), 4u * (5 * 2 + 5 * 3 + 2 * 3));
+  EXPECT_NEAR(region_volumes(mesh).at(0), 0.25, 1e-13);
+  EXPECT_EQ(mesh.region_names,
+            (std::map<unsigned int, std::string>{{0, "body"}}));
+
+  const std::map<std::string, double> expected = {{"x-min", 0.125},
+                                                  {"x-max", 0.125},
+                                                  {"y-min", 0.5},
+                                                  {"y-max", 0.5},
+                                                  {"z-min", 1},
+                                                  {"z-max", 1}};
+  const auto                          areas    = boundary_areas(mesh);
+  ASSERT_EQ(areas.size(), 6u);
+  for (const auto &[id, area] : areas)
+    EXPECT_NEAR(area, expected.at(mesh.boundary_names.at(id)), 1e-13);
+
+  // Each side is where its name says, exactly: corners are not computed.
+  const double place[6] = {-1, 1, 2, 2.5, 0.5, 0.75};
+  for (const SerialMesh::Face &face : mesh.faces)
+    for (const unsigned int v : face.vertices)
+      EXPECT_NEAR(mesh.vertices[v][face.boundary / 2],
+                  place[face.boundary],
+                  1e-15);
+}
+
+// A cube's five cells are a regular tetrahedron (70.53 degrees, 1) and four
+// corners: between a side and the cut acos(1/sqrt(3)), longest edge sqrt(2),
+// inradius 3V/A = (1/2) / (3/2 + sqrt(3)/2), so an aspect ratio of
+// (1 + sqrt(3)) / 2.
+TEST(BoxMesh, Quality)
+{
+  const SerialMesh  mesh    = make_box("0, 0, 0", "3, 3, 3", "3, 3, 3");
+  const MeshQuality quality = mesh_quality(mesh);
+  EXPECT_NEAR(quality.volume, 27, 1e-12);
+  EXPECT_NEAR(quality.smallest_dihedral_angle,
+              std::acos(1 / std::sqrt(3.)) * 180 / std::acos(-1.),
+              1e-12);
+  EXPECT_NEAR(quality.worst_aspect_ratio, (1 + std::sqrt(3.)) / 2, 1e-13);
+}
+
+// The defaults, as the documentation states them, make a valid mesh.
+TEST(BoxMesh, Defaults)
+{
+  SerialMesh mesh = BoxMesh().create("");
+  check_mesh(mesh);
+  EXPECT_EQ(mesh.cells.size(), 50u);
+  EXPECT_NEAR(mesh_quality(mesh).volume, 0.01, 1e-16);
+}
+
+TEST(BoxMesh, Refusals)
+{
+  EXPECT_EQ(refusal([] { make_box("0,0,0", "1,1,1", "10000,10000,1"); }),
+            "Mesh/box/Cells: too many cells: found 10000 x 10000 x 1, which "
+            "makes 5e+08 tetrahedra; at most 1e8 are allowed");
+  for (const std::string size : {"1, 1", "1, 0, 1", "1, -1, 1", "1, a, 1"})
+    EXPECT_THROW(make_box("0,0,0", size, "1,1,1"), dealii::ExceptionBase)
+      << size;
+  for (const std::string cells : {"1, 1", "1, 0, 1", "1, 1.5, 1"})
+    EXPECT_THROW(make_box("0,0,0", "1,1,1", cells), dealii::ExceptionBase)
+      << cells;
+}

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Meshes from gmsh: all formats of one body agree with each other and with the
+// body's exact volume and areas; files that cannot be used are refused by name.
+
+#include <corotet/mesh/check_mesh.h>
+
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/tools.h"
+
+using namespace corotet;
+using namespace corotet_tests;
+
+namespace
+{
+  using Names = std::map<unsigned int, std::string>;
+
+  // Two bricks of 1 x 1 x 1 and 2 x 1 x 1 that share their interface.
+  const std::string bricks = R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Box(2) = {1, 0, 0, 2, 1, 1};
+BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+e = 1e-3;
+left()   = Surface In BoundingBox{-e, -e, -e, e, 1 + e, 1 + e};
+middle() = Surface In BoundingBox{1 - e, -e, -e, 1 + e, 1 + e, 1 + e};
+right()  = Surface In BoundingBox{3 - e, -e, -e, 3 + e, 1 + e, 1 + e};
+Physical Volume("small", 4) = {1};
+Physical Volume(17) = {2};
+Physical Surface("left", 4) = {left()};
+Physical Surface("middle", 8) = {middle()};
+Physical Surface(30) = {right()};
+Mesh.MeshSizeMin = 0.4;
+Mesh.MeshSizeMax = 0.4;
+)";
+
+  // An ASCII file of version 2.2.
+  std::string
+  msh(const std::string &nodes,
+      const std::string &elements,
+      const std::string &names = "")
+  {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + "$Nodes\n" +
+           nodes + "$EndNodes\n$Elements\n" + elements + "$EndElements\n";
+  }
+
+  // Nodes of the unit tetrahedron, with sparse numbers.
+  const std::string unit_nodes =
+    "4\n10 0 0 0\n2000000 1 0 0\n300 0 1 0\n40000 0 0 1\n";
+
+  void
+  expect_bricks(SerialMesh mesh)
+  {
+    check_mesh(mesh);
+    EXPECT_EQ(mesh.region_names, (Names{{4, "small"}, {17, ""}}));
+    EXPECT_EQ(mesh.boundary_names,
+              (Names{{4, "left"}, {8, "middle"}, {30, ""}}));
+    // Plane sides: exact up to the round-off of some hundred terms.
+    EXPECT_NEAR(region_volumes(mesh).at(4), 1, 1e-13);
+    EXPECT_NEAR(region_volumes(mesh).at(17), 2, 1e-13);
+    EXPECT_NEAR(boundary_areas(mesh).at(4), 1, 1e-13);
+    EXPECT_NEAR(boundary_areas(mesh).at(30), 1, 1e-13);
+    EXPECT_EQ(boundary_areas(mesh).size(), 2u);
+    ASSERT_EQ(mesh.remarks.size(), 1u);
+    EXPECT_NE(mesh.remarks[0].find("boundary 'middle' has "),
+              std::string::npos);
+    EXPECT_NE(mesh.remarks[0].find(" faces inside the body; they are ignored"),
+              std::string::npos);
+  }
+
+  std::string
+  message(const std::string &file)
+  {
+    return refusal([&] { read_gmsh(file); });
+  }
+} // namespace
+
+// The named surface between the bricks is dropped by the check.
+TEST(GmshMesh, Geometry)
+{
+  const TemporaryFolder folder;
+  folder.write("bricks.geo", bricks);
+  const SerialMesh mesh = read_gmsh("bricks.geo", folder.path.string());
+  EXPECT_EQ(mesh.origin, (folder.path / "bricks.geo").string());
+  expect_bricks(mesh);
+}
+
+// gmsh itself writes the mesh of one geometry in every format; each holds the
+// same cells.
+TEST(GmshMesh, AllFormats)
+{
+  const TemporaryFolder folder;
+  const std::string     geometry = folder.write("bricks.geo", bricks);
+  const std::size_t     n_cells  = read_gmsh(geometry).cells.size();
+  for (const double version : {2.2, 4.1})
+    for (const int binary : {0, 1})
+      {
+        const std::string file = (folder.path / "bricks.msh").string();
+        gmsh::initialize(0, nullptr, false, false);
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::open(geometry);
+        gmsh::model::mesh::generate(3);
+        gmsh::option::setNumber("Mesh.MshFileVersion", version);
+        gmsh::option::setNumber("Mesh.Binary", binary);
+        gmsh::write(file);
+        gmsh::finalize();
+
+        SCOPED_TRACE(testing::Message() << version << " binary " << binary);
+        const SerialMesh mesh = read_gmsh(file);
+        EXPECT_EQ(mesh.cells.size(), n_cells);
+        expect_bricks(mesh);
+      }
+}
+
+// Halving the target size makes about eight times as many cells (somewhat fewer
+// while many of them are at the surface).
+TEST(GmshMesh, ElementSize)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder.write("bricks.geo", bricks);
+  EXPECT_EQ(read_gmsh(file, "", "0.4").cells.size(),
+            read_gmsh(file).cells.size());
+  const double     coarse = read_gmsh(file, "", "0.2").cells.size();
+  const SerialMesh fine   = read_gmsh(file, "", "0.1");
+  EXPECT_GT(fine.cells.size() / coarse, 6);
+  EXPECT_LT(fine.cells.size() / coarse, 9);
+  expect_bricks(fine);
+}
+
+// Without physical groups everything is region 0 and there are no boundaries.
+TEST(GmshMesh, NoPhysicalGroups)
+{
+  const TemporaryFolder folder;
+  SerialMesh            mesh = read_gmsh(folder.write("box.geo",
+                                           "SetFactory(\"OpenCASCADE\");\n"
+                                                      "Box(1) = {0, 0, 0, 1, 2, 3};\n"));
+  check_mesh(mesh);
+  EXPECT_NEAR(region_volumes(mesh).at(0), 6, 1e-12);
+  EXPECT_TRUE(mesh.region_names.empty());
+  EXPECT_TRUE(mesh.boundary_names.empty());
+  EXPECT_TRUE(mesh.faces.empty());
+}
+
+TEST(GmshMesh, CellsOfNoPhysicalVolumeAreLeftOut)
+{
+  const TemporaryFolder folder;
+  SerialMesh            mesh =
+    read_gmsh(folder.write("two.geo",
+                           "SetFactory(\"OpenCASCADE\");\n"
+                           "Box(1) = {0, 0, 0, 1, 1, 1};\n"
+                           "Box(2) = {5, 0, 0, 1, 1, 1};\n"
+                           "Physical Volume(\"a\", 1) = {1};\n"));
+  check_mesh(mesh);
+  EXPECT_NEAR(mesh_quality(mesh).volume, 1, 1e-13);
+  ASSERT_EQ(mesh.remarks.size(), 1u);
+  EXPECT_NE(mesh.remarks[0].find(" tetrahedra belong to no physical volume, "
+                                 "though others do; they are left out"),
+            std::string::npos);
+}
+
+// Numbers of nodes need not be consecutive, and the node 5 belongs to nothing.
+TEST(GmshMesh, SparseAndUnusedNodes)
+{
+  const TemporaryFolder folder;
+  SerialMesh            mesh =
+    read_gmsh(folder.write("sparse.msh",
+                           msh("5\n5 9 9 9\n" + unit_nodes.substr(2),
+                               "1\n77 4 2 3 1 10 2000000 300 40000\n")));
+  check_mesh(mesh);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_NEAR(region_volumes(mesh).at(3), 1. / 6, 1e-16);
+}
+
+TEST(GmshMesh, FileNames)
+{
+  const TemporaryFolder folder;
+  EXPECT_EQ(message(""),
+            "Mesh/gmsh/File: no mesh file: found an empty name; give the name "
+            "of a .msh or .geo file");
+  EXPECT_EQ(refusal([] { read_gmsh("../c.msh", "/nowhere/b"); }),
+            "Mesh/gmsh/File: there is no mesh file: found '/nowhere/c.msh'");
+  const std::string file = folder.write("x.stl", "");
+  EXPECT_EQ(message(file),
+            "Mesh/gmsh/File: the kind of mesh file is unknown: found '" + file +
+              "'; allowed are .msh and .geo");
+}
+
+TEST(GmshMesh, BrokenFiles)
+{
+  const TemporaryFolder folder;
+  std::string           file = folder.write("text.msh", "Some text.\n");
+  EXPECT_EQ(message(file),
+            file + ": is no gmsh mesh: it must start with '$MeshFormat'");
+  file = folder.write("empty.msh", "");
+  EXPECT_EQ(message(file),
+            file + ": is no gmsh mesh: it must start with '$MeshFormat'");
+  file = folder.write("cut.msh",
+                      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1");
+  EXPECT_EQ(message(file), file + ": gmsh: Could not read nodes");
+  file = folder.write(
+    "syntax.geo",
+    "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0;\nPoint(1) = {0, 0, 0};\n");
+  EXPECT_EQ(message(file), file + ":2: gmsh: syntax error (;)");
+  file = folder.write("flat.geo",
+                      "SetFactory(\"OpenCASCADE\");\n"
+                      "Box(1) = {0, 0, 0, 0, 1, 1};\n");
+  EXPECT_EQ(message(file).find(file + ": gmsh: "), 0u) << message(file);
+  file = folder.write("lost.msh",
+                      msh(unit_nodes, "1\n1 4 2 1 1 10 2000000 300 9\n"));
+  EXPECT_EQ(message(file).find(file + ": gmsh: "), 0u) << message(file);
+}
+
+TEST(GmshMesh, NoTetrahedra)
+{
+  const TemporaryFolder folder;
+  std::string           file = folder.write("point.geo", "Point(1) = {0,0,0};");
+  EXPECT_EQ(message(file), file + ": the mesh has no tetrahedra");
+  file = folder.write("triangle.msh",
+                      msh(unit_nodes, "1\n1 2 2 1 1 10 2000000 300\n"));
+  EXPECT_EQ(message(file), file + ": the mesh has no tetrahedra");
+}
+
+// Hexahedra and prisms of extruded layers, pyramids and second-order
+// tetrahedra by hand.
+TEST(GmshMesh, OtherCells)
+{
+  const TemporaryFolder folder;
+  const std::string     square =
+    "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n"
+    "Transfinite Surface{1} = {};\nTransfinite Curve{:} = 3;\n";
+  const std::string extrude = "Extrude {0, 0, 1} { Surface{1}; Layers{1}; "
+                              "Recombine; }\n";
+  const std::string allowed = "; only 'Tetrahedron 4' is allowed";
+  const std::string others  = ": cells other than tetrahedra with 4 nodes: "
+                              "found ";
+
+  std::string file =
+    folder.write("hex.geo", square + "Recombine Surface{1};\n" + extrude);
+  EXPECT_EQ(message(file),
+            file + others + "4 of the type 'Hexahedron 8'" + allowed);
+  file = folder.write("prism.geo", square + extrude);
+  EXPECT_EQ(message(file), file + others + "8 of the type 'Prism 6'" + allowed);
+  file = folder.write("pyramid.msh",
+                      msh("6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n"
+                          "6 0 0 -1\n",
+                          "2\n1 7 2 1 1 1 2 3 4 5\n2 4 2 1 1 2 1 3 6\n"));
+  EXPECT_EQ(message(file),
+            file + others + "1 of the type 'Pyramid 5'" + allowed);
+  file = folder.write(
+    "quadratic.msh",
+    msh("10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .5 .5 0\n"
+        "7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n",
+        "1\n1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n"));
+  EXPECT_EQ(message(file),
+            file + others + "1 of the type 'Tetrahedron 10'" + allowed);
+}
+
+// gmsh hands an inverted cell on as it is.
+TEST(GmshMesh, InvertedCell)
+{
+  const TemporaryFolder folder;
+  const std::string     file =
+    folder.write("inverted.msh",
+                 msh(unit_nodes, "1\n1 4 2 1 1 2000000 10 300 40000\n"));
+  EXPECT_EQ(refusal([&] {
+              SerialMesh mesh = read_gmsh(file);
+              check_mesh(mesh);
+            }),
+            file + ": 1 of 1 cells has no positive volume: found -0.166667 "
+                   "(inverted) with the corners (1, 0, 0), (0, 0, 0), (0, 1, "
+                   "0), (0, 0, 1); the last must see the others "
+                   "counter-clockwise");
+}
+
+// Two boxes that touch but were not glued, so that each has its own mesh of the
+// interface: gmsh's usual trap. The vertex is one that gmsh happens to make.
+TEST(GmshMesh, UngluedBodies)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder.write("unglued.geo",
+                                        "SetFactory(\"OpenCASCADE\");\n"
+                                            "Box(1) = {0, 0, 0, 1, 1, 1};\n"
+                                            "Box(2) = {1, 0, 0, 1, 1, 1};\n");
+  const std::string     text = refusal([&] {
+    SerialMesh mesh = read_gmsh(file);
+    check_mesh(mesh);
+  });
+  EXPECT_EQ(text.find(file + ": hanging node: the vertex at (1, "), 0u) << text;
+  EXPECT_NE(text.find("(in gmsh: BooleanFragments or Coherence)"),
+            std::string::npos);
+}
+
+TEST(GmshMesh, AmbiguousPhysicalGroups)
+{
+  const TemporaryFolder folder;
+  std::string           file =
+    folder.write("two_groups.geo",
+                 "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+                 "Physical Surface(\"a\", 3) = {1};\n"
+                 "Physical Surface(\"b\", 5) = {1, 2};\n");
+  EXPECT_EQ(message(file),
+            file + ": surface 1 belongs to two physical groups: found 'a' (id "
+                   "3) and 'b' (id 5); one is allowed (a file of version 2.2 "
+                   "needs an elementary tag of its own for each group)");
+  file = folder.write(
+    "same_name.msh",
+    msh(unit_nodes,
+        "3\n1 4 2 1 1 10 2000000 300 40000\n2 2 2 3 1 10 300 2000000\n"
+        "3 2 2 5 2 10 2000000 40000\n",
+        "$PhysicalNames\n2\n2 3 \"a\"\n2 5 \"a\"\n$EndPhysicalNames\n"));
+  EXPECT_EQ(message(file),
+            file + ": two physical surfaces have the name 'a': found the ids 3 "
+                   "and 5");
+}
+
+struct Part
+{
+  std::string           name;
+  double                volume;
+  Names                 regions;
+  std::set<std::string> boundaries;
+  // Relative: how much coarse facets cut off or add at round surfaces.
+  double tolerance;
+};
+
+// What test reports call a part.
+std::ostream &
+operator<<(std::ostream &stream, const Part &part)
+{
+  return stream << part.name;
+}
+
+class ShippedMesh : public testing::TestWithParam<Part>
+{};
+
+// Every part in meshes/, as geometry and as mesh: passes all checks, has the
+// names its users rely on and, up to its facets, the volume of its design.
+TEST_P(ShippedMesh, LoadsAndPassesTheChecks)
+{
+  for (const std::string extension : {".geo", ".msh"})
+    {
+      SCOPED_TRACE(extension);
+      SerialMesh mesh =
+        read_gmsh(GetParam().name + extension, COROTET_SOURCE_DIR "/meshes");
+      check_mesh(mesh);
+      EXPECT_TRUE(mesh.remarks.empty());
+      EXPECT_EQ(mesh.region_names, GetParam().regions);
+
+      std::set<std::string> found;
+      for (const auto &[id, area] : boundary_areas(mesh))
+        found.insert(mesh.boundary_names.at(id));
+      EXPECT_EQ(found, GetParam().boundaries);
+
+      const MeshQuality quality = mesh_quality(mesh);
+      EXPECT_NEAR(quality.volume / GetParam().volume, 1, GetParam().tolerance);
+      EXPECT_GT(quality.smallest_dihedral_angle, 5);
+      EXPECT_LT(quality.worst_aspect_ratio, 10);
+      EXPECT_LT(mesh.cells.size(), 6000u);
+    }
+}
+
+namespace
+{
+  const double pi = std::acos(-1.);
+} // namespace
+
+// Volumes from the dimensions in the .geo files [m^3].
+INSTANTIATE_TEST_SUITE_P(
+  Parts,
+  ShippedMesh,
+  testing::Values(
+    // Plate, arm and fillet, less three holes.
+    Part{"bracket",
+         0.060 *
+             (0.008 * 0.080 + 0.092 * 0.008 + (1 - pi / 4) * 0.012 * 0.012) -
+           0.008 * pi * (2 * 0.005 * 0.005 + 0.008 * 0.008),
+         {{1, "bracket"}},
+         {"wall", "wall-holes", "tip", "tip-hole", "top"},
+         0.005},
+    // Prongs, half ring and the stem outside of the ring; how far the stem
+    // dips into the round ring, less than its radius^2 / ring radius, is left
+    // to the tolerance.
+    Part{"tuning_fork",
+         2 * 0.005 * 0.005 * 0.080 +
+           pi / 2 * (0.010 * 0.010 - 0.005 * 0.005) * 0.005 +
+           pi * 0.003 * 0.003 * 0.030,
+         {{1, "fork"}},
+         {"stem", "prong-left", "prong-right", "side-left", "side-right"},
+         0.02},
+    // A tube of six to eight facets around the helix: the area of a regular
+    // hexagon in a circle is 0.83 of the circle's.
+    Part{"spiral_spring",
+         pi * 0.003 * 0.003 * 3 * std::hypot(2 * pi * 0.020, 0.012),
+         {{1, "spring"}},
+         {"bottom", "top"},
+         0.17},
+    Part{"two_material_beam",
+         0.4 * 0.04 * 0.04,
+         {{1, "steel"}, {2, "rubber"}},
+         {"left", "right", "top"},
+         1e-12}),
+  [](const auto &part) { return part.param.name; });

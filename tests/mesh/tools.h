@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_mesh_tools_h
+#define corotet_tests_mesh_tools_h
+
+#include <corotet/base/exceptions.h>
+#include <corotet/mesh/gmsh_mesh.h>
+#include <corotet/mesh/mesh_quality.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+namespace corotet_tests
+{
+  using namespace corotet;
+
+  /// An empty folder of this process, removed at the end.
+  class TemporaryFolder
+  {
+  public:
+    TemporaryFolder()
+      : path(std::filesystem::temp_directory_path() /
+             ("corotet_mesh_" + std::to_string(getpid())))
+    {
+      std::filesystem::remove_all(path);
+      std::filesystem::create_directories(path);
+    }
+
+    ~TemporaryFolder()
+    {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+
+    /// The path of a new file with this content.
+    std::string
+    write(const std::string &name, const std::string &content) const
+    {
+      std::ofstream(path / name) << content;
+      return (path / name).string();
+    }
+
+    const std::filesystem::path path;
+  };
+
+  /// "ENTRY: MESSAGE" of the InputError that @p action throws, or "none".
+  inline std::string
+  refusal(const std::function<void()> &action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const InputError &error)
+      {
+        return error.entry.empty() ? error.what() :
+                                     error.entry + ": " + error.what();
+      }
+    return "none";
+  }
+
+  inline SerialMesh
+  read_gmsh(const std::string &file,
+            const std::string &folder       = "",
+            const std::string &element_size = "0")
+  {
+    GmshMesh                 source;
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("File", file);
+    prm.set("Element size", element_size);
+    return source.create(folder);
+  }
+
+  /// Sum of the areas of the listed faces of each boundary.
+  inline std::map<unsigned int, double>
+  boundary_areas(const SerialMesh &mesh)
+  {
+    std::map<unsigned int, double> areas;
+    for (const SerialMesh::Face &face : mesh.faces)
+      {
+        const auto &p = mesh.vertices[face.vertices[0]];
+        areas[face.boundary] +=
+          dealii::cross_product_3d(mesh.vertices[face.vertices[1]] - p,
+                                   mesh.vertices[face.vertices[2]] - p)
+            .norm() /
+          2;
+      }
+    return areas;
+  }
+
+  /// Volume of each region.
+  inline std::map<unsigned int, double>
+  region_volumes(const SerialMesh &mesh)
+  {
+    std::map<unsigned int, double> volumes;
+    for (const SerialMesh::Cell &cell : mesh.cells)
+      volumes[cell.region] += signed_volume(cell_vertices(mesh, cell));
+    return volumes;
+  }
+} // namespace corotet_tests
+
+#endif
