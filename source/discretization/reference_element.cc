@@ -89,7 +89,7 @@ namespace corotet
         for (const dealii::Point<2> &p : on_face.get_points())
           points.push_back(v[0] + p[0] * (v[1] - v[0]) + p[1] * (v[2] - v[0]));
         face_rules[f]    = tabulate(fe, points, on_face.get_weights());
-        face_tangents[f] = {v[1] - v[0], v[2] - v[0]};
+        face_tangents[f] = {{v[1] - v[0], v[2] - v[0]}};
         const dealii::Tensor<1, 3> normal =
           cross_product_3d(face_tangents[f][0], face_tangents[f][1]);
         for (unsigned int i = 0; i < n_nodes; ++i)

@@ -6,6 +6,7 @@
 
 #include <corotet/base/timing.h>
 #include <corotet/discretization/discretization.h>
+#include <corotet/operators/elasticity.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -48,19 +49,6 @@ namespace corotet
     double volume = 0;
     /// Sum of the forces that the supports exert on the body [N].
     dealii::Tensor<1, 3> reaction;
-  };
-
-  /**
-   * Cell data of one state: a value per locally owned cell.
-   */
-  struct CellResults
-  {
-    /// Angle of the cell's rotation [rad], in [0, pi].
-    std::vector<double> rotation_angle;
-    /// det F at the cell's centre [-].
-    std::vector<double> det_F;
-    /// Von Mises stress at the cell's centre [Pa].
-    std::vector<double> von_mises;
   };
 
   /**

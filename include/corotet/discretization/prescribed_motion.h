@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_prescribed_motion_h
+#define corotet_discretization_prescribed_motion_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/boundary_conditions.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/reference_element.h>
+
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The unknowns whose displacement is prescribed, and their motion in time.
+   *
+   * Velocity and acceleration are the time derivatives of the expression, by
+   * central differences of fourth order with a tenth of the time step: their
+   * error is about (omega h)^4 / 30, some 1e-10 for a motion that the step
+   * resolves. (Derivatives by the integrator's own formulas would oscillate
+   * from step to step.) So an expression is also evaluated shortly before the
+   * start and after the end.
+   *
+   * @p discretization and @p conditions must outlive this object.
+   */
+  class PrescribedMotion
+  {
+  public:
+    /// @p time_scale: the time step [s]. Collective.
+    PrescribedMotion(const Discretization     &discretization,
+                     const ReferenceElement   &reference,
+                     const BoundaryConditions &conditions,
+                     const double              time_scale);
+
+    /**
+     * Sets the prescribed owned entries of the displacement, and those of the
+     * velocity and the acceleration, to their values at @p time multiplied by
+     * @p load_factor. Throws InputError if two boundaries disagree at a node
+     * that they share, or a value is not finite. Collective.
+     */
+    void
+    apply(const double time,
+          const double load_factor,
+          Vector      &displacement,
+          Vector      &velocity,
+          Vector      &acceleration) const;
+
+    /// Whether each local unknown, ghosts included, is prescribed (0 or 1).
+    const std::vector<unsigned char> &
+    is_prescribed() const
+    {
+      return flags;
+    }
+
+    /// Sets the prescribed owned entries of @p vector to zero.
+    void
+    set_zero(Vector &vector) const;
+
+    /// Prescribed owned unknowns, as local numbers.
+    const std::vector<unsigned int> &
+    unknowns() const
+    {
+      return prescribed;
+    }
+
+  private:
+    /// An unknown and the condition that sets it.
+    struct Entry
+    {
+      unsigned int dof;
+      unsigned int condition;
+    };
+
+    const Expression &
+    expression(const Entry &entry) const
+    {
+      return *conditions.displacements[entry.condition]
+                .components[entry.dof % 3];
+    }
+
+    double
+    value(const Entry &entry, const double time) const;
+
+    void
+    check_agreement(const double time) const;
+
+    const Discretization      &discretization;
+    const BoundaryConditions  &conditions;
+    double                     difference_step;
+    double                     length_scale;
+    std::vector<unsigned char> flags;
+    std::vector<unsigned int>  prescribed;
+    std::vector<Entry>         entries;
+    /// Further conditions on unknowns that entries already has, with the index
+    /// of that entry.
+    std::vector<std::pair<Entry, unsigned int>> shared;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_material_isotropic_h
+#define corotet_material_isotropic_h
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace corotet
+{
+  /**
+   * Isotropic linear elasticity, sigma = lambda tr(eps) I + 2 mu eps.
+   */
+  struct IsotropicMaterial
+  {
+    /// Lamé's first parameter [Pa].
+    double lambda = 0;
+    /// Shear modulus [Pa].
+    double mu = 0;
+    /// Mass per volume at rest [kg/m^3].
+    double density = 0;
+  };
+
+  /**
+   * From Young's modulus [Pa] and Poisson's ratio [-], in (-1, 1/2).
+   */
+  inline IsotropicMaterial
+  isotropic_material(const double youngs_modulus,
+                     const double poissons_ratio,
+                     const double density)
+  {
+    const double nu = poissons_ratio;
+    return {youngs_modulus * nu / ((1 + nu) * (1 - 2 * nu)),
+            youngs_modulus / (2 * (1 + nu)),
+            density};
+  }
+
+  /**
+   * Stress of a small strain [Pa].
+   */
+  inline dealii::SymmetricTensor<2, 3>
+  stress(const IsotropicMaterial             &material,
+         const dealii::SymmetricTensor<2, 3> &strain)
+  {
+    dealii::SymmetricTensor<2, 3> sigma = 2 * material.mu * strain;
+    const double                  p     = material.lambda * trace(strain);
+    for (unsigned int a = 0; a < 3; ++a)
+      sigma[a][a] += p;
+    return sigma;
+  }
+
+  /**
+   * Elastic energy per volume at rest [J/m^3].
+   */
+  inline double
+  energy_density(const IsotropicMaterial             &material,
+                 const dealii::SymmetricTensor<2, 3> &strain)
+  {
+    return material.mu * (strain * strain) +
+           0.5 * material.lambda * trace(strain) * trace(strain);
+  }
+
+  /**
+   * Von Mises' equivalent of a stress [Pa].
+   */
+  inline double
+  von_mises(const dealii::SymmetricTensor<2, 3> &sigma)
+  {
+    return std::sqrt(1.5) * deviator(sigma).norm();
+  }
+} // namespace corotet
+
+#endif

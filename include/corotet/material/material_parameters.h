@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_material_material_parameters_h
+#define corotet_material_material_parameters_h
+
+#include <corotet/material/isotropic.h>
+#include <corotet/mesh/mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The parameters of section Material. A value is one number for the whole
+   * body or a list "region: number, region: number" that names every region.
+   */
+  struct MaterialParameters
+  {
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    bool
+    corotational() const
+    {
+      return type == "corotational";
+    }
+
+    /**
+     * The material of each region, by the region's id. Throws InputError if a
+     * region is unknown or left out, or a value is not allowed.
+     */
+    std::map<unsigned int, IsotropicMaterial>
+    materials(const MeshNames &regions) const;
+
+    std::string type           = "corotational";
+    std::string rotation       = "cell centre";
+    std::string youngs_modulus = "1e6";
+    std::string poissons_ratio = "0.3";
+    std::string density        = "1000";
+  };
+} // namespace corotet
+
+#endif

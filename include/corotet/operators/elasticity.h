@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_elasticity_h
+#define corotet_operators_elasticity_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/reference_element.h>
+#include <corotet/material/isotropic.h>
+
+#include <map>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Elastic energy and shape of a deformed body, over all ranks.
+   */
+  struct ElasticState
+  {
+    /// In J.
+    double energy = 0;
+    /// Smallest det F at the points of the stiffness rule and the centres [-].
+    double min_det_F = 1;
+    /// Cells where det F is negative at one of these points.
+    unsigned int inverted_cells = 0;
+  };
+
+  /**
+   * Cell data of one state: a value per locally owned cell, at its centre.
+   */
+  struct CellResults
+  {
+    /// Angle of the cell's rotation [rad], in [0, pi].
+    std::vector<double> rotation_angle;
+    /// det F [-].
+    std::vector<double> det_F;
+    /// Von Mises stress [Pa].
+    std::vector<double> von_mises;
+  };
+
+  /**
+   * Internal force f(u) and tangent K of linear or corotational elasticity,
+   * f_i = sum_q w_q R sigma(sym(R^T F_q) - I) grad N_i [seed, 2.73 to 2.76],
+   * with one rotation R per cell, taken from F at the cell's centre. Linear
+   * elasticity is the case R = I.
+   *
+   * Rotations change only in update_rotations(); the tangent is the derivative
+   * of the force with these frozen. Vectors are those of the discretization;
+   * input vectors need ghost entries up to date, results are complete on owned
+   * entries. @p discretization and @p reference must outlive this object. All
+   * members but those marked are collective.
+   */
+  class Elasticity
+  {
+  public:
+    /// @p materials by region id.
+    Elasticity(const Discretization                            &discretization,
+               const ReferenceElement                          &reference,
+               const std::map<unsigned int, IsotropicMaterial> &materials,
+               const bool                                       corotational);
+
+    /// Takes the rotation of every local cell from the displacement @p u. For
+    /// linear elasticity it does nothing.
+    void
+    update_rotations(const Vector &u);
+
+    /// f = internal force of the displacement @p u at the present rotations.
+    void
+    internal_force(Vector &f, const Vector &u) const;
+
+    /// f = K v, with K = R K0 R^T at the present rotations.
+    void
+    apply_tangent(Vector &f, const Vector &v) const;
+
+    ElasticState
+    state(const Vector &u) const;
+
+    CellResults
+    cell_results(const Vector &u) const;
+
+    const IsotropicMaterial &
+    material(const unsigned int cell) const
+    {
+      return cell_materials[material_of_cell[cell]];
+    }
+
+    const dealii::Tensor<2, 3> &
+    rotation(const unsigned int cell) const
+    {
+      return rotations[cell];
+    }
+
+    bool
+    is_corotational() const
+    {
+      return corotational;
+    }
+
+    /// Owned cells that the last update found collapsed to a plane, a line or a
+    /// point. Not collective.
+    unsigned int
+    n_degenerate_cells() const
+    {
+      return degenerate_cells;
+    }
+
+  private:
+    template <typename StressOfCell>
+    void
+    cell_loop(Vector &f, const Vector &u, const StressOfCell &stress) const;
+
+    const Discretization          &discretization;
+    const ReferenceElement        &reference;
+    bool                           corotational;
+    std::vector<IsotropicMaterial> cell_materials;
+    std::vector<unsigned int>      material_of_cell;
+    /// One per local cell.
+    std::vector<dealii::Tensor<2, 3>> rotations;
+    unsigned int                      degenerate_cells = 0;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_loads_h
+#define corotet_operators_loads_h
+
+#include <corotet/base/expression.h>
+#include <corotet/base/log.h>
+#include <corotet/base/vector.h>
+#include <corotet/discretization/boundary_conditions.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/reference_element.h>
+#include <corotet/operators/mass.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The parameters of section Loads, as text.
+   */
+  struct LoadParameters
+  {
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    std::string gravity    = "0; 0; 0";
+    std::string body_force = "0; 0; 0";
+    std::string point_forces;
+  };
+
+  /**
+   * The external force f_ext(t, u) [N]: gravity, body force, tractions,
+   * pressures and point forces, f_i = int N_i b + int_Gamma N_i t [seed, 2.61].
+   *
+   * Gravity is an acceleration field, interpolated at the nodes, times the mass
+   * matrix: a free body falls without deforming whatever the mass matrix. What
+   * does not depend on time, or not on space, is integrated once.
+   *
+   * The other arguments must outlive this object. Members are collective.
+   */
+  class Loads
+  {
+  public:
+    /// @p follow: whether pressures act on the deformed surface.
+    Loads(const Discretization     &discretization,
+          const ReferenceElement   &reference,
+          const Mass               &mass,
+          const BoundaryConditions &conditions,
+          const LoadParameters     &parameters,
+          const bool                follow,
+          Log                      &log);
+
+    /// f = f_ext at @p time and displacement @p u (ghosts up to date).
+    void
+    force(Vector &f, const double time, const Vector &u) const;
+
+  private:
+    /// A load that does not depend on the displacement.
+    struct DeadLoad
+    {
+      enum class Kind
+      {
+        gravity,
+        body_force,
+        traction
+      };
+
+      Kind         kind;
+      Expression   value;
+      unsigned int boundary = 0;
+      /// The force itself if the load is constant in time; the force of a unit
+      /// load in each direction if it is constant in space only.
+      Vector integral = {};
+    };
+
+    struct PointForce
+    {
+      Expression       value;
+      dealii::Point<3> position;
+      /// Local number; used only where the node is owned.
+      unsigned int node;
+      bool         is_owned;
+    };
+
+    void
+    add_dead_load(DeadLoad load);
+    PointForce
+    locate(const std::string &text, Log &log) const;
+
+    /// f = the load, with its value taken from @p value(x).
+    template <typename Value>
+    void
+    integrate(Vector &f, const DeadLoad &load, const Value &value) const;
+    template <typename Value>
+    void
+    integrate_body_force(Vector &f, const Value &value) const;
+    template <typename Value>
+    void
+    integrate_traction(Vector            &f,
+                       const unsigned int boundary,
+                       const Value       &value) const;
+    void
+    add_pressure(Vector                                &f,
+                 const BoundaryConditions::SurfaceLoad &load,
+                 const double                           time,
+                 const Vector                          &u) const;
+
+    const Discretization     &discretization;
+    const ReferenceElement   &reference;
+    const Mass               &mass;
+    const BoundaryConditions &conditions;
+    bool                      follow;
+    std::vector<DeadLoad>     dead_loads;
+    std::vector<PointForce>   point_forces;
+    mutable Vector            scratch;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_mass_h
+#define corotet_operators_mass_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/reference_element.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * How the mass matrix is made.
+   */
+  enum class MassType
+  {
+    /// The integral of rho N_i N_j.
+    consistent,
+    /// Diagonal: the consistent diagonal, scaled to the cell's mass (Hinton,
+    /// Rock, Zienkiewicz 1976). Positive for every degree.
+    diagonal_scaling,
+    /// Diagonal: the row sums. Positive for degree 1 only.
+    row_sum
+  };
+
+  /// By the name that parameter files use: "consistent", "diagonal scaling",
+  /// "row sum".
+  MassType
+  mass_type(const std::string &name);
+
+  /**
+   * Share of a cell's mass that each of its nodes gets when mass is lumped.
+   * Throws InputError, blamed on Discretization/Mass, if a share is not
+   * positive.
+   */
+  std::vector<double>
+  lumped_shares(const ReferenceElement &reference, const MassType type);
+
+  /**
+   * The mass matrix M, consistent or lumped. @p discretization and @p reference
+   * must outlive this object.
+   */
+  class Mass
+  {
+  public:
+    /// @p densities [kg/m^3] by region id. Collective.
+    Mass(const Discretization                 &discretization,
+         const ReferenceElement               &reference,
+         const std::map<unsigned int, double> &densities,
+         const MassType                        type);
+
+    /// f = M a. Ghost entries of @p a must be up to date. Collective.
+    void
+    apply(Vector &f, const Vector &a) const;
+
+    bool
+    is_lumped() const
+    {
+      return type != MassType::consistent;
+    }
+
+    /// The diagonal of M, ghost entries up to date.
+    const Vector &
+    diagonal() const
+    {
+      return mass_diagonal;
+    }
+
+    /// Mass of local cell @p cell [kg].
+    double
+    cell_mass(const unsigned int cell) const
+    {
+      return cell_masses[cell];
+    }
+
+    /// Mass of the body [kg].
+    double
+    total() const
+    {
+      return total_mass;
+    }
+
+  private:
+    const Discretization   &discretization;
+    const ReferenceElement &reference;
+    MassType                type;
+    std::vector<double>     cell_masses;
+    Vector                  mass_diagonal;
+    double                  total_mass;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_surface_h
+#define corotet_operators_surface_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/reference_element.h>
+
+#include <array>
+
+namespace corotet
+{
+  /**
+   * A quadrature point on the surface of the body.
+   */
+  struct SurfacePoint
+  {
+    /// In the face's rule.
+    unsigned int     index;
+    dealii::Point<3> at_rest;
+    dealii::Point<3> position;
+    /// Outward normal times the point's share of the area [m^2].
+    dealii::Tensor<1, 3> area;
+  };
+
+  /**
+   * Calls @p function(SurfacePoint) for the quadrature points of @p face, of
+   * the body displaced by @p u (ghosts up to date), or at rest if @p u is null.
+   * The area vectors of a displaced face are exact polynomials, and those of a
+   * closed surface sum to zero.
+   */
+  template <typename Function>
+  void
+  for_each_surface_point(const Discretization   &discretization,
+                         const ReferenceElement &reference,
+                         const BoundaryFace     &face,
+                         const Vector           *u,
+                         const Function         &function)
+  {
+    const auto &rule     = reference.face_rules[face.face];
+    const auto &tangents = reference.face_tangents[face.face];
+    const auto  nodes    = discretization.cell_nodes(face.cell);
+    for (unsigned int q = 0; q < rule.weights.size(); ++q)
+      {
+        SurfacePoint                        point{q, {}, {}, {}};
+        std::array<dealii::Tensor<1, 3>, 2> t;
+        for (const unsigned int i : reference.face_nodes[face.face])
+          {
+            const dealii::Point<3> X = discretization.node_position(nodes[i]);
+            dealii::Point<3>       x = X;
+            if (u != nullptr)
+              for (unsigned int a = 0; a < 3; ++a)
+                x[a] += u->local_element(3 * nodes[i] + a);
+            point.at_rest += rule.values[q][i] * X;
+            point.position += rule.values[q][i] * x;
+            const double *dN = &rule.gradients(q, i, 0);
+            for (unsigned int k = 0; k < 2; ++k)
+              t[k] += x * (dN[0] * tangents[k][0] + dN[1] * tangents[k][1] +
+                           dN[2] * tangents[k][2]);
+          }
+        point.area = cross_product_3d(t[0], t[1]) * (0.5 * rule.weights[q]);
+        function(point);
+      }
+  }
+
+  /**
+   * Volume of the body displaced by @p u [m^3], by the divergence theorem:
+   * exact. Collective.
+   */
+  double
+  displaced_volume(const Discretization   &discretization,
+                   const ReferenceElement &reference,
+                   const Vector           &u);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_simulation_h
+#define corotet_simulation_simulation_h
+
+#include <corotet/base/log.h>
+#include <corotet/simulation/budget.h>
+#include <corotet/simulation/observer.h>
+#include <corotet/simulation/structural_system.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * A run from the mesh to the last step. The constructor makes and checks
+   * everything that the parameters describe; run() computes.
+   *
+   * @p parameters, which have been read already, and @p log must outlive this
+   * object. Members are collective.
+   */
+  class Simulation
+  {
+  public:
+    /// @p folder: of the parameter file, for relative names of mesh files.
+    /// Throws InputError.
+    Simulation(SimulationParameters &parameters,
+               const std::string    &folder,
+               const MPI_Comm        comm,
+               Log                  &log);
+
+    const Discretization &
+    discretization() const
+    {
+      return disc;
+    }
+
+    double
+    end_time() const
+    {
+      return parameters.end_time;
+    }
+
+    /**
+     * Computes all steps and shows each to the observers. If the computation
+     * fails, observers are told so before the ComputationError goes on.
+     */
+    void
+    run(const std::vector<std::unique_ptr<Observer>> &observers);
+
+    /// The state after the last step.
+    const State &
+    state() const
+    {
+      return present;
+    }
+
+  private:
+    /// Records of the steps that are done, and what is left to observers.
+    void
+    compute(const std::vector<std::unique_ptr<Observer>> &observers,
+            StepRecord                                   &record);
+    void
+    start(StepRecord &record, std::unique_ptr<Budget> &budget);
+    void
+    finish(const std::vector<std::unique_ptr<Observer>> &observers,
+           const StepRecord                             &record,
+           const std::string                            &status,
+           const std::string                            &message);
+    Snapshot
+    snapshot(const StepRecord &record, const bool last);
+    double
+    seconds() const;
+
+    const std::chrono::steady_clock::time_point started =
+      std::chrono::steady_clock::now();
+
+    SimulationParameters &parameters;
+    Log                  &log;
+    WallTimes             wall_times;
+    const Mesh            mesh;
+    const Discretization  disc;
+    StructuralSystem      system;
+    unsigned int          n_steps;
+    State                 present;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_simulation_parameters_h
+#define corotet_simulation_simulation_parameters_h
+
+#include <corotet/base/selectable.h>
+#include <corotet/discretization/boundary_conditions.h>
+#include <corotet/material/material_parameters.h>
+#include <corotet/mesh/mesh.h>
+#include <corotet/operators/loads.h>
+#include <corotet/solvers/linear_solver.h>
+#include <corotet/solvers/newton.h>
+#include <corotet/time_integration/time_integrator.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace corotet
+{
+  /**
+   * All parameters of a run but those of its output. Must not be moved after
+   * declare_parameters().
+   */
+  struct SimulationParameters
+  {
+    SimulationParameters();
+
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    MeshParameters              mesh;
+    unsigned int                degree    = 2;
+    std::string                 mass_type = "consistent";
+    MaterialParameters          material;
+    BoundaryConditionParameters boundary_conditions;
+    LoadParameters              loads;
+    /// Rayleigh damping C = alpha_M M + alpha_K K: alpha_M [1/s], alpha_K [s].
+    double                     damping_mass         = 0;
+    double                     damping_stiffness    = 0;
+    std::string                initial_displacement = "0; 0; 0";
+    std::string                initial_velocity     = "0; 0; 0";
+    Selectable<TimeIntegrator> time_integrator;
+    double                     start_time = 0;
+    double                     end_time   = 1;
+    double                     time_step  = 0.01;
+    Newton                     newton;
+    LinearSolver               linear_solver;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_structural_system_h
+#define corotet_simulation_structural_system_h
+
+#include <corotet/base/timing.h>
+#include <corotet/discretization/prescribed_motion.h>
+#include <corotet/operators/effective_operator.h>
+#include <corotet/operators/elasticity.h>
+#include <corotet/operators/loads.h>
+#include <corotet/operators/mass.h>
+#include <corotet/simulation/simulation_parameters.h>
+#include <corotet/solvers/newton.h>
+#include <corotet/time_integration/second_order_system.h>
+
+#include <memory>
+
+namespace corotet
+{
+  /**
+   * The body's equation of motion M a + C v + f_int(u) = f_ext(t, u), with
+   * Rayleigh damping C = alpha_M M + alpha_K K, as a SecondOrderSystem
+   * [seed, 2.71 and 2.75].
+   *
+   * Everything but the matrix is made by the constructor, which so checks all
+   * input. The arguments must outlive this object.
+   */
+  class StructuralSystem : public SecondOrderSystem, private NewtonProblem
+  {
+  public:
+    /// The terms of the equation of motion [N], complete on owned entries.
+    struct Forces
+    {
+      Vector external;
+      Vector internal;
+      Vector damping;
+      Vector inertia;
+    };
+
+    /// Throws InputError. Collective.
+    StructuralSystem(const Discretization &discretization,
+                     SimulationParameters &parameters,
+                     WallTimes            &wall_times,
+                     Log                  &log);
+
+    void
+    initialize(State &state) const;
+
+    void
+    prescribe(State       &state,
+              const double time,
+              const double load_factor) override;
+
+    StageReport
+    solve_stage(State &state, const Stage &stage) override;
+
+    void
+    solve_acceleration(State &state, const double time) override;
+
+    /**
+     * Evaluates all terms at a state, with the rotations of its displacement.
+     * The result is valid until the next call. Collective.
+     */
+    const Forces &
+    evaluate(const State &state, const double time, const double load_factor);
+
+    /// Displacement and velocity of the last evaluation with ghost entries.
+    const Vector &
+    displacement() const
+    {
+      return u_ghosted;
+    }
+
+    const Vector &
+    velocity() const
+    {
+      return v_ghosted;
+    }
+
+    const ReferenceElement &
+    reference_element() const
+    {
+      return reference;
+    }
+
+    const Elasticity &
+    elasticity() const
+    {
+      return elastic;
+    }
+
+    const Mass &
+    mass() const
+    {
+      return mass_matrix;
+    }
+
+    const PrescribedMotion &
+    prescribed_motion() const
+    {
+      return motion;
+    }
+
+  private:
+    Norm
+    residual(Vector &r) override;
+    unsigned int
+    solve_linearized(Vector &dx, const Vector &r) override;
+    Norm
+    add(const Vector &dx) override;
+
+    const Discretization &discretization;
+    SimulationParameters &parameters;
+    WallTimes            &wall_times;
+
+    const ReferenceElement   reference;
+    const BoundaryConditions conditions;
+    const Mass               mass_matrix;
+    Elasticity               elastic;
+    const Loads              loads;
+    const PrescribedMotion   motion;
+
+    std::unique_ptr<EffectiveOperator> effective_operator;
+
+    // The stage that is being solved.
+    State *stage_state = nullptr;
+    Stage  stage       = {};
+    // Of the last update of the operator.
+    double operator_c_K = -1;
+    double operator_c_M = -1;
+
+    Forces forces;
+    Vector u_ghosted;
+    Vector v_ghosted;
+    Vector a_ghosted;
+    Vector positions;
+  };
+} // namespace corotet
+
+#endif

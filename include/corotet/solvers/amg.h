@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_amg_h
+#define corotet_solvers_amg_h
+
+#include <corotet/solvers/preconditioner.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * One V-cycle of smoothed aggregation (Trilinos ML) on the assembled matrix,
+   * with the six rigid body modes of the current configuration as near null
+   * space (Vanek, Mandel, Brezina 1996).
+   */
+  class AMG : public Preconditioner
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    void
+    build(const EffectiveOperator &A, const Vector &positions) override;
+
+    void
+    vmult(Vector &dst, const Vector &src) const override;
+
+  private:
+    double       aggregation_threshold = 1e-4;
+    unsigned int smoother_sweeps       = 2;
+
+    dealii::TrilinosWrappers::PreconditionAMG amg;
+    /// Six vectors over the owned unknowns, one after another; ML refers to it.
+    std::vector<double> rigid_body_modes;
+  };
+} // namespace corotet
+
+#endif

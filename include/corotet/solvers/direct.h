@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_direct_h
+#define corotet_solvers_direct_h
+
+#include <corotet/solvers/preconditioner.h>
+
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <memory>
+
+namespace corotet
+{
+  /**
+   * The inverse by sparse factorisation (MUMPS where Trilinos has it, else
+   * KLU, through Amesos). The factors of an older A serve as preconditioner as
+   * long as a few iterations suffice: a rotation update does not force a new
+   * factorisation.
+   */
+  class Direct : public Preconditioner
+  {
+  public:
+    void
+    build(const EffectiveOperator &A, const Vector &positions) override;
+
+    void
+    vmult(Vector &dst, const Vector &src) const override;
+
+    unsigned int
+    acceptable_iterations(const unsigned int) const override
+    {
+      // A factorisation costs more than ten solves with it, for the meshes
+      // that one would factorise.
+      return 10;
+    }
+
+  private:
+    dealii::SolverControl                                           control;
+    mutable std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
+  };
+} // namespace corotet
+
+#endif

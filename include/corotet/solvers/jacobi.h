@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_jacobi_h
+#define corotet_solvers_jacobi_h
+
+#include <corotet/solvers/preconditioner.h>
+
+#include <deal.II/lac/diagonal_matrix.h>
+
+namespace corotet
+{
+  /**
+   * The inverse of the diagonal. Cheap to make, so it is never outdated.
+   */
+  class Jacobi : public Preconditioner
+  {
+  public:
+    void
+    build(const EffectiveOperator &A, const Vector &positions) override;
+
+    void
+    vmult(Vector &dst, const Vector &src) const override;
+
+    unsigned int
+    acceptable_iterations(const unsigned int) const override
+    {
+      return 0;
+    }
+
+  private:
+    dealii::DiagonalMatrix<Vector> inverse_diagonal;
+  };
+} // namespace corotet
+
+#endif

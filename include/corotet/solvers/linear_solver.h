@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_linear_solver_h
+#define corotet_solvers_linear_solver_h
+
+#include <corotet/base/selectable.h>
+#include <corotet/operators/effective_operator.h>
+#include <corotet/solvers/preconditioner.h>
+
+namespace corotet
+{
+  /**
+   * Conjugate gradients for the effective operator, with a preconditioner
+   * chosen at run time (section Linear solver).
+   *
+   * A preconditioner is made at the first solve, after the coefficients of the
+   * operator changed, and when the iterations have grown past what it calls
+   * acceptable; until then it serves although the rotations have changed.
+   */
+  class LinearSolver
+  {
+  public:
+    LinearSolver();
+
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    /**
+     * Solves A x = b from x = 0 until the residual is below the tolerance
+     * times |b|. @p positions: current positions of the nodes [m]. Returns the
+     * number of iterations. Throws ComputationError if it does not get there.
+     * Collective.
+     */
+    unsigned int
+    solve(const EffectiveOperator &A,
+          Vector                  &x,
+          const Vector            &b,
+          const Vector            &positions);
+
+  private:
+    Selectable<Preconditioner> preconditioner;
+    double                     tolerance      = 1e-8;
+    unsigned int               max_iterations = 10000;
+
+    bool   is_built         = false;
+    double built_mass_ratio = 0;
+    /// Iterations of the first solve after the preconditioner was made.
+    unsigned int first_iterations = 0;
+  };
+} // namespace corotet
+
+#endif

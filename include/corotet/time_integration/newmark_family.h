@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_time_integration_newmark_family_h
+#define corotet_time_integration_newmark_family_h
+
+#include <corotet/time_integration/time_integrator.h>
+
+namespace corotet
+{
+  /**
+   * The step that Newmark's method and its descendants share:
+   *
+   *   u_1 = u_0 + dt v_0 + dt^2 ((1/2 - beta) a_0 + beta a_1),
+   *   v_1 = v_0 + dt ((1 - gamma) a_0 + gamma a_1),
+   *   M a_m + C v_f + f(u_f) = g(t_f, u_f),
+   *
+   * with a_m = (1 - alpha_m) a_1 + alpha_m a_0 and the index f for
+   * (1 - alpha_f) ()_1 + alpha_f ()_0. The unknown of the stage is u_f.
+   */
+  class NewmarkFamily
+  {
+  public:
+    struct Coefficients
+    {
+      double beta;
+      double gamma;
+      double alpha_m;
+      double alpha_f;
+    };
+
+    StageReport
+    step(SecondOrderSystem  &system,
+         const TimeStep     &step,
+         const Coefficients &coefficients,
+         State              &state);
+
+  private:
+    /// The state at the intermediate times.
+    State stage;
+  };
+} // namespace corotet
+
+#endif

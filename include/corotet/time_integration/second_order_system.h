@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_time_integration_second_order_system_h
+#define corotet_time_integration_second_order_system_h
+
+#include <corotet/base/vector.h>
+
+namespace corotet
+{
+  /**
+   * Displacement u [m], velocity v [m/s] and acceleration a [m/s^2] of all
+   * nodes.
+   */
+  struct State
+  {
+    Vector u;
+    Vector v;
+    Vector a;
+  };
+
+  /**
+   * The equation of one implicit stage: M a + C v + f(u) = g(t, u), to be
+   * solved for increments that are coupled by du = dx, dv = c_v dx, da = c_a
+   * dx.
+   */
+  struct Stage
+  {
+    /// At which the loads are taken [s].
+    double time;
+    /// c_v [1/s]; zero in statics.
+    double velocity_factor;
+    /// c_a [1/s^2]; zero in statics.
+    double acceleration_factor;
+    /// Multiplies loads and prescribed displacements: 1 but in load stepping.
+    double load_factor = 1;
+  };
+
+  /**
+   * What a stage took.
+   */
+  struct StageReport
+  {
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+  };
+
+  /**
+   * What a time integrator may ask of the system M a + C v + f(u) = g(t, u)
+   * whose unknowns are partly prescribed. All members are collective.
+   */
+  class SecondOrderSystem
+  {
+  public:
+    virtual ~SecondOrderSystem() = default;
+
+    /// Sets the prescribed entries of @p state to their values, velocities and
+    /// accelerations at @p time, times @p load_factor.
+    virtual void
+    prescribe(State &state, const double time, const double load_factor) = 0;
+
+    /**
+     * Solves the equation of @p stage. @p state comes in as a guess that
+     * satisfies the coupling and the prescribed values, and goes out as the
+     * solution; prescribed entries do not change. Throws ComputationError.
+     */
+    virtual StageReport
+    solve_stage(State &state, const Stage &stage) = 0;
+
+    /// Sets a of @p state such that the equation holds at @p time with its u
+    /// and v. Prescribed entries of a do not change.
+    virtual void
+    solve_acceleration(State &state, const double time) = 0;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/discretization/boundary_conditions.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+
+namespace corotet
+{
+  namespace
+  {
+    const std::string section = "Boundary conditions/";
+
+    // The pairs of "name: value, name: value".
+    std::vector<std::pair<std::string, std::string>>
+    named_values(const std::string &text, const std::string &entry)
+    {
+      std::vector<std::pair<std::string, std::string>> pairs;
+      if (dealii::Utilities::trim(text).empty())
+        return pairs;
+      for (const std::string &item : split_outside_brackets(text, ','))
+        {
+          const std::size_t colon = item.find(':');
+          if (colon == std::string::npos)
+            throw InputError(entry,
+                             fmt::format("found '{}'; allowed: 'boundary: "
+                                         "value, boundary: value'",
+                                         item));
+          pairs.emplace_back(dealii::Utilities::trim(item.substr(0, colon)),
+                             dealii::Utilities::trim(item.substr(colon + 1)));
+        }
+      return pairs;
+    }
+  } // namespace
+
+  void
+  BoundaryConditionParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Fixed",
+                      fixed,
+                      "Boundaries that do not move: 'name, name'.");
+    prm.add_parameter(
+      "Displacement",
+      displacement,
+      "Displacement [m] of boundaries: 'name: x; y; z, name: x; y; z', each "
+      "component an expression in x, y, z, t or 'free'. Supports move with "
+      "the expression's own velocity and acceleration.");
+    prm.add_parameter(
+      "Traction",
+      traction,
+      "Dead traction [Pa], force per area at rest: 'name: x; y; z, ...', "
+      "expressions in x, y, z, t.");
+    prm.add_parameter(
+      "Pressure",
+      pressure,
+      "Pressure [Pa] that follows the moving surface (with linear elasticity: "
+      "that acts on the surface at rest), positive into the body: 'name: p, "
+      "...', expressions in x, y, z, t.");
+  }
+
+  BoundaryConditions::BoundaryConditions(
+    const BoundaryConditionParameters &parameters,
+    const MeshNames                   &boundaries)
+    : names(boundaries)
+  {
+    std::string entry = section + "Fixed";
+    if (!dealii::Utilities::trim(parameters.fixed).empty())
+      for (const std::string &name :
+           split_outside_brackets(parameters.fixed, ','))
+        {
+          Displacement condition{names.id(name, entry), {}};
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              claim(condition.boundary, a, entry);
+              condition.components[a].emplace("0", 1, entry);
+            }
+          displacements.push_back(condition);
+        }
+
+    entry = section + "Displacement";
+    for (const auto &[name, value] :
+         named_values(parameters.displacement, entry))
+      {
+        Displacement                   condition{names.id(name, entry), {}};
+        const std::vector<std::string> components =
+          split_outside_brackets(value, ';');
+        if (components.size() != 3)
+          throw InputError(entry,
+                           fmt::format("found {} components for boundary "
+                                       "'{}'; allowed: 'x; y; z', three "
+                                       "expressions or 'free'",
+                                       components.size(),
+                                       name));
+        for (unsigned int a = 0; a < 3; ++a)
+          if (components[a] != "free")
+            {
+              claim(condition.boundary, a, entry);
+              condition.components[a].emplace(components[a], 1, entry);
+            }
+        displacements.push_back(condition);
+      }
+
+    entry = section + "Traction";
+    for (const auto &[name, value] : named_values(parameters.traction, entry))
+      {
+        const unsigned int boundary = names.id(name, entry);
+        tractions.push_back({boundary, Expression(value, 3, entry)});
+        const auto components = split_outside_brackets(value, ';');
+        for (unsigned int a = 0; a < 3; ++a)
+          if (!Expression(components[a], 1, entry).is_zero())
+            claim(boundary, a, entry);
+      }
+
+    entry = section + "Pressure";
+    for (const auto &[name, value] : named_values(parameters.pressure, entry))
+      {
+        const unsigned int boundary = names.id(name, entry);
+        pressures.push_back({boundary, Expression(value, 1, entry)});
+        for (unsigned int a = 0; a < 3; ++a)
+          claim(boundary, a, entry);
+      }
+  }
+
+  void
+  BoundaryConditions::claim(const unsigned int boundary,
+                            const unsigned int component,
+                            const std::string &entry)
+  {
+    std::string &owner = claims[boundary][component];
+    if (!owner.empty())
+      throw InputError(
+        entry,
+        fmt::format("component {} of boundary '{}' has two conditions: found "
+                    "'{}' and '{}', allowed is one",
+                    "xyz"[component],
+                    names.name(boundary),
+                    owner.substr(section.size()),
+                    entry.substr(section.size())));
+    owner = entry;
+  }
+} // namespace corotet

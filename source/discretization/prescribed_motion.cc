@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/discretization/prescribed_motion.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  namespace
+  {
+    const std::string blamed_entry = "Boundary conditions/Displacement";
+  }
+
+  PrescribedMotion::PrescribedMotion(const Discretization     &discretization,
+                                     const ReferenceElement   &reference,
+                                     const BoundaryConditions &conditions,
+                                     const double              time_scale)
+    : discretization(discretization)
+    , conditions(conditions)
+    , difference_step(0.1 * time_scale)
+    , flags(3 * discretization.n_local_nodes())
+  {
+    double volume = 0;
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      volume += discretization.geometry(c).volume;
+    length_scale = std::cbrt(
+      dealii::Utilities::MPI::sum(volume, discretization.communicator()));
+
+    std::vector<unsigned int> entry_of_dof(flags.size());
+    Vector                    marks;
+    discretization.initialize_vector(marks);
+    for (unsigned int d = 0; d < conditions.displacements.size(); ++d)
+      {
+        // A node may lie on a boundary with none of the owned cells that touch
+        // it having a face there: mark through the vector, whose exchange
+        // brings the news from the rank that has the face.
+        const auto &condition = conditions.displacements[d];
+        marks                 = 0;
+        for (const BoundaryFace &face : discretization.boundary_faces())
+          if (face.boundary == condition.boundary)
+            for (const unsigned int i : reference.face_nodes[face.face])
+              for (unsigned int a = 0; a < 3; ++a)
+                if (condition.components[a])
+                  marks.local_element(
+                    3 * discretization.cell_nodes(face.cell)[i] + a) = 1;
+        marks.compress(dealii::VectorOperation::add);
+        marks.update_ghost_values();
+
+        for (unsigned int dof = 0; dof < flags.size(); ++dof)
+          if (marks.local_element(dof) > 0)
+            {
+              const bool is_owned = dof < marks.locally_owned_size();
+              if (is_owned && flags[dof])
+                shared.push_back({{dof, d}, entry_of_dof[dof]});
+              else if (is_owned)
+                {
+                  entry_of_dof[dof] = entries.size();
+                  entries.push_back({dof, d});
+                  prescribed.push_back(dof);
+                }
+              flags[dof] = 1;
+            }
+      }
+  }
+
+  double
+  PrescribedMotion::value(const Entry &entry, const double time) const
+  {
+    return expression(entry).value(discretization.node_position(entry.dof / 3),
+                                   time);
+  }
+
+  void
+  PrescribedMotion::check_agreement(const double time) const
+  {
+    for (const auto &[other, first] : shared)
+      {
+        const double u = value(entries[first], time);
+        const double w = value(other, time);
+        // Expressions are exact up to round-off.
+        if (std::abs(u - w) >
+            1e-12 * (std::abs(u) + std::abs(w) + length_scale))
+          {
+            const auto &names = discretization.mesh().boundaries();
+            const auto  name  = [&](const Entry &entry) {
+              return names.name(
+                conditions.displacements[entry.condition].boundary);
+            };
+            const dealii::Point<3> x =
+              discretization.node_position(other.dof / 3);
+            throw InputError(
+              blamed_entry,
+              fmt::format("boundaries '{}' and '{}' prescribe different "
+                          "displacements in {} at their common point ({}, {}, "
+                          "{}) at t = {}: found {} and {}, allowed are equal "
+                          "ones",
+                          name(entries[first]),
+                          name(other),
+                          "xyz"[other.dof % 3],
+                          x[0],
+                          x[1],
+                          x[2],
+                          time,
+                          u,
+                          w));
+          }
+      }
+  }
+
+  void
+  PrescribedMotion::apply(const double time,
+                          const double load_factor,
+                          Vector      &displacement,
+                          Vector      &velocity,
+                          Vector      &acceleration) const
+  {
+    on_all_ranks(discretization.communicator(), [&] {
+      check_agreement(time);
+      const double h = difference_step;
+      for (const Entry &entry : entries)
+        {
+          const double u = value(entry, time);
+          if (!std::isfinite(u))
+            throw InputError(blamed_entry,
+                             fmt::format("the displacement at t = {} is not "
+                                         "finite: found {}",
+                                         time,
+                                         u));
+          double v = 0;
+          double a = 0;
+          if (expression(entry).depends_on_time())
+            {
+              const double m2 = value(entry, time - 2 * h);
+              const double m1 = value(entry, time - h);
+              const double p1 = value(entry, time + h);
+              const double p2 = value(entry, time + 2 * h);
+              v               = (m2 - p2 + 8 * (p1 - m1)) / (12 * h);
+              a = (16 * (p1 + m1) - (p2 + m2) - 30 * u) / (12 * h * h);
+            }
+          displacement.local_element(entry.dof) = load_factor * u;
+          velocity.local_element(entry.dof)     = load_factor * v;
+          acceleration.local_element(entry.dof) = load_factor * a;
+        }
+    });
+  }
+
+  void
+  PrescribedMotion::set_zero(Vector &vector) const
+  {
+    for (const unsigned int dof : prescribed)
+      vector.local_element(dof) = 0;
+  }
+} // namespace corotet

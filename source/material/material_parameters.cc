@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/material/material_parameters.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+namespace corotet
+{
+  namespace
+  {
+    double
+    parse_number(const std::string &text, const std::string &entry)
+    {
+      try
+        {
+          const double value = dealii::Utilities::string_to_double(text);
+          if (std::isfinite(value))
+            return value;
+        }
+      catch (const dealii::ExceptionBase &)
+        {}
+      throw InputError(entry,
+                       fmt::format("'{}' is not a number; allowed: a number, "
+                                   "or 'region: number, ...'",
+                                   text));
+    }
+
+    // The values of one entry by region id.
+    std::map<unsigned int, double>
+    values_by_region(const std::string &text,
+                     const MeshNames   &regions,
+                     const std::string &entry)
+    {
+      std::map<unsigned int, double> values;
+      if (text.find(':') == std::string::npos)
+        {
+          const double value = parse_number(text, entry);
+          for (const auto &[id, name] : regions.all())
+            values[id] = value;
+          return values;
+        }
+      for (const std::string &item : split_outside_brackets(text, ','))
+        {
+          const std::size_t colon = item.find(':');
+          if (colon == std::string::npos)
+            throw InputError(entry,
+                             fmt::format("found '{}'; allowed: a number for "
+                                         "all regions, or 'region: number, "
+                                         "...'",
+                                         item));
+          const unsigned int id =
+            regions.id(dealii::Utilities::trim(item.substr(0, colon)), entry);
+          const double value =
+            parse_number(dealii::Utilities::trim(item.substr(colon + 1)),
+                         entry);
+          if (!values.emplace(id, value).second)
+            throw InputError(entry,
+                             fmt::format("region '{}' has two values",
+                                         regions.name(id)));
+        }
+      for (const auto &[id, name] : regions.all())
+        if (values.count(id) == 0)
+          throw InputError(entry,
+                           fmt::format("region '{}' has no value",
+                                       regions.name(id)));
+      return values;
+    }
+
+    void
+    check(const std::map<unsigned int, double> &values,
+          const MeshNames                      &regions,
+          const std::string                    &entry,
+          const std::function<bool(double)>    &is_allowed,
+          const std::string                    &allowed)
+    {
+      for (const auto &[id, value] : values)
+        if (!is_allowed(value))
+          throw InputError(entry,
+                           fmt::format("found {} for region '{}'; allowed: {}",
+                                       value,
+                                       regions.name(id),
+                                       allowed));
+    }
+  } // namespace
+
+  void
+  MaterialParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Type",
+      type,
+      "Strain measure: 'linear' is small-strain elasticity, right for small "
+      "rotations only; 'corotational' takes the rotation of each cell out of "
+      "the deformation gradient first.",
+      dealii::Patterns::Selection("linear|corotational"));
+    prm.add_parameter("Rotation",
+                      rotation,
+                      "Where the rotation of corotational elasticity is taken: "
+                      "at the centre of each cell.",
+                      dealii::Patterns::Selection("cell centre"));
+    const std::string by_region =
+      " One number, or 'region: number, ...' with every region.";
+    prm.add_parameter("Young's modulus",
+                      youngs_modulus,
+                      "Young's modulus [Pa], positive." + by_region);
+    prm.add_parameter("Poisson's ratio",
+                      poissons_ratio,
+                      "Poisson's ratio [-], in (-1, 0.5)." + by_region);
+    prm.add_parameter("Density",
+                      density,
+                      "Mass per volume [kg/m^3], positive." + by_region);
+  }
+
+  std::map<unsigned int, IsotropicMaterial>
+  MaterialParameters::materials(const MeshNames &regions) const
+  {
+    const std::string E_entry   = "Material/Young's modulus";
+    const std::string nu_entry  = "Material/Poisson's ratio";
+    const std::string rho_entry = "Material/Density";
+    const auto        E   = values_by_region(youngs_modulus, regions, E_entry);
+    const auto        nu  = values_by_region(poissons_ratio, regions, nu_entry);
+    const auto        rho = values_by_region(density, regions, rho_entry);
+
+    const auto positive = [](const double v) { return v > 0; };
+    check(E, regions, E_entry, positive, "a positive number of Pa");
+    check(
+      nu,
+      regions,
+      nu_entry,
+      [](const double v) { return v > -1 && v < 0.5; },
+      "-1 < nu < 0.5 (at 0.5 the material is incompressible)");
+    check(rho, regions, rho_entry, positive, "a positive number of kg/m^3");
+
+    std::map<unsigned int, IsotropicMaterial> result;
+    for (const auto &[id, name] : regions.all())
+      result[id] = isotropic_material(E.at(id), nu.at(id), rho.at(id));
+    return result;
+  }
+} // namespace corotet

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/operators/cell_kernel.h>
+#include <corotet/operators/mass.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+namespace corotet
+{
+  MassType
+  mass_type(const std::string &name)
+  {
+    return name == "consistent"       ? MassType::consistent :
+           name == "diagonal scaling" ? MassType::diagonal_scaling :
+                                        MassType::row_sum;
+  }
+
+  std::vector<double>
+  lumped_shares(const ReferenceElement &reference, const MassType type)
+  {
+    std::vector<double> shares(reference.n_nodes);
+    double              sum = 0;
+    for (unsigned int i = 0; i < reference.n_nodes; ++i)
+      {
+        if (type == MassType::diagonal_scaling)
+          shares[i] = reference.mass[i][i];
+        else
+          for (unsigned int j = 0; j < reference.n_nodes; ++j)
+            shares[i] += reference.mass[i][j];
+        sum += shares[i];
+      }
+    for (double &share : shares)
+      {
+        share /= sum;
+        // Exact values are 1/4; -1/20, 1/5; 1/40, 0, 9/40: no close call.
+        if (share < 1e-6)
+          throw InputError(
+            "Discretization/Mass",
+            fmt::format("row-sum lumping with degree {} gives some nodes the "
+                        "share {:.3g} of a cell's mass, and a mass must be "
+                        "positive; found 'row sum', allowed: 'diagonal "
+                        "scaling' or 'consistent' (or degree 1)",
+                        reference.degree,
+                        std::abs(share) < 1e-6 ? 0. : share));
+      }
+    return shares;
+  }
+
+  Mass::Mass(const Discretization                 &discretization,
+             const ReferenceElement               &reference,
+             const std::map<unsigned int, double> &densities,
+             const MassType                        type)
+    : discretization(discretization)
+    , reference(reference)
+    , type(type)
+    , cell_masses(discretization.n_local_cells())
+  {
+    std::vector<double> shares(reference.n_nodes);
+    if (is_lumped())
+      shares = lumped_shares(reference, type);
+    else
+      for (unsigned int i = 0; i < reference.n_nodes; ++i)
+        shares[i] = reference.mass[i][i];
+
+    discretization.initialize_vector(mass_diagonal);
+    double owned_mass = 0;
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+      {
+        const CellGeometry &geometry = discretization.geometry(c);
+        cell_masses[c] = densities.at(geometry.region) * geometry.volume;
+        if (c >= discretization.n_owned_cells())
+          continue;
+        owned_mass += cell_masses[c];
+        const auto nodes = discretization.cell_nodes(c);
+        for (unsigned int i = 0; i < reference.n_nodes; ++i)
+          for (unsigned int a = 0; a < 3; ++a)
+            mass_diagonal.local_element(3 * nodes[i] + a) +=
+              shares[i] * cell_masses[c];
+      }
+    mass_diagonal.compress(dealii::VectorOperation::add);
+    mass_diagonal.update_ghost_values();
+    total_mass =
+      dealii::Utilities::MPI::sum(owned_mass, discretization.communicator());
+  }
+
+  void
+  Mass::apply(Vector &f, const Vector &a) const
+  {
+    if (is_lumped())
+      {
+        for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
+          f.local_element(i) =
+            mass_diagonal.local_element(i) * a.local_element(i);
+        return;
+      }
+    f = 0;
+    with_degree(discretization.degree(), [&](const auto p) {
+      using Kernel = CellKernel<decltype(p)::value>;
+      typename Kernel::NodalValues cell_a;
+      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+        {
+          const auto nodes = discretization.cell_nodes(c);
+          Kernel::gather(a.begin(), nodes, cell_a);
+          typename Kernel::NodalValues cell_f = {};
+          for (unsigned int i = 0; i < Kernel::n_nodes; ++i)
+            {
+              const double *row = &reference.mass(i, 0);
+              for (unsigned int j = 0; j < Kernel::n_nodes; ++j)
+                for (unsigned int b = 0; b < 3; ++b)
+                  cell_f[i][b] += cell_masses[c] * row[j] * cell_a[j][b];
+            }
+          Kernel::scatter_add(cell_f, nodes, f.begin());
+        }
+    });
+    f.compress(dealii::VectorOperation::add);
+  }
+} // namespace corotet

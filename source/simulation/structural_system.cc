@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/simulation/structural_system.h>
+
+#include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/solver_cg.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  namespace
+  {
+    std::map<unsigned int, double>
+    densities(const std::map<unsigned int, IsotropicMaterial> &materials)
+    {
+      std::map<unsigned int, double> result;
+      for (const auto &[region, material] : materials)
+        result[region] = material.density;
+      return result;
+    }
+
+    // The mass matrix of the unknowns that are not prescribed.
+    struct FreeMass
+    {
+      const Mass             &mass;
+      const PrescribedMotion &motion;
+      Vector                 &ghosted;
+
+      void
+      vmult(Vector &dst, const Vector &src) const
+      {
+        ghosted.copy_locally_owned_data_from(src);
+        ghosted.update_ghost_values();
+        mass.apply(dst, ghosted);
+        motion.set_zero(dst);
+      }
+    };
+  } // namespace
+
+  StructuralSystem::StructuralSystem(const Discretization &discretization,
+                                     SimulationParameters &parameters,
+                                     WallTimes            &wall_times,
+                                     Log                  &log)
+    : discretization(discretization)
+    , parameters(parameters)
+    , wall_times(wall_times)
+    , reference(discretization.degree())
+    , conditions(parameters.boundary_conditions,
+                 discretization.mesh().boundaries())
+    , mass_matrix(discretization,
+                  reference,
+                  densities(parameters.material.materials(
+                    discretization.mesh().regions())),
+                  mass_type(parameters.mass_type))
+    , elastic(discretization,
+              reference,
+              parameters.material.materials(discretization.mesh().regions()),
+              parameters.material.corotational())
+    , loads(discretization,
+            reference,
+            mass_matrix,
+            conditions,
+            parameters.loads,
+            parameters.material.corotational(),
+            log)
+    , motion(discretization, reference, conditions, parameters.time_step)
+  {
+    for (Vector *vector : {&forces.external,
+                           &forces.internal,
+                           &forces.damping,
+                           &forces.inertia,
+                           &u_ghosted,
+                           &v_ghosted,
+                           &a_ghosted,
+                           &positions})
+      discretization.initialize_vector(*vector);
+  }
+
+  void
+  StructuralSystem::initialize(State &state) const
+  {
+    for (Vector *vector : {&state.u, &state.v, &state.a})
+      discretization.initialize_vector(*vector);
+    const Expression u0(parameters.initial_displacement,
+                        3,
+                        "Initial conditions/Displacement");
+    const Expression v0(parameters.initial_velocity,
+                        3,
+                        "Initial conditions/Velocity");
+    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+      {
+        const dealii::Point<3> x = discretization.node_position(n);
+        const auto             u = u0.vector_value(x, parameters.start_time);
+        const auto             v = v0.vector_value(x, parameters.start_time);
+        for (unsigned int a = 0; a < 3; ++a)
+          {
+            state.u.local_element(3 * n + a) = u[a];
+            state.v.local_element(3 * n + a) = v[a];
+          }
+      }
+  }
+
+  void
+  StructuralSystem::prescribe(State       &state,
+                              const double time,
+                              const double load_factor)
+  {
+    motion.apply(time, load_factor, state.u, state.v, state.a);
+  }
+
+  const StructuralSystem::Forces &
+  StructuralSystem::evaluate(const State &state,
+                             const double time,
+                             const double load_factor)
+  {
+    ScopedTimer timer(wall_times.assembly);
+    u_ghosted.copy_locally_owned_data_from(state.u);
+    u_ghosted.update_ghost_values();
+    v_ghosted.copy_locally_owned_data_from(state.v);
+    v_ghosted.update_ghost_values();
+
+    elastic.update_rotations(u_ghosted);
+    elastic.internal_force(forces.internal, u_ghosted);
+    loads.force(forces.external, time, u_ghosted);
+    forces.external *= load_factor;
+
+    if (parameters.damping_stiffness > 0)
+      {
+        elastic.apply_tangent(forces.damping, v_ghosted);
+        forces.damping *= parameters.damping_stiffness;
+      }
+    else
+      forces.damping = 0;
+    if (parameters.damping_mass > 0)
+      {
+        mass_matrix.apply(forces.inertia, v_ghosted);
+        forces.damping.add(parameters.damping_mass, forces.inertia);
+      }
+    a_ghosted.copy_locally_owned_data_from(state.a);
+    a_ghosted.update_ghost_values();
+    mass_matrix.apply(forces.inertia, a_ghosted);
+    return forces;
+  }
+
+  StageReport
+  StructuralSystem::solve_stage(State &state, const Stage &stage)
+  {
+    if (!effective_operator)
+      {
+        ScopedTimer timer(wall_times.assembly);
+        effective_operator =
+          std::make_unique<EffectiveOperator>(discretization,
+                                              reference,
+                                              elastic,
+                                              mass_matrix,
+                                              motion.is_prescribed());
+      }
+    this->stage  = stage;
+    stage_state  = &state;
+    const auto r = parameters.newton.solve(*this, state.u);
+    return {r.iterations, r.linear_iterations};
+  }
+
+  NewtonProblem::Norm
+  StructuralSystem::residual(Vector &r)
+  {
+    evaluate(*stage_state, stage.time, stage.load_factor);
+    r = forces.external;
+    r -= forces.internal;
+    r -= forces.damping;
+    r -= forces.inertia;
+    motion.set_zero(r);
+    return {r.l2_norm(),
+            std::max({forces.external.l2_norm(),
+                      forces.internal.l2_norm(),
+                      forces.damping.l2_norm(),
+                      forces.inertia.l2_norm()})};
+  }
+
+  unsigned int
+  StructuralSystem::solve_linearized(Vector &dx, const Vector &r)
+  {
+    const double c_K = 1 + stage.velocity_factor * parameters.damping_stiffness;
+    const double c_M = stage.acceleration_factor +
+                       stage.velocity_factor * parameters.damping_mass;
+    if (elastic.is_corotational() || c_K != operator_c_K || c_M != operator_c_M)
+      {
+        ScopedTimer timer(wall_times.assembly);
+        effective_operator->update(c_K, c_M);
+        operator_c_K = c_K;
+        operator_c_M = c_M;
+      }
+    ScopedTimer timer(wall_times.solve);
+    positions.copy_locally_owned_data_from(discretization.node_positions());
+    positions += stage_state->u;
+    return parameters.linear_solver.solve(*effective_operator,
+                                          dx,
+                                          r,
+                                          positions);
+  }
+
+  NewtonProblem::Norm
+  StructuralSystem::add(const Vector &dx)
+  {
+    stage_state->u += dx;
+    stage_state->v.add(stage.velocity_factor, dx);
+    stage_state->a.add(stage.acceleration_factor, dx);
+    return {dx.l2_norm(), stage_state->u.l2_norm()};
+  }
+
+  void
+  StructuralSystem::solve_acceleration(State &state, const double time)
+  {
+    // Free accelerations from those that are prescribed: M_ff a_f = r_f.
+    for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
+      if (!motion.is_prescribed()[i])
+        state.a.local_element(i) = 0;
+    evaluate(state, time, 1.);
+    Vector r(forces.external);
+    r -= forces.internal;
+    r -= forces.damping;
+    r -= forces.inertia;
+    motion.set_zero(r);
+    Vector inverse(r);
+    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
+      inverse.local_element(i) = 1 / mass_matrix.diagonal().local_element(i);
+    const dealii::DiagonalMatrix<Vector> inverse_diagonal(inverse);
+    Vector                               a_free(r);
+    a_free = 0;
+    // One iteration if the mass is lumped; else few, as the scaled mass matrix
+    // is well conditioned whatever the mesh. So round-off is the only limit.
+    dealii::SolverControl    control(500, 1e-13 * r.l2_norm());
+    dealii::SolverCG<Vector> cg(control);
+    try
+      {
+        cg.solve(FreeMass{mass_matrix, motion, a_ghosted},
+                 a_free,
+                 r,
+                 inverse_diagonal);
+      }
+    catch (const dealii::SolverControl::NoConvergence &)
+      {
+        throw ComputationError("the initial acceleration could not be "
+                               "computed: the initial state or the loads are "
+                               "not finite");
+      }
+    state.a += a_free;
+  }
+} // namespace corotet

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/time_integration/load_stepping.h>
+
+namespace corotet
+{
+  void
+  LoadStepping::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Load steps",
+                      load_steps,
+                      "Number of equal steps from the start time to the end "
+                      "time [-]. The time step is not used.",
+                      dealii::Patterns::Integer(1));
+    prm.add_parameter("Proportional loading",
+                      proportional,
+                      "Whether all loads and prescribed displacements are also "
+                      "multiplied by the part of the steps that is done. If "
+                      "not, only their dependence on t changes them.");
+  }
+
+  StageReport
+  LoadStepping::step(SecondOrderSystem &system,
+                     const TimeStep    &step,
+                     State             &state)
+  {
+    const double time   = step.time + step.dt;
+    const double factor = load_factor(step.done);
+    system.prescribe(state, time, factor);
+    state.v = 0;
+    state.a = 0;
+    return system.solve_stage(state, {time, 0., 0., factor});
+  }
+} // namespace corotet

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/time_integration/newmark.h>
+
+namespace corotet
+{
+  void
+  Newmark::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Beta",
+      beta,
+      "beta [-]; 0.25 with gamma = 0.5 is the trapezoidal rule.",
+      dealii::Patterns::Double(1e-3, 1));
+    prm.add_parameter("Gamma",
+                      gamma,
+                      "gamma [-]; above 0.5 it damps and is of first order.",
+                      dealii::Patterns::Double(0.5, 1.5));
+  }
+
+  StageReport
+  Newmark::step(SecondOrderSystem &system, const TimeStep &step, State &state)
+  {
+    return family.step(system, step, {beta, gamma, 0., 0.}, state);
+  }
+} // namespace corotet
