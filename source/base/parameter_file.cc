@@ -149,8 +149,8 @@ namespace corotet
         if (is_entry(node))
           {
             const fs::path name = node.at("value").get<std::string>();
-            if (node.value("pattern_description", "").rfind("[FileName", 0) ==
-                  0 &&
+            if (node.value("pattern_description", "")
+                  .starts_with("[FileName") &&
                 !name.empty() && name.is_relative())
               node["value"] = fs::relative(from / name, to).string();
           }

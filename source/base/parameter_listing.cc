@@ -208,7 +208,7 @@ namespace corotet
       return "true or false";
     if (description == "[Anything]")
       return "a text";
-    if (description.rfind("[FileName", 0) == 0)
+    if (description.starts_with("[FileName"))
       return "a file name";
     if (description == "[DirectoryName]")
       return "a folder name";

@@ -52,7 +52,7 @@ namespace corotet
     behind_keyword(const std::string &line, std::string keyword)
     {
       const auto matches = [&]() {
-        return line.compare(0, keyword.size(), keyword) == 0 &&
+        return line.starts_with(keyword) &&
                (line.size() == keyword.size() || line[keyword.size()] == ' ');
       };
       bool found = matches();
@@ -74,10 +74,10 @@ namespace corotet
       void
       read(const std::string &path, const unsigned int depth = 0)
       {
-        std::ifstream     file         = open(path);
-        const std::size_t outer_depth  = sections.size();
-        std::string       line         = "";
-        std::string       concatenated = "";
+        std::ifstream     file        = open(path);
+        const std::size_t outer_depth = sections.size();
+        std::string       line;
+        std::string       concatenated;
         unsigned int      number       = 0;
         unsigned int      first_number = 1;
         while (std::getline(file, line))

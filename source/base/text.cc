@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <numeric>
 
 namespace corotet
@@ -48,7 +49,7 @@ namespace corotet
   nearest(const std::string &word, const std::vector<std::string> &candidates)
   {
     std::string best;
-    std::size_t best_distance = static_cast<std::size_t>(-1);
+    std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string &candidate : candidates)
       {
         const std::size_t d = distance(word, candidate);

@@ -43,7 +43,7 @@ namespace corotet
       if (leftover.empty())
         return;
       const std::string &argument = leftover.front();
-      if (argument.rfind('-', 0) != 0)
+      if (!argument.starts_with('-'))
         fail(fmt::format("unexpected argument \"{}\"; one parameter file is "
                          "allowed",
                          argument));
