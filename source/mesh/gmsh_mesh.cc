@@ -160,25 +160,15 @@ namespace corotet
     PhysicalGroups
     physical_groups(const std::string &path, const int dimension)
     {
-      const std::string          kind = dimension == 3 ? "volume" : "surface";
-      PhysicalGroups             groups;
-      std::map<std::string, int> ids;
-      gmsh::vectorpair           tags;
+      const std::string kind = dimension == 3 ? "volume" : "surface";
+      PhysicalGroups    groups;
+      gmsh::vectorpair  tags;
       gmsh::model::getPhysicalGroups(tags, dimension);
       for (const auto &[dim, id] : tags)
         {
           std::string name;
           gmsh::model::getPhysicalName(dim, id, name);
           groups.names[id] = name;
-          if (!name.empty() && !ids.emplace(name, id).second)
-            throw InputError("",
-                             fmt::format("{}: two physical {}s have the name "
-                                         "'{}': found the ids {} and {}",
-                                         path,
-                                         kind,
-                                         name,
-                                         ids[name],
-                                         id));
 
           std::vector<int> entities;
           gmsh::model::getEntitiesForPhysicalGroup(dim, id, entities);
@@ -337,7 +327,7 @@ namespace corotet
     prm.add_parameter("Element size",
                       element_size,
                       "Target length of edges for a .geo [m, before scaling]; "
-                      "0 leaves it to the file.",
+                      "0 leaves it to the file. A .msh needs 0.",
                       dealii::Patterns::Double(0));
   }
 
@@ -353,6 +343,12 @@ namespace corotet
     const std::string path =
       (std::filesystem::path(folder) / file).lexically_normal().string();
     check_file(path);
+    if (element_size > 0 && std::filesystem::path(path).extension() == ".msh")
+      throw InputError("Mesh/gmsh/Element size",
+                       fmt::format("only a .geo can be given an element size: "
+                                   "found {} for '{}'; 0 is allowed",
+                                   element_size,
+                                   path));
 
     try
       {

@@ -9,8 +9,6 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "mesh/tools.h"
 
 using namespace corotet;
@@ -41,12 +39,10 @@ Mesh.MeshSizeMax = 0.4;
 
   // An ASCII file of version 2.2.
   std::string
-  msh(const std::string &nodes,
-      const std::string &elements,
-      const std::string &names = "")
+  msh(const std::string &nodes, const std::string &elements)
   {
-    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + "$Nodes\n" +
-           nodes + "$EndNodes\n$Elements\n" + elements + "$EndElements\n";
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes +
+           "$EndNodes\n$Elements\n" + elements + "$EndElements\n";
   }
 
   // Nodes of the unit tetrahedron, with sparse numbers.
@@ -190,6 +186,17 @@ TEST(GmshMesh, FileNames)
               "'; allowed are .msh and .geo");
 }
 
+// A mesh has its size; asking for another one must not be ignored silently.
+TEST(GmshMesh, ElementSizeOfAMesh)
+{
+  EXPECT_EQ(refusal([] {
+              read_gmsh("bracket.msh", COROTET_SOURCE_DIR "/meshes", "0.01");
+            }),
+            "Mesh/gmsh/Element size: only a .geo can be given an element size: "
+            "found 0.01 for '" COROTET_SOURCE_DIR
+            "/meshes/bracket.msh'; 0 is allowed");
+}
+
 TEST(GmshMesh, BrokenFiles)
 {
   const TemporaryFolder folder;
@@ -295,10 +302,10 @@ TEST(GmshMesh, UngluedBodies)
             std::string::npos);
 }
 
-TEST(GmshMesh, AmbiguousPhysicalGroups)
+TEST(GmshMesh, SurfaceOfTwoPhysicalGroups)
 {
   const TemporaryFolder folder;
-  std::string           file =
+  const std::string     file =
     folder.write("two_groups.geo",
                  "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
                  "Physical Surface(\"a\", 3) = {1};\n"
@@ -307,101 +314,4 @@ TEST(GmshMesh, AmbiguousPhysicalGroups)
             file + ": surface 1 belongs to two physical groups: found 'a' (id "
                    "3) and 'b' (id 5); one is allowed (a file of version 2.2 "
                    "needs an elementary tag of its own for each group)");
-  file = folder.write(
-    "same_name.msh",
-    msh(unit_nodes,
-        "3\n1 4 2 1 1 10 2000000 300 40000\n2 2 2 3 1 10 300 2000000\n"
-        "3 2 2 5 2 10 2000000 40000\n",
-        "$PhysicalNames\n2\n2 3 \"a\"\n2 5 \"a\"\n$EndPhysicalNames\n"));
-  EXPECT_EQ(message(file),
-            file + ": two physical surfaces have the name 'a': found the ids 3 "
-                   "and 5");
 }
-
-struct Part
-{
-  std::string           name;
-  double                volume;
-  Names                 regions;
-  std::set<std::string> boundaries;
-  // Relative: how much coarse facets cut off or add at round surfaces.
-  double tolerance;
-};
-
-// What test reports call a part.
-std::ostream &
-operator<<(std::ostream &stream, const Part &part)
-{
-  return stream << part.name;
-}
-
-class ShippedMesh : public testing::TestWithParam<Part>
-{};
-
-// Every part in meshes/, as geometry and as mesh: passes all checks, has the
-// names its users rely on and, up to its facets, the volume of its design.
-TEST_P(ShippedMesh, LoadsAndPassesTheChecks)
-{
-  for (const std::string extension : {".geo", ".msh"})
-    {
-      SCOPED_TRACE(extension);
-      SerialMesh mesh =
-        read_gmsh(GetParam().name + extension, COROTET_SOURCE_DIR "/meshes");
-      check_mesh(mesh);
-      EXPECT_TRUE(mesh.remarks.empty());
-      EXPECT_EQ(mesh.region_names, GetParam().regions);
-
-      std::set<std::string> found;
-      for (const auto &[id, area] : boundary_areas(mesh))
-        found.insert(mesh.boundary_names.at(id));
-      EXPECT_EQ(found, GetParam().boundaries);
-
-      const MeshQuality quality = mesh_quality(mesh);
-      EXPECT_NEAR(quality.volume / GetParam().volume, 1, GetParam().tolerance);
-      EXPECT_GT(quality.smallest_dihedral_angle, 5);
-      EXPECT_LT(quality.worst_aspect_ratio, 10);
-      EXPECT_LT(mesh.cells.size(), 6000u);
-    }
-}
-
-namespace
-{
-  const double pi = std::acos(-1.);
-} // namespace
-
-// Volumes from the dimensions in the .geo files [m^3].
-INSTANTIATE_TEST_SUITE_P(
-  Parts,
-  ShippedMesh,
-  testing::Values(
-    // Plate, arm and fillet, less three holes.
-    Part{"bracket",
-         0.060 *
-             (0.008 * 0.080 + 0.092 * 0.008 + (1 - pi / 4) * 0.012 * 0.012) -
-           0.008 * pi * (2 * 0.005 * 0.005 + 0.008 * 0.008),
-         {{1, "bracket"}},
-         {"wall", "wall-holes", "tip", "tip-hole", "top"},
-         0.005},
-    // Prongs, half ring and the stem outside of the ring; how far the stem
-    // dips into the round ring, less than its radius^2 / ring radius, is left
-    // to the tolerance.
-    Part{"tuning_fork",
-         2 * 0.005 * 0.005 * 0.080 +
-           pi / 2 * (0.010 * 0.010 - 0.005 * 0.005) * 0.005 +
-           pi * 0.003 * 0.003 * 0.030,
-         {{1, "fork"}},
-         {"stem", "prong-left", "prong-right", "side-left", "side-right"},
-         0.02},
-    // A tube of six to eight facets around the helix: the area of a regular
-    // hexagon in a circle is 0.83 of the circle's.
-    Part{"spiral_spring",
-         pi * 0.003 * 0.003 * 3 * std::hypot(2 * pi * 0.020, 0.012),
-         {{1, "spring"}},
-         {"bottom", "top"},
-         0.17},
-    Part{"two_material_beam",
-         0.4 * 0.04 * 0.04,
-         {{1, "steel"}, {2, "rubber"}},
-         {"left", "right", "top"},
-         1e-12}),
-  [](const auto &part) { return part.param.name; });

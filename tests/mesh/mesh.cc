@@ -258,13 +258,14 @@ TEST(Mesh, RefusalsReachEveryRank)
 TEST(Mesh, FewerCellsThanRanks)
 {
   SerialMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  mesh.cells    = {{{{0, 1, 2, 3}}, 0}};
+  mesh.vertices              = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.cells                 = {{{{0, 1, 2, 3}}, 0}};
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
   EXPECT_EQ(refusal([&] { make_mesh(mesh); }),
-            dealii::Utilities::MPI::n_mpi_processes(comm) == 1 ?
+            n_ranks == 1 ?
               "none" :
-              "Mesh/Type: too few cells: found 1 for 2 ranks; each needs at "
-              "least one");
+              "Mesh/Type: too few cells: found 1 for " +
+                std::to_string(n_ranks) + " ranks; each needs at least one");
 }
 
 // Names first, then ids; and what an unknown one is answered.
