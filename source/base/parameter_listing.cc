@@ -197,7 +197,11 @@ namespace corotet
                             match[2],
                             match[3]);
     if (std::regex_match(description, match, selection))
-      return "one of " + replaced(match[1], "|", ", ");
+      {
+        const std::string names = match[1];
+        return (names.find('|') == std::string::npos ? "only " : "one of ") +
+               replaced(names, "|", ", ");
+      }
     if (std::regex_match(description, match, list))
       return describe_list(match[1], match[2], match[3], match[4]);
     if (description == "[Double]")

@@ -251,6 +251,8 @@ TEST(ParameterListing, DescribesPatternsInWords)
   EXPECT_EQ(describe_pattern(Integer().description()), "a whole number");
   EXPECT_EQ(describe_pattern(Integer(1, 3).description()),
             "a whole number from 1 to 3");
+  EXPECT_EQ(describe_pattern(Selection("a|b").description()), "one of a, b");
+  EXPECT_EQ(describe_pattern(Selection("a").description()), "only a");
   EXPECT_EQ(describe_pattern(Bool().description()), "true or false");
   EXPECT_EQ(describe_pattern(Anything().description()), "a text");
   EXPECT_EQ(describe_pattern(FileName().description()), "a file name");
