@@ -83,28 +83,6 @@ namespace corotet
     }
   } // namespace
 
-  Hdf5VirtualTable::Hdf5VirtualTable(const hsize_t n_rows,
-                                     const hsize_t n_columns)
-    : n_rows(n_rows)
-    , n_columns(n_columns)
-    , creation(H5Pcreate(H5P_DATASET_CREATE))
-  {}
-
-  void
-  Hdf5VirtualTable::append(const std::string &file, const std::string &name)
-  {
-    const Silence silence;
-    const hsize_t first = n_parts * n_rows;
-    ++n_parts;
-    const Hdf5Id source = table_space(n_rows, n_columns);
-    const Hdf5Id target = table_space(n_parts * n_rows, n_columns);
-    good =
-      select_rows(target, first, n_rows, n_columns) >= 0 &&
-      H5Pset_virtual(creation, target, file.c_str(), name.c_str(), source) >=
-        0 &&
-      good;
-  }
-
   Hdf5File::Hdf5File(const std::string &path, const MPI_Comm comm)
     : path(path)
     , comm(comm)
@@ -145,13 +123,13 @@ namespace corotet
       return;
     const Silence silence;
     const Hdf5Id  space = table_space(rows.n_global_rows, rows.n_columns);
-    const Hdf5Id  dataset(H5Dcreate2(file,
-                                    name.c_str(),
-                                    native_type<Number>(),
-                                    space,
-                                    H5P_DEFAULT,
-                                    H5P_DEFAULT,
-                                    H5P_DEFAULT));
+    Hdf5Id        dataset(H5Dcreate2(file,
+                              name.c_str(),
+                              native_type<Number>(),
+                              space,
+                              H5P_DEFAULT,
+                              H5P_DEFAULT,
+                              H5P_DEFAULT));
     if (!check(dataset))
       return;
     const Hdf5Id memory = table_space(rows.n_rows, rows.n_columns);
@@ -163,6 +141,8 @@ namespace corotet
                    space,
                    collective_transfer,
                    data));
+    // Space may be found missing only now.
+    check(H5Dclose(dataset.release()));
   }
 
   template <typename Number>
@@ -178,23 +158,37 @@ namespace corotet
   }
 
   void
-  Hdf5File::write_virtual(const std::string      &name,
-                          const Hdf5VirtualTable &table)
+  Hdf5File::write_virtual(const std::string           &name,
+                          const std::string           &source,
+                          const std::vector<Hdf5Part> &parts,
+                          const hsize_t                n_columns)
   {
     if (file < 0)
       return;
     const Silence silence;
-    const Hdf5Id  space =
-      table_space(table.n_parts * table.n_rows, table.n_columns);
+    hsize_t       n_rows = 0;
+    for (const Hdf5Part &part : parts)
+      n_rows += part.n_rows;
+    const Hdf5Id space = table_space(n_rows, n_columns);
+    const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE));
+    hsize_t      first = 0;
+    for (const Hdf5Part &part : parts)
+      {
+        const Hdf5Id part_space = table_space(part.n_rows, n_columns);
+        check(select_rows(space, first, part.n_rows, n_columns));
+        check(H5Pset_virtual(
+          creation, space, part.file.c_str(), source.c_str(), part_space));
+        first += part.n_rows;
+      }
+    H5Sselect_all(space);
     const Hdf5Id dataset(H5Dcreate2(file,
                                     name.c_str(),
                                     H5T_NATIVE_DOUBLE,
                                     space,
                                     H5P_DEFAULT,
-                                    table.creation,
+                                    creation,
                                     H5P_DEFAULT));
     check(dataset);
-    check(table.good ? 0 : -1);
   }
 
   void
@@ -281,6 +275,10 @@ namespace corotet
         check(H5Fclose(file.release()));
       }
     good = dealii::Utilities::MPI::min(good ? 1 : 0, comm) == 1;
+    // What could not be written HDF5 tries to write again when the program
+    // ends: let it not complain then, after the program's own message.
+    if (!good)
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     on_root(comm, [&] {
       std::error_code error;
       if (good)

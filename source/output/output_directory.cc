@@ -24,7 +24,7 @@ namespace corotet
     // the output directory. A folder is removed if it is empty then.
     const std::array<std::string_view, 4> own_files{
       {R"((solution\.vtkhdf|history\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
-       R"(solution/(mesh|step_[0-9]+)\.h5(\.tmp)?)",
+       R"(solution/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.tmp/[^/]+)"}};
     const std::array<std::string_view, 3> own_folders{

@@ -33,6 +33,13 @@ namespace corotet
                                                "Types"};
     const std::vector<std::string> static_cell_data{"region", "rank"};
 
+    // What is stored for each result: tables with a row per node (three
+    // columns) and lists with a number per cell.
+    const std::vector<std::string> point_data{"displacement", "velocity"};
+    const std::vector<std::string> cell_data{"rotation_angle",
+                                             "det_F",
+                                             "von_mises"};
+
     // Reference coordinates of the nodes of VTK's Lagrange tetrahedron.
     std::vector<Point<3>>
     vtk_nodes(const unsigned int degree)
@@ -56,12 +63,6 @@ namespace corotet
           nodes.emplace_back((vertices[a] + vertices[b] + vertices[c]) / 3);
       return nodes;
     }
-
-    std::string
-    step_file(const unsigned int step)
-    {
-      return fmt::format("solution/step_{:06}.h5", step);
-    }
   } // namespace
 
   std::vector<unsigned int>
@@ -80,9 +81,11 @@ namespace corotet
   }
 
   VtkhdfWriter::VtkhdfWriter(const std::string &directory,
-                             const double       time_between_results)
+                             const double       time_between_results,
+                             const std::size_t  n_joined)
     : directory(directory)
     , time_between_results(time_between_results)
+    , n_joined(n_joined)
   {}
 
   void
@@ -99,11 +102,6 @@ namespace corotet
           "/solution: the folder cannot be made: " + error.message());
     });
     write_mesh(discretization);
-
-    for (const std::string name : {"displacement", "velocity"})
-      point_data.emplace(name, Hdf5VirtualTable(nodes.n_global_rows, 3));
-    for (const std::string name : {"rotation_angle", "det_F", "von_mises"})
-      cell_data.emplace(name, Hdf5VirtualTable(cells.n_global_rows, 0));
     write_state(initial);
   }
 
@@ -203,14 +201,25 @@ namespace corotet
                 cells.n_global_rows + 1});
   }
 
+  std::string
+  VtkhdfWriter::Block::file_name() const
+  {
+    if (level == 0)
+      return fmt::format("step_{:06}.h5", step);
+    if (level == 1)
+      return fmt::format("block_{:06}.h5", step);
+    return fmt::format("block_{}_{:06}.h5", level, step);
+  }
+
   void
   VtkhdfWriter::write_state(const Snapshot &state)
   {
     const MPI_Comm    comm    = state.discretization.communicator();
     const CellResults results = state.cell_results();
-    const std::string name    = step_file(state.record.step);
 
-    Hdf5File file(directory + "/" + name, comm);
+    const Block block{0, state.record.step, 1};
+
+    Hdf5File file(directory + "/solution/" + block.file_name(), comm);
     file.write("displacement", state.displacement.begin(), nodes);
     file.write("velocity", state.velocity.begin(), nodes);
     file.write("rotation_angle", results.rotation_angle.data(), cells);
@@ -219,35 +228,76 @@ namespace corotet
     file.finish();
 
     times.push_back(state.record.time);
-    for (auto *group : {&point_data, &cell_data})
-      for (auto &[table_name, table] : *group)
-        table.append(name, table_name);
-    write_index(comm);
+    blocks.push_back(block);
+    on_root(comm, [&] {
+      join_blocks();
+      write_index();
+    });
   }
 
   void
-  VtkhdfWriter::write_index(const MPI_Comm comm) const
+  VtkhdfWriter::join_blocks()
   {
-    on_root(comm, [&] {
-      Hdf5File file(directory + "/solution.vtkhdf", MPI_COMM_SELF);
-      file.create_group("VTKHDF");
-      file.write_number_attribute("VTKHDF", "Version", {2, 0});
-      file.write_text_attribute("VTKHDF", "Type", "UnstructuredGrid");
-      for (const std::string &name : mesh_tables)
-        file.link("VTKHDF/" + name, "solution/mesh.h5", name);
+    // Levels never rise from one block to the next.
+    while (blocks.size() >= n_joined &&
+           blocks[blocks.size() - n_joined].level == blocks.back().level)
+      {
+        const std::size_t first = blocks.size() - n_joined;
+        const Block       joined{blocks[first].level + 1,
+                           blocks[first].step,
+                           blocks[first].n_results * n_joined};
+        Hdf5File          file(directory + "/solution/" + joined.file_name(),
+                      MPI_COMM_SELF);
+        write_references(file, first, "", "", "");
+        file.finish();
+        blocks.resize(first);
+        blocks.push_back(joined);
+      }
+  }
 
-      file.create_group("VTKHDF/PointData");
-      for (const auto &[name, table] : point_data)
-        file.write_virtual("VTKHDF/PointData/" + name, table);
-      file.create_group("VTKHDF/CellData");
-      for (const auto &[name, table] : cell_data)
-        file.write_virtual("VTKHDF/CellData/" + name, table);
-      for (const std::string &name : static_cell_data)
-        file.link("VTKHDF/CellData/" + name, "solution/mesh.h5", name);
+  void
+  VtkhdfWriter::write_references(Hdf5File          &file,
+                                 const std::size_t  first_block,
+                                 const std::string &folder,
+                                 const std::string &point_group,
+                                 const std::string &cell_group) const
+  {
+    std::vector<Hdf5Part> point_parts, cell_parts;
+    for (std::size_t i = first_block; i < blocks.size(); ++i)
+      {
+        const std::string name = folder + blocks[i].file_name();
+        point_parts.push_back(
+          {name, blocks[i].n_results * nodes.n_global_rows});
+        cell_parts.push_back({name, blocks[i].n_results * cells.n_global_rows});
+      }
+    for (const std::string &name : point_data)
+      file.write_virtual(point_group + name,
+                         name,
+                         point_parts,
+                         nodes.n_columns);
+    for (const std::string &name : cell_data)
+      file.write_virtual(cell_group + name, name, cell_parts, cells.n_columns);
+  }
 
-      write_index_steps(file);
-      file.finish();
-    });
+  void
+  VtkhdfWriter::write_index() const
+  {
+    Hdf5File file(directory + "/solution.vtkhdf", MPI_COMM_SELF);
+    file.create_group("VTKHDF");
+    file.write_number_attribute("VTKHDF", "Version", {2, 0});
+    file.write_text_attribute("VTKHDF", "Type", "UnstructuredGrid");
+    for (const std::string &name : mesh_tables)
+      file.link("VTKHDF/" + name, "solution/mesh.h5", name);
+
+    file.create_group("VTKHDF/PointData");
+    file.create_group("VTKHDF/CellData");
+    write_references(
+      file, 0, "solution/", "VTKHDF/PointData/", "VTKHDF/CellData/");
+    for (const std::string &name : static_cell_data)
+      file.link("VTKHDF/CellData/" + name, "solution/mesh.h5", name);
+
+    write_index_steps(file);
+    file.finish();
   }
 
   void
@@ -277,11 +327,11 @@ namespace corotet
       return offsets;
     };
     file.create_group(steps + "/PointDataOffsets");
-    for (const auto &[name, table] : point_data)
+    for (const std::string &name : point_data)
       file.write_from_root(steps + "/PointDataOffsets/" + name,
                            consecutive(nodes.n_global_rows));
     file.create_group(steps + "/CellDataOffsets");
-    for (const auto &[name, table] : cell_data)
+    for (const std::string &name : cell_data)
       file.write_from_root(steps + "/CellDataOffsets/" + name,
                            consecutive(cells.n_global_rows));
     for (const std::string &name : static_cell_data)

@@ -7,7 +7,6 @@
 #include <corotet/output/hdf5_file.h>
 #include <corotet/simulation/observer.h>
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -29,11 +28,16 @@ namespace corotet
    * degree.
    *
    * Numbers are in files beside it, solution/mesh.h5 (once) and
-   * solution/step_NNNNNN.h5 (one per result, NNNNNN is the step); each is
-   * written by all ranks together and is complete or absent. solution.vtkhdf
-   * itself refers to them by relative names only (external links and virtual
-   * datasets), so the folder can be moved; it is replaced as a whole after each
-   * result. So a run that is killed leaves every finished result readable.
+   * solution/step_NNNNNN.h5 (one per result, NNNNNN is the step), written by
+   * all ranks together. solution.vtkhdf itself refers to them by relative names
+   * only (external links and virtual datasets), so the folder can be moved. It
+   * is replaced after each result, and each file is complete or absent: so a
+   * run that is killed leaves every finished result readable.
+   *
+   * References cost time, to write and to read, so there must not be one to
+   * each of thousands of results: solution/block_NNNNNN.h5 refers to 32 results
+   * from that of step NNNNNN on, solution/block_2_NNNNNN.h5 to 32 of such
+   * blocks, and so on.
    */
   class VtkhdfWriter : public Observer
   {
@@ -41,10 +45,12 @@ namespace corotet
     /**
      * Writes into @p directory. A result follows the first step at or after
      * each multiple of @p time_between_results [s] (0: every step); the first
-     * and the last state are always written.
+     * and the last state are always written. @p n_joined blocks make a larger
+     * one.
      */
     VtkhdfWriter(const std::string &directory,
-                 const double       time_between_results);
+                 const double       time_between_results,
+                 const std::size_t  n_joined = 32);
 
     /// Throws MachineError if a file cannot be written, as does step().
     void
@@ -54,6 +60,18 @@ namespace corotet
     step(const Snapshot &state) override;
 
   private:
+    /// A file in folder solution that has or refers to the numbers of @p
+    /// n_results results in a row; @p step is the step of the first.
+    struct Block
+    {
+      unsigned int level;
+      unsigned int step;
+      std::size_t  n_results;
+
+      std::string
+      file_name() const;
+    };
+
     bool
     is_due(const double time) const;
 
@@ -63,22 +81,36 @@ namespace corotet
     write_connectivity(const Discretization &discretization, Hdf5File &file);
     void
     write_state(const Snapshot &state);
+    /// Replaces the last blocks by one, as long as there are enough of the same
+    /// level. On rank 0.
     void
-    write_index(const MPI_Comm comm) const;
+    join_blocks();
+    /// Writes solution.vtkhdf. On rank 0.
+    void
+    write_index() const;
     void
     write_index_steps(Hdf5File &file) const;
+    /// Writes the tables that stand for those of all blocks from number @p
+    /// first_block on, into groups (with a slash at the end, or empty); @p
+    /// folder is that of the blocks relative to the file's.
+    void
+    write_references(Hdf5File          &file,
+                     const std::size_t  first_block,
+                     const std::string &folder,
+                     const std::string &point_group,
+                     const std::string &cell_group) const;
 
     std::string directory;
     double      time_between_results;
+    std::size_t n_joined;
 
     /// This rank's share of the nodes (three columns) and of the cells.
     Hdf5Rows nodes{};
     Hdf5Rows cells{};
 
-    /// Of the results so far, and the tables that they make, by name.
-    std::vector<double>                     times;
-    std::map<std::string, Hdf5VirtualTable> point_data;
-    std::map<std::string, Hdf5VirtualTable> cell_data;
+    /// Of all results so far.
+    std::vector<double> times;
+    std::vector<Block>  blocks;
   };
 } // namespace corotet
 

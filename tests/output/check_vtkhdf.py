@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Checks the time series of an output directory with VTK's own reader.
+
+    check_vtkhdf.py DIRECTORY [--degree P] [--probes 'NAME: X Y Z, ...'] [--moved] [--killed] [--test-field]
+
+For every step:
+- cells are Lagrange tetrahedra (type 71) of one degree, of positive volume, and all finite data of cells and points are there;
+- every node is at its parametric place, as VTK's own cell tells it, to 1e-6 of the cell's size; nodes are shared: no two
+  are at the same place; the mesh is the same in all steps;
+- the displacement that VTK's shape functions give at each probe is that of history.csv to 1e-12 relative;
+- the time is one of history.csv's, in order; the first and the last are there.
+Probes are those of --probes, else those of the directory's parameters.prm. Everything is read from another working
+directory; with --moved, from a copy of the directory, too. With --killed, history.csv may be a step behind or ahead.
+With --test-field, the data are also compared with what the tests write.
+"""
+import argparse
+import csv
+import os
+import re
+import shutil
+import sys
+import tempfile
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+POINT_DATA = {"displacement", "velocity"}
+CELL_DATA = {"region", "rotation_angle", "det_F", "von_mises", "rank"}
+NODES = {4: 1, 10: 2, 20: 3}
+
+
+def require(condition, message):
+    if not condition:
+        sys.exit(f"check_vtkhdf: {message}")
+
+
+def read_steps(directory):
+    """Yields (time, grid) of each step."""
+    reader = vtkHDFReader()
+    reader.SetFileName(os.path.join(directory, "solution.vtkhdf"))
+    reader.UpdateInformation()
+    times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+    if times is None:
+        # VTK takes a single step for a mesh without time.
+        reader.Update()
+        yield read_history(directory)[0]["time"], reader.GetOutputDataObject(0)
+        return
+    for time in times:
+        require(reader.UpdateTimeStep(time) == 1, f"the step of time {time} cannot be read")
+        yield time, reader.GetOutputDataObject(0)
+
+
+def read_history(directory):
+    with open(os.path.join(directory, "history.csv"), newline="") as file:
+        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+
+def read_probes(text):
+    return {name.strip(): np.array(place.split(), float) for name, place in (part.split(":") for part in text.split(",") if part.strip())}
+
+
+def probes_of(directory):
+    path = os.path.join(directory, "parameters.prm")
+    if not os.path.exists(path):
+        return {}
+    with open(path) as file:
+        found = re.search(r"^\s*set Probes\s*=([^#\n]*)", file.read(), re.MULTILINE)
+    return read_probes(found.group(1)) if found else {}
+
+
+class Mesh:
+    """The mesh of a step, checked."""
+
+    def __init__(self, grid, degree):
+        require(grid.GetNumberOfCells() > 0, "no cells")
+        require((vtk_to_numpy(grid.GetCellTypesArray()) == 71).all(), "not all cells are of type 71")
+        self.points = vtk_to_numpy(grid.GetPoints().GetData()).copy()
+        sizes = np.diff(vtk_to_numpy(grid.GetCells().GetOffsetsArray()))
+        require((sizes == sizes[0]).all() and sizes[0] in NODES, f"cells of {set(sizes)} nodes")
+        require(degree in (None, NODES[sizes[0]]), f"degree {NODES[sizes[0]]} instead of {degree}")
+        self.cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, sizes[0]).copy()
+        self.origins = self.points[self.cells[:, 0]]
+        # Columns are the edges from vertex 0.
+        self.jacobians = (self.points[self.cells[:, 1:4]] - self.origins[:, None]).transpose(0, 2, 1)
+        require((np.linalg.det(self.jacobians) > 0).all(), "cells of negative volume")
+        self.check_places(grid.GetCell(0))
+        used = np.unique(self.cells)
+        require(used.size == len(self.points), "nodes without a cell")
+        scale = np.ptp(self.points, axis=0).max()
+        require(len(np.unique(np.round(self.points / (1e-9 * scale)), axis=0)) == used.size, "nodes are not shared")
+
+    def check_places(self, cell):
+        n = self.cells.shape[1]
+        parametric = np.array([cell.GetParametricCoords()[i] for i in range(3 * n)]).reshape(n, 3)
+        expected = self.origins[:, None] + np.einsum("cij,nj->cni", self.jacobians, parametric)
+        size = np.linalg.norm(self.jacobians, axis=(1, 2))
+        error = (np.linalg.norm(self.points[self.cells] - expected, axis=2) / size[:, None]).max()
+        require(error < 1e-6, f"a node is {error:.2e} of its cell away from its parametric place")
+
+    def centres(self):
+        return self.points[self.cells[:, :4]].mean(axis=1)
+
+    def locate(self, x):
+        """The cell that x is in and x's parametric coordinates there."""
+        xi = np.linalg.solve(self.jacobians, (x - self.origins)[..., None])[..., 0]
+        depth = np.minimum(xi.min(axis=1), 1 - xi.sum(axis=1))
+        cell = int(depth.argmax())
+        require(depth[cell] > -1e-7, f"point {x} is outside of the mesh")
+        return cell, xi[cell]
+
+
+def interpolate(grid, mesh, x, values):
+    """Values of the nodes at x, by VTK's own shape functions."""
+    cell, xi = mesh.locate(x)
+    weights = np.zeros(mesh.cells.shape[1])
+    grid.GetCell(cell).InterpolateFunctions(xi, weights)
+    return weights @ values[mesh.cells[cell]]
+
+
+def check_test_field(time, mesh, point_data, cell_data):
+    """Fields as tests/output/support.cc makes them. Tolerance: round-off of numbers of order one."""
+    x, y, z = mesh.points.T
+    field = np.stack([time * np.sin(3 * x + y), time * np.cos(2 * y - z), time * x * y + time**2 * z], axis=1)
+    np.testing.assert_allclose(point_data["displacement"], field, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(point_data["velocity"], 2 * field, rtol=0, atol=2e-14)
+    centres = mesh.centres()
+    for i, name in enumerate(["rotation_angle", "det_F", "von_mises"]):
+        np.testing.assert_allclose(cell_data[name], time + centres[:, i], rtol=0, atol=1e-14)
+    # The regions meet at x = 0.5; vertices have not been moved across.
+    right = mesh.points[mesh.cells[:, :4], 0].max(axis=1) > 0.6
+    require(set(cell_data["region"][right]) == {8} and 7 in cell_data["region"], "wrong regions")
+
+
+def arrays(data, names, n):
+    found = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    require(names <= set(found), f"{names - set(found)} is missing")
+    for name in names:
+        require(len(found[name]) == n and np.isfinite(found[name]).all(), f"{name} has wrong values")
+    return found
+
+
+def check_times(times, rows, killed):
+    history = [row["time"] for row in rows]
+    if killed:
+        # The kill came between the two files of a step.
+        require(abs(len(times) - len(history)) <= 1, f"{len(times)} steps, but {len(history)} rows in the history")
+        n = min(len(times), len(history))
+        require(times[:n] == history[:n], "times differ from the history's")
+        return
+    require(set(times) <= set(history), "times that the history does not have")
+    require(times == sorted(times) and len(set(times)) == len(times), "times are not increasing")
+    require(times[0] == history[0], "the first state is missing")
+    require(times[-1] == history[-1], "the last state is missing")
+
+
+def check(directory, options):
+    rows = {row["time"]: row for row in read_history(directory)}
+    probes = read_probes(options.probes) if options.probes is not None else probes_of(directory)
+    mesh, times = None, []
+    for time, grid in read_steps(directory):
+        times.append(time)
+        if mesh is None:
+            mesh = Mesh(grid, options.degree)
+        require((vtk_to_numpy(grid.GetPoints().GetData()) == mesh.points).all(), "the mesh changes")
+        require((vtk_to_numpy(grid.GetCells().GetConnectivityArray()) == mesh.cells.ravel()).all(), "the mesh changes")
+        point_data = arrays(grid.GetPointData(), POINT_DATA, len(mesh.points))
+        cell_data = arrays(grid.GetCellData(), CELL_DATA, len(mesh.cells))
+        for name, x in probes.items():
+            if time not in rows:
+                continue
+            expected = np.array([rows[time][f"{name}_{c}"] for c in "xyz"])
+            error = np.linalg.norm(interpolate(grid, mesh, x, point_data["displacement"]) - expected)
+            require(error <= 1e-12 * np.linalg.norm(expected), f"probe {name} at time {time} is off by {error:.2e} of {expected}")
+        if options.test_field:
+            check_test_field(time, mesh, point_data, cell_data)
+    check_times(times, list(rows.values()), options.killed)
+    return f"{len(times)} steps, {len(mesh.cells)} cells of degree {NODES[mesh.cells.shape[1]]}, {len(probes)} probes"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("directory")
+    parser.add_argument("--degree", type=int)
+    parser.add_argument("--probes")
+    for flag in ("--moved", "--killed", "--test-field"):
+        parser.add_argument(flag, action="store_true")
+    options = parser.parse_args()
+    directory = os.path.abspath(options.directory)
+    os.chdir("/")
+    result = check(directory, options)
+    if options.moved:
+        with tempfile.TemporaryDirectory() as elsewhere:
+            moved = os.path.join(elsewhere, "moved")
+            shutil.copytree(directory, moved)
+            # The original must not be what is read.
+            hidden = directory + ".hidden"
+            os.rename(directory, hidden)
+            try:
+                check(moved, options)
+            finally:
+                os.rename(hidden, directory)
+    print(f"{directory}: {result}: good")
+
+
+if __name__ == "__main__":
+    main()

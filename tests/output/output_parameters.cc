@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The entries of section Output: what is accepted means what its documentation
+// says, and what is not is refused with a message that says why.
+
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+using corotet::InputError;
+using corotet::OutputParameters;
+
+namespace
+{
+  // The refusal of a value of entry Probes, with the entry it blames.
+  std::string
+  refusal(const std::string &probes)
+  {
+    OutputParameters parameters;
+    parameters.probes = probes;
+    try
+      {
+        parameters.probe_points();
+      }
+    catch (const InputError &error)
+      {
+        return error.entry + ": " + error.what();
+      }
+    return "no error";
+  }
+} // namespace
+
+// The defaults, as ParameterHandler reads them.
+TEST(OutputParameters, Defaults)
+{
+  OutputParameters         parameters;
+  dealii::ParameterHandler prm;
+  prm.enter_subsection("Output");
+  parameters.declare_parameters(prm);
+  prm.leave_subsection();
+  prm.parse_input_from_string("subsection Output\n set Overwrite = true\nend");
+  EXPECT_TRUE(parameters.overwrite);
+  EXPECT_EQ(parameters.time_between_results, 0);
+  EXPECT_TRUE(parameters.probe_points().empty());
+  EXPECT_EQ(parameters.directory_of_run("some/where/beam.prm"), "output/beam");
+  parameters.directory = "here";
+  EXPECT_EQ(parameters.directory_of_run("some/where/beam.prm"), "here");
+}
+
+TEST(OutputParameters, ProbesAreRead)
+{
+  OutputParameters parameters;
+  parameters.probes = " tip: 1 0.05 -5e-2 ,mid_2:0.5   0 0";
+  const auto points = parameters.probe_points();
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].name, "tip");
+  EXPECT_EQ(points[0].position, dealii::Point<3>(1, 0.05, -0.05));
+  EXPECT_EQ(points[1].name, "mid_2");
+  EXPECT_EQ(points[1].position, dealii::Point<3>(0.5, 0, 0));
+}
+
+TEST(OutputParameters, WrongProbesAreRefused)
+{
+  EXPECT_EQ(refusal("1 2 3"),
+            "Output/Probes: '1 2 3' is no probe; a list of NAME: X Y Z, "
+            "separated by commas, is allowed");
+  EXPECT_EQ(refusal("tip: 0 0 0,"),
+            "Output/Probes: '' is no probe; a list of NAME: X Y Z, separated "
+            "by commas, is allowed");
+  EXPECT_EQ(refusal("2nd: 1 2 3"),
+            "Output/Probes: '2nd' cannot be a probe's name; letters, digits "
+            "and _ are allowed, no digit first");
+  EXPECT_EQ(refusal(": 1 2 3"),
+            "Output/Probes: '' cannot be a probe's name; letters, digits and "
+            "_ are allowed, no digit first");
+  EXPECT_EQ(refusal("momentum: 1 2 3"),
+            "Output/Probes: 'momentum' cannot be a probe's name; momentum, "
+            "angular_momentum, reaction are columns of the history already");
+  EXPECT_EQ(refusal("a: 1 2 3, a: 3 2 1"),
+            "Output/Probes: two probes are called 'a'; each name must be used "
+            "once");
+  for (const std::string wrong :
+       {"1 2", "1 2 3 4", "1 2 z", "1 2 inf", "1 2 3m"})
+    EXPECT_EQ(refusal("a: " + wrong),
+              "Output/Probes: probe 'a' is at '" + wrong +
+                "'; its position must be three numbers (x y z, in m)");
+}

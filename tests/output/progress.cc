@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The progress: what a line says, and how many lines stay.
+
+#include <corotet/output/progress.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support.h"
+
+using namespace corotet;
+using namespace test_output;
+
+TEST(Progress, LineSaysHowFarTheRunIs)
+{
+  const StepRecord record = ModelBody::record(12, 0.25);
+  EXPECT_EQ(progress_text(record, 1, 3725),
+            "step 12, time 0.25 of 1 s (25 %), 2 Newton and 31 linear "
+            "iterations, 1:02:05 left");
+  EXPECT_EQ(progress_text(record, 0.25, -1),
+            "step 12, time 0.25 of 0.25 s (100 %), 2 Newton and 31 linear "
+            "iterations");
+}
+
+// A thousand steps that take no time leave the first and the last line.
+TEST(Progress, QuickStepsLeaveTwoLines)
+{
+  const ScratchFolder scratch;
+  ModelBody           body(1);
+  {
+    Log      log(MPI_COMM_WORLD, true);
+    Progress progress(10, log);
+    log.open(scratch.path + "/log.txt");
+    StepRecord record;
+    const auto state = [&](const bool last) {
+      return Snapshot{body.discretization,
+                      record,
+                      body.displacement,
+                      body.velocity,
+                      {},
+                      last};
+    };
+    progress.start(state(false));
+    for (unsigned int step = 1; step <= 1000; ++step)
+      {
+        record.step = step;
+        record.time = 0.01 * step;
+        progress.step(state(step == 1000));
+      }
+  }
+  wait_for_all();
+  const std::string text = content_of(scratch.path + "/log.txt");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+  EXPECT_EQ(text.find("step 1, time 0.01 of 10 s (0 %)"), 0u) << text;
+  EXPECT_NE(text.find("\nstep 1000, time 10 of 10 s (100 %), 0 Newton and 0 "
+                      "linear iterations\n"),
+            std::string::npos)
+    << text;
+}

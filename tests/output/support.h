@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_output_support_h
+#define corotet_tests_output_support_h
+
+#include <corotet/base/exceptions.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/output/output_parameters.h>
+#include <corotet/simulation/observer.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+// What the tests of the output layer share.
+namespace test_output
+{
+  /**
+   * A new folder, the same for all ranks, that is removed in the end.
+   */
+  class ScratchFolder
+  {
+  public:
+    ScratchFolder();
+    ~ScratchFolder();
+
+    ScratchFolder(const ScratchFolder &) = delete;
+    ScratchFolder &
+    operator=(const ScratchFolder &) = delete;
+
+    std::string path;
+  };
+
+  /// Waits for all ranks: what one of them has done to files is done.
+  void
+  wait_for_all();
+
+  unsigned int
+  rank();
+
+  bool
+  on_rank_0();
+
+  unsigned int
+  n_ranks();
+
+  std::string
+  content_of(const std::string &file);
+
+  /// The message of the @p Kind of error that @p action throws; "no error" if
+  /// it throws none.
+  template <typename Kind>
+  std::string
+  message_of(const std::function<void()> &action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const Kind &error)
+      {
+        return error.what();
+      }
+    return "no error";
+  }
+
+  /**
+   * A distorted box [0, 1] x [0, 0.5] x [0, 0.25] of 4 x 2 x 2 times six
+   * tetrahedra and two regions: 7 for x < 0.5, 8 beyond.
+   */
+  corotet::SerialMesh
+  distorted_box();
+
+  /// In check_vtkhdf.py, too (option --test-field).
+  dealii::Tensor<1, 3>
+  displacement_field(const dealii::Point<3> &x, const double t);
+
+  /**
+   * States of a body without any mechanics: displacement_field() at the nodes,
+   * as velocity its double, and cell data that check_vtkhdf.py knows.
+   */
+  class ModelBody
+  {
+  public:
+    explicit ModelBody(const unsigned int degree);
+
+    /// Shows the observer a state (step 0 by start(), others by step()) with a
+    /// record of awkward numbers.
+    void
+    show(corotet::Observer &observer,
+         const unsigned int step,
+         const double       time,
+         const bool         last);
+
+    static corotet::StepRecord
+    record(const unsigned int step, const double time);
+
+    corotet::Log            log;
+    corotet::Mesh           mesh;
+    corotet::Discretization discretization;
+    corotet::Vector         displacement;
+    corotet::Vector         velocity;
+  };
+
+  /// Runs PYTHON-FILE of this folder with these arguments on rank 0; its exit
+  /// status on all ranks.
+  int
+  run_python(const std::string &command);
+
+  /// Points inside, on a face and at a vertex of the box.
+  const std::string probes =
+    "inside: 0.317 0.211 0.127, face: 1 0.2 0.11, corner: 1 0.5 0.25";
+} // namespace test_output
+
+#endif
