@@ -30,11 +30,6 @@ namespace corotet
     const std::array<std::string_view, 3> own_folders{
       {"solution", "checkpoint", R"(checkpoint/[^/]+\.tmp)"}};
 
-    // What at least one of must be there: files called parameters.prm or
-    // log.txt may be anybody's.
-    const std::array<std::string_view, 3> marks{
-      {"solution.vtkhdf", "history.csv", "summary.json"}};
-
     template <typename Patterns>
     bool
     matches(const std::string &name, const Patterns &patterns)
@@ -54,13 +49,29 @@ namespace corotet
               matches(relative_path.generic_string(), own_folders));
     }
 
+    // Whether files of a folder show that a run has made it. A parameters.prm
+    // or a log.txt alone may be anybody's; a run that failed early leaves both.
+    bool
+    made_by_a_run(const fs::path &directory)
+    {
+      const auto has = [&](const std::string &name) {
+        return fs::exists(directory / name);
+      };
+      return has("solution.vtkhdf") || has("history.csv") ||
+             has("summary.json") || (has("parameters.prm") && has("log.txt"));
+    }
+
     // Everything below the directory, folders after what they hold. Throws if
     // any of it is not a result.
     std::vector<fs::path>
     old_results(const fs::path &directory)
     {
+      if (!made_by_a_run(directory))
+        throw InputError(directory_entry,
+                         "the output directory '" + directory.string() +
+                           "' is not empty and holds no results of corotet; "
+                           "only a directory of results can be overwritten");
       std::vector<fs::path> results;
-      bool                  marked = false;
       for (const fs::directory_entry &entry :
            fs::recursive_directory_iterator(directory))
         {
@@ -71,17 +82,8 @@ namespace corotet
                                "' holds '" + path.string() +
                                "', which is no result of corotet; only a "
                                "directory of results can be overwritten");
-          marked =
-            marked ||
-            std::find(marks.begin(), marks.end(), path.string()) != marks.end();
           results.push_back(entry.path());
         }
-      if (!marked)
-        throw InputError(directory_entry,
-                         "the output directory '" + directory.string() +
-                           "' is not empty and holds no results of corotet "
-                           "(solution.vtkhdf, history.csv or summary.json); "
-                           "only a directory of results can be overwritten");
       std::reverse(results.begin(), results.end());
       return results;
     }

@@ -110,14 +110,25 @@ TEST(OutputDirectory, ForeignFilesAreNotOverwritten)
 // A parameter file or a log alone may be anybody's.
 TEST(OutputDirectory, UnmarkedFolderIsNotOverwritten)
 {
+  for (const std::string name : {"parameters.prm", "log.txt"})
+    {
+      const ScratchFolder scratch;
+      make_files(scratch.path, {name});
+      EXPECT_EQ(refusal(scratch.path, true),
+                "the output directory '" + scratch.path +
+                  "' is not empty and holds no results of corotet; only a "
+                  "directory of results can be overwritten");
+      EXPECT_TRUE(fs::exists(scratch.path + "/" + name));
+    }
+}
+
+// A run that failed before its first result leaves these two.
+TEST(OutputDirectory, FailedRunIsOverwritten)
+{
   const ScratchFolder scratch;
   make_files(scratch.path, {"parameters.prm", "log.txt"});
-  EXPECT_EQ(refusal(scratch.path, true),
-            "the output directory '" + scratch.path +
-              "' is not empty and holds no results of corotet "
-              "(solution.vtkhdf, history.csv or summary.json); only a "
-              "directory of results can be overwritten");
-  EXPECT_TRUE(fs::exists(scratch.path + "/parameters.prm"));
+  prepare_output_directory(scratch.path, true, MPI_COMM_WORLD);
+  EXPECT_TRUE(fs::is_empty(scratch.path));
 }
 
 TEST(OutputDirectory, LinkIsNotOverwritten)
