@@ -27,9 +27,10 @@ namespace corotet
                 const double      end_time,
                 const double      seconds_left)
   {
+    // Short, because a live line must fit into a terminal's.
     std::string text =
-      fmt::format("step {}, time {:.6g} of {:.6g} s ({:.0f} %), {} Newton and "
-                  "{} linear iterations",
+      fmt::format("step {}, time {:.4g} of {:.4g} s ({:.0f} %), Newton {}, "
+                  "linear {}",
                   record.step,
                   record.time,
                   end_time,
