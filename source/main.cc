@@ -66,7 +66,11 @@ namespace
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // deal.II hands the arguments on to PETSc, which warns about unknown ones.
+  int                                      n_known         = 1;
+  char                                    *known[]         = {argv[0], nullptr};
+  char                                   **known_arguments = known;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_known, known_arguments, 1);
   ParameterFile                            file;
   try
     {

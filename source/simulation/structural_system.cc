@@ -79,6 +79,12 @@ namespace corotet
       discretization.initialize_vector(*vector);
   }
 
+  StructuralSystem::~StructuralSystem()
+  {
+    // The parameters' solver may live longer than the matrix that it knows.
+    parameters.linear_solver.clear();
+  }
+
   void
   StructuralSystem::initialize(State &state) const
   {

@@ -60,6 +60,12 @@ namespace corotet
   }
 
   void
+  AMG::clear()
+  {
+    amg.clear();
+  }
+
+  void
   AMG::vmult(Vector &dst, const Vector &src) const
   {
     amg.vmult(dst, src);

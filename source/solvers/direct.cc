@@ -19,6 +19,12 @@ namespace corotet
   }
 
   void
+  Direct::clear()
+  {
+    factors.reset();
+  }
+
+  void
   Direct::vmult(Vector &dst, const Vector &src) const
   {
     factors->solve(dst, src);

@@ -15,6 +15,12 @@ namespace corotet
   }
 
   void
+  Jacobi::clear()
+  {
+    inverse_diagonal.clear();
+  }
+
+  void
   Jacobi::vmult(Vector &dst, const Vector &src) const
   {
     inverse_diagonal.vmult(dst, src);

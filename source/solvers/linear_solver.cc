@@ -83,4 +83,11 @@ namespace corotet
                                first_iterations);
     return iterations;
   }
+
+  void
+  LinearSolver::clear()
+  {
+    preconditioner.selected().clear();
+    is_built = false;
+  }
 } // namespace corotet

@@ -44,6 +44,8 @@ namespace corotet
                      WallTimes            &wall_times,
                      Log                  &log);
 
+    ~StructuralSystem() override;
+
     void
     initialize(State &state) const;
 

@@ -25,6 +25,9 @@ namespace corotet
     build(const EffectiveOperator &A, const Vector &positions) override;
 
     void
+    clear() override;
+
+    void
     vmult(Vector &dst, const Vector &src) const override;
 
     unsigned int

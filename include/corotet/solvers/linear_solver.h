@@ -30,13 +30,17 @@ namespace corotet
      * Solves A x = b from x = 0 until the residual is below the tolerance
      * times |b|. @p positions: current positions of the nodes [m]. Returns the
      * number of iterations. Throws ComputationError if it does not get there.
-     * Collective.
+     * @p A must live until clear(). Collective.
      */
     unsigned int
     solve(const EffectiveOperator &A,
           Vector                  &x,
           const Vector            &b,
           const Vector            &positions);
+
+    /// Forgets the operator of the last solves.
+    void
+    clear();
 
   private:
     Selectable<Preconditioner> preconditioner;

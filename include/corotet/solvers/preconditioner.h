@@ -26,12 +26,16 @@ namespace corotet
 
     /**
      * Makes P from A as it is now. @p positions are the current positions of
-     * the nodes [m], from which rigid body modes are made. Both must outlive
-     * the use of P; A may change in between, then P is that of an older A.
+     * the nodes [m], from which rigid body modes are made. A must live until
+     * clear(); it may change in between, then P is that of an older A.
      * Collective.
      */
     virtual void
     build(const EffectiveOperator &A, const Vector &positions) = 0;
+
+    /// Forgets A and P.
+    virtual void
+    clear() = 0;
 
     /// dst = P src. Collective.
     virtual void

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_body_h
+#define corotet_tests_body_h
+
+#include <corotet/base/exceptions.h>
+#include <corotet/mesh/box_mesh.h>
+#include <corotet/simulation/structural_system.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace corotet_tests
+{
+  using namespace corotet;
+
+  /**
+   * The box [0, size] with n cells in each direction (five tetrahedra each).
+   * Interior vertices are moved by up to @p distortion of the cell size, by a
+   * fixed rule.
+   */
+  inline SerialMesh
+  box(const std::string &size,
+      const std::string &cells,
+      const double       distortion = 0)
+  {
+    BoxMesh                  source;
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("Size", size);
+    prm.set("Cells", cells);
+    SerialMesh       mesh = source.create("");
+    dealii::Point<3> upper;
+    for (const auto &x : mesh.vertices)
+      for (unsigned int a = 0; a < 3; ++a)
+        upper[a] = std::max(upper[a], x[a]);
+    const double h =
+      std::cbrt(upper[0] * upper[1] * upper[2] / (mesh.cells.size() / 5));
+    for (auto &x : mesh.vertices)
+      {
+        bool inside = true;
+        for (unsigned int a = 0; a < 3; ++a)
+          inside = inside && x[a] > 1e-10 && x[a] < upper[a] - 1e-10;
+        const auto rest = x;
+        for (unsigned int a = 0; a < 3 && inside; ++a)
+          x[a] += distortion * h *
+                  std::sin(1e3 * (rest[a] + 2 * rest[(a + 1) % 3] +
+                                  3 * rest[(a + 2) % 3]) +
+                           a);
+      }
+    return mesh;
+  }
+
+  /**
+   * Parameters as a .prm file gives them.
+   */
+  struct Parameters : public SimulationParameters
+  {
+    explicit Parameters(const std::string &text)
+    {
+      declare_parameters(prm);
+      prm.parse_input_from_string(text);
+    }
+
+    dealii::ParameterHandler prm;
+  };
+
+  /**
+   * A body made of a mesh and parameters, without the driver.
+   */
+  struct Body
+  {
+    Body(const SerialMesh &serial_mesh, const std::string &text)
+      : log(MPI_COMM_WORLD, true)
+      , parameters(text)
+      , mesh(serial_mesh, 0, 1., MPI_COMM_WORLD, log)
+      , discretization(mesh, parameters.degree)
+      , system(discretization, parameters, wall_times, log)
+    {
+      system.initialize(state);
+    }
+
+    /// A vector with the values of @p function at all nodes, ghosts included.
+    Vector
+    interpolate(
+      const std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &)>
+        &function) const
+    {
+      Vector u;
+      discretization.initialize_vector(u);
+      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+        {
+          const auto value = function(discretization.node_position(n));
+          for (unsigned int a = 0; a < 3; ++a)
+            u.local_element(3 * n + a) = value[a];
+        }
+      u.update_ghost_values();
+      return u;
+    }
+
+    Log            log;
+    Parameters     parameters;
+    Mesh           mesh;
+    Discretization discretization;
+    WallTimes      wall_times;
+
+    StructuralSystem system;
+    State            state;
+  };
+
+  /// Largest absolute owned entry over all ranks.
+  inline double
+  largest_difference(const Vector &u, const Vector &v)
+  {
+    Vector difference(u);
+    difference.set_ghost_state(false);
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      difference.local_element(i) -= v.local_element(i);
+    return difference.linfty_norm();
+  }
+
+  /// Rotation by @p angle about @p axis (Rodrigues).
+  inline dealii::Tensor<2, 3>
+  rotation_about(dealii::Tensor<1, 3> axis, const double angle)
+  {
+    axis /= axis.norm();
+    dealii::Tensor<2, 3> R;
+    for (unsigned int a = 0; a < 3; ++a)
+      for (unsigned int b = 0; b < 3; ++b)
+        R[a][b] = (a == b) * std::cos(angle) +
+                  (1 - std::cos(angle)) * axis[a] * axis[b];
+    for (unsigned int a = 0; a < 3; ++a)
+      {
+        R[(a + 2) % 3][(a + 1) % 3] += std::sin(angle) * axis[a];
+        R[(a + 1) % 3][(a + 2) % 3] -= std::sin(angle) * axis[a];
+      }
+    return R;
+  }
+
+  /// The text of the InputError that @p action throws: "ENTRY: MESSAGE".
+  inline std::string
+  refusal(const std::function<void()> &action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const InputError &error)
+      {
+        return error.entry + ": " + error.what();
+      }
+    return "nothing was refused";
+  }
+} // namespace corotet_tests
+
+#endif

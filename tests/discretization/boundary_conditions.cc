@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Each component of each boundary has one condition; supports move as their
+// expressions say.
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+
+namespace
+{
+  const MeshNames names("boundary", {{0, "left"}, {1, "right"}, {2, "top"}});
+
+  std::string
+  condition_refusal(
+    const std::vector<std::pair<std::string, std::string>> &entries)
+  {
+    BoundaryConditionParameters parameters;
+    dealii::ParameterHandler    prm;
+    parameters.declare_parameters(prm);
+    for (const auto &[entry, value] : entries)
+      prm.set(entry, value);
+    return refusal([&] { BoundaryConditions conditions(parameters, names); });
+  }
+} // namespace
+
+TEST(BoundaryConditions, Refusals)
+{
+  EXPECT_EQ(condition_refusal({{"Fixed", "left, right, left"}}),
+            "Boundary conditions/Fixed: component x of boundary 'left' has two "
+            "conditions: found 'Fixed' and 'Fixed', allowed is one");
+  EXPECT_EQ(condition_refusal(
+              {{"Fixed", "left"}, {"Displacement", "left: 0; 0; 0"}}),
+            "Boundary conditions/Displacement: component x of boundary 'left' "
+            "has two conditions: found 'Fixed' and 'Displacement', allowed is "
+            "one");
+  EXPECT_EQ(condition_refusal({{"Displacement", "left: free; free; t"},
+                               {"Traction", "left: 1; 0; 2"}}),
+            "Boundary conditions/Traction: component z of boundary 'left' has "
+            "two conditions: found 'Displacement' and 'Traction', allowed is "
+            "one");
+  EXPECT_EQ(condition_refusal(
+              {{"Traction", "top: 1; 0; 0"}, {"Pressure", "top: 5"}}),
+            "Boundary conditions/Pressure: component x of boundary 'top' has "
+            "two conditions: found 'Traction' and 'Pressure', allowed is one");
+  EXPECT_EQ(condition_refusal({{"Displacement", "left: 0; 0"}}),
+            "Boundary conditions/Displacement: found 2 components for boundary "
+            "'left'; allowed: 'x; y; z', three expressions or 'free'");
+  EXPECT_EQ(condition_refusal({{"Pressure", "1e5"}}),
+            "Boundary conditions/Pressure: found '1e5'; allowed: 'boundary: "
+            "value, boundary: value'");
+  EXPECT_NE(condition_refusal({{"Fixed", "lefft"}}).find("'left'"),
+            std::string::npos);
+}
+
+TEST(BoundaryConditions, DifferentComponentsMayDiffer)
+{
+  EXPECT_EQ(condition_refusal({{"Displacement", "left: free; free; max(t, 1)"},
+                               {"Traction", "left: 1; 2*x; 0, right: 0; 0; 1"},
+                               {"Pressure", "2: 1e5"}}),
+            "nothing was refused");
+}
+
+// Prescribed nodes carry the expression; velocity and acceleration are its
+// derivatives. With step h = 1e-3 the difference formulas of fourth order have
+// an error of h^4 f^(5)/30 and round-off 1e-16 / h^2.
+TEST(PrescribedMotion, DerivativesInTime)
+{
+  Body         body(box("1, 1, 1", "2, 2, 2"), R"(
+    subsection Boundary conditions
+      set Displacement = x-min: 0.1*sin(3*t); free; y*t^2, x-max: 0; 0; 0
+    end
+    subsection Time integration
+      set Time step = 0.01
+    end)");
+  const double t = 0.7;
+  body.system.prescribe(body.state, t, 1.);
+  unsigned int n_found = 0;
+  for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+    {
+      const auto x = body.discretization.node_position(n);
+      if (x[0] > 1e-10)
+        continue;
+      ++n_found;
+      EXPECT_EQ(body.state.u.local_element(3 * n), 0.1 * std::sin(3 * t));
+      EXPECT_NEAR(body.state.v.local_element(3 * n),
+                  0.3 * std::cos(3 * t),
+                  1e-12);
+      EXPECT_NEAR(body.state.a.local_element(3 * n),
+                  -0.9 * std::sin(3 * t),
+                  1e-9);
+      EXPECT_EQ(body.state.u.local_element(3 * n + 1), 0.);
+      EXPECT_NEAR(body.state.v.local_element(3 * n + 2), 2 * x[1] * t, 1e-11);
+      EXPECT_NEAR(body.state.a.local_element(3 * n + 2), 2 * x[1], 1e-9);
+    }
+  EXPECT_EQ(dealii::Utilities::MPI::sum(n_found, MPI_COMM_WORLD), 25u);
+}
+
+// Two supports that share an edge must agree there: x-min and z-min do at t =
+// 0, and no longer at t = 1. With one condition per rank's faces, both ranks
+// throw.
+TEST(PrescribedMotion, DisagreementIsRefused)
+{
+  Body body(box("1, 1, 1", "2, 2, 2"), R"(
+    subsection Boundary conditions
+      set Fixed        = x-min
+      set Displacement = z-min: 0.1*t; free; 0
+    end)");
+  EXPECT_EQ(refusal([&] { body.system.prescribe(body.state, 0., 1.); }),
+            "nothing was refused");
+  const std::string text =
+    refusal([&] { body.system.prescribe(body.state, 1., 1.); });
+  EXPECT_EQ(text.find(
+              "Boundary conditions/Displacement: boundaries 'x-min' and "
+              "'z-min' prescribe different displacements in x at their "
+              "common point (0, "),
+            0u)
+    << text;
+  EXPECT_NE(text.find("at t = 1: found 0 and 0.1, allowed are equal ones"),
+            std::string::npos)
+    << text;
+}
+
+TEST(PrescribedMotion, NotFiniteIsRefused)
+{
+  Body body(box("1, 1, 1", "1, 1, 1"), R"(
+    subsection Boundary conditions
+      set Displacement = x-min: 1/t; 0; 0
+    end)");
+  EXPECT_EQ(
+    refusal([&] { body.system.prescribe(body.state, 0., 1.); }),
+    "Boundary conditions/Displacement: the displacement at t = 0 is not "
+    "finite: found inf");
+}

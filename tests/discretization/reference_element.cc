@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The tables on the reference tetrahedron against exact integrals.
+
+#include <corotet/discretization/reference_element.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using corotet::ReferenceElement;
+
+namespace
+{
+  double
+  factorial(const unsigned int n)
+  {
+    return n < 2 ? 1. : n * factorial(n - 1);
+  }
+
+  // Largest error of the rule for the means of all monomials of degree up to
+  // @p degree: 6 i! j! k! / (i + j + k + 3)!.
+  double
+  rule_error(const ReferenceElement::PointValues &rule,
+             const unsigned int                   degree)
+  {
+    double largest = 0;
+    for (unsigned int i = 0; i <= degree; ++i)
+      for (unsigned int j = 0; i + j <= degree; ++j)
+        for (unsigned int k = 0; i + j + k <= degree; ++k)
+          {
+            double sum = 0;
+            for (unsigned int q = 0; q < rule.weights.size(); ++q)
+              sum += rule.weights[q] * std::pow(rule.points[q][0], i) *
+                     std::pow(rule.points[q][1], j) *
+                     std::pow(rule.points[q][2], k);
+            largest = std::max(largest,
+                               std::abs(sum - 6 * factorial(i) * factorial(j) *
+                                                factorial(k) /
+                                                factorial(i + j + k + 3)));
+          }
+    return largest;
+  }
+} // namespace
+
+class ReferenceElementTest : public testing::TestWithParam<unsigned int>
+{};
+
+// The stiffness rule integrates products of gradients, of degree 2(p-1), and
+// the load rule products of shape functions. Round-off of a sum of up to 35
+// terms, with weights of 16 digits.
+TEST_P(ReferenceElementTest, RulesAreExact)
+{
+  const unsigned int     p = GetParam();
+  const ReferenceElement element(p);
+  EXPECT_LE(rule_error(element.stiffness_rule, 2 * (p - 1)), 4e-15);
+  EXPECT_LE(rule_error(element.load_rule, 2 * p), 4e-15);
+  const unsigned int n_points[] = {1, 4, 14};
+  EXPECT_EQ(element.stiffness_rule.weights.size(), n_points[p - 1]);
+}
+
+// Shape functions sum to one, their gradients to zero; so do the rows of the
+// tables, and all masses together are the whole.
+TEST_P(ReferenceElementTest, PartitionOfUnity)
+{
+  const ReferenceElement element(GetParam());
+  for (unsigned int q = 0; q < element.load_rule.weights.size(); ++q)
+    {
+      double value = 0, gradient = 0;
+      for (unsigned int i = 0; i < element.n_nodes; ++i)
+        {
+          value += element.load_rule.values[q][i];
+          for (unsigned int k = 0; k < 3; ++k)
+            gradient += element.load_rule.gradients[q][i][k];
+        }
+      EXPECT_NEAR(value, 1, 1e-14);
+      EXPECT_NEAR(gradient, 0, 1e-13);
+    }
+  double mass = 0;
+  for (unsigned int i = 0; i < element.n_nodes; ++i)
+    {
+      double products = 0;
+      for (unsigned int j = 0; j < element.n_nodes; ++j)
+        {
+          mass += element.mass[i][j];
+          products += element.gradient_products[i][j][4];
+        }
+      EXPECT_NEAR(products, 0, 1e-13);
+    }
+  EXPECT_NEAR(mass, 1, 1e-14);
+}
+
+// The area vectors of the faces of the reference tetrahedron: outwards, half
+// the cross product of the tangents; together they close.
+TEST_P(ReferenceElementTest, FacesPointOutwards)
+{
+  const ReferenceElement element(GetParam());
+  dealii::Tensor<1, 3>   sum;
+  const unsigned int     p = GetParam();
+  for (unsigned int f = 0; f < 4; ++f)
+    {
+      const auto area = cross_product_3d(element.face_tangents[f][0],
+                                         element.face_tangents[f][1]) /
+                        2;
+      sum += area;
+      const dealii::Point<3> centre(0.25, 0.25, 0.25);
+      for (const auto &point : element.face_rules[f].points)
+        EXPECT_GT((point - centre) * area, 0.);
+      EXPECT_EQ(element.face_nodes[f].size(), (p + 1) * (p + 2) / 2);
+    }
+  EXPECT_LE(sum.norm(), 1e-15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees,
+                         ReferenceElementTest,
+                         testing::Values(1u, 2u, 3u));
+
+// M_ij of degree 1 is (1 + delta_ij) / 20 of the cell's mass.
+TEST(ReferenceElement, LinearMass)
+{
+  const ReferenceElement element(1);
+  for (unsigned int i = 0; i < 4; ++i)
+    for (unsigned int j = 0; j < 4; ++j)
+      EXPECT_NEAR(element.mass[i][j], (i == j ? 2. : 1.) / 20, 1e-16);
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Internal force, tangent and assembled matrix of linear and corotational
+// elasticity: rigid motions, consistency with one another, energy.
+
+#include <corotet/material/polar_decomposition.h>
+#include <corotet/operators/effective_operator.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  std::string
+  case_text(const unsigned int degree,
+            const std::string &type,
+            const std::string &mass = "consistent")
+  {
+    return "subsection Discretization\n set Degree = " +
+           std::to_string(degree) + "\n set Mass = " + mass +
+           "\nend\nsubsection Material\n set Type = " + type +
+           "\n set Young's modulus = 1e3\n set Poisson's ratio = 0.4\n set "
+           "Density = 2\nend\n";
+  }
+
+  // A displacement without any symmetry, with rotations up to a right angle.
+  Tensor<1, 3>
+  bend(const Point<3> &x)
+  {
+    return Tensor<1, 3>({std::sin(2 * x[0] + x[1]) - x[0],
+                         0.3 * std::cos(3 * x[2]) + 0.5 * x[0] * x[0],
+                         std::sin(1.5 * x[0] * x[1])});
+  }
+} // namespace
+
+class ElasticityTest : public testing::TestWithParam<unsigned int>
+{};
+
+// A rigid motion strains nothing. The same rotation taken as a displacement of
+// linear elasticity gives the force to compare with.
+TEST_P(ElasticityTest, RigidMotionGivesNoForce)
+{
+  const SerialMesh mesh = box("1, 2, 1", "2, 3, 2", 0.2);
+  Body             linear(mesh, case_text(GetParam(), "linear"));
+  Body             corotational(mesh, case_text(GetParam(), "corotational"));
+  const std::vector<Tensor<1, 3>> axes{Tensor<1, 3>({1., 0., 0.}),
+                                       Tensor<1, 3>({0.3, -1., 2.}),
+                                       Tensor<1, 3>({-1., 1., 1.})};
+  for (const Tensor<1, 3> &axis : axes)
+    for (const double angle : {0.01, 1., 2.5, dealii::numbers::PI, 6.})
+      {
+        const Tensor<2, 3> R      = rotation_about(axis, angle);
+        const auto         motion = [&](const Point<3> &x) {
+          return R * x - x + Tensor<1, 3>({0.5, -3., 2.});
+        };
+        const Vector u = linear.interpolate(motion);
+        Vector       f_linear(linear.state.u), f(linear.state.u);
+        linear.system.elasticity().internal_force(f_linear, u);
+        Elasticity elasticity(corotational.discretization,
+                              corotational.system.reference_element(),
+                              {{0u, isotropic_material(1e3, 0.4, 2)}},
+                              true);
+        elasticity.update_rotations(u);
+        elasticity.internal_force(f, u);
+        EXPECT_LE(f.l2_norm(), 1e-12 * f_linear.l2_norm()) << angle;
+        EXPECT_GT(f_linear.l2_norm(), 0.);
+        EXPECT_LE(elasticity.state(u).energy, 1e-20 * f_linear.l2_norm());
+        const CellResults cells = elasticity.cell_results(u);
+        for (const double found : cells.rotation_angle)
+          EXPECT_NEAR(found,
+                      std::min(angle, 2 * dealii::numbers::PI - angle),
+                      1e-7);
+        for (const double det_F : cells.det_F)
+          EXPECT_NEAR(det_F, 1, 1e-13);
+      }
+}
+
+// The matrix, assembled from blocks with rotated gradients, equals the action
+// of the tangent, computed by the cell kernel; with mass, and in rows that
+// other ranks share.
+TEST_P(ElasticityTest, MatrixEqualsTangent)
+{
+  for (const std::string mass : {"consistent", "diagonal scaling"})
+    {
+      Body body(box("1, 2, 1", "2, 3, 2", 0.2),
+                case_text(GetParam(), "corotational", mass));
+      body.state.u.copy_locally_owned_data_from(body.interpolate(bend));
+      body.system.evaluate(body.state, 0., 1.);
+      const std::vector<unsigned char> free(
+        3 * body.discretization.n_local_nodes(), 0);
+      EffectiveOperator A(body.discretization,
+                          body.system.reference_element(),
+                          body.system.elasticity(),
+                          body.system.mass(),
+                          free);
+      const double      c_K = 0.7, c_M = 500;
+      A.update(c_K, c_M);
+
+      const Vector v = body.interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({std::sin(7 * x[0]), x[1] * x[2], x[0] - x[2]});
+      });
+      Vector       owned(body.state.u), product(owned), Kv(owned), Mv(owned);
+      owned.copy_locally_owned_data_from(v);
+      A.vmult(product, owned);
+      body.system.elasticity().apply_tangent(Kv, v);
+      body.system.mass().apply(Mv, v);
+      Kv *= c_K;
+      Kv.add(c_M, Mv);
+      EXPECT_LE(largest_difference(product, Kv), 1e-13 * Kv.linfty_norm());
+    }
+}
+
+// Prescribed unknowns are cut out symmetrically, on every rank.
+TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
+{
+  Body              body(box("1, 1, 1", "2, 2, 2"),
+            case_text(GetParam(), "linear") +
+              "subsection Boundary conditions\n set Displacement = x-min: 0; "
+                           "free; 0\nend\n");
+  const auto       &motion = body.system.prescribed_motion();
+  EffectiveOperator A(body.discretization,
+                      body.system.reference_element(),
+                      body.system.elasticity(),
+                      body.system.mass(),
+                      motion.is_prescribed());
+  A.update(1., 0.);
+  Vector ones(body.state.u), product(ones), fixed(ones);
+  for (const unsigned int i : motion.unknowns())
+    ones.local_element(i) = 1;
+  A.vmult(product, ones);
+  fixed = product;
+  motion.set_zero(product);
+  EXPECT_EQ(product.linfty_norm(), 0.);
+  for (const unsigned int i : motion.unknowns())
+    EXPECT_GT(fixed.local_element(i), 0.);
+}
+
+// Linear elasticity: f = K u, the energy is u f / 2, and K is symmetric.
+TEST_P(ElasticityTest, LinearEnergy)
+{
+  Body body(box("1, 2, 1", "2, 3, 2", 0.2), case_text(GetParam(), "linear"));
+  const Vector u = body.interpolate(bend);
+  const Vector v = body.interpolate([](const Point<3> &x) { return 2. * x; });
+  Vector       f(body.state.u), Ku(f), Kv(f);
+  const Elasticity &elasticity = body.system.elasticity();
+  elasticity.internal_force(f, u);
+  elasticity.apply_tangent(Ku, u);
+  elasticity.apply_tangent(Kv, v);
+  EXPECT_LE(largest_difference(f, Ku), 1e-13 * f.linfty_norm());
+  const double energy = elasticity.state(u).energy;
+  EXPECT_NEAR(energy, 0.5 * (u * f), 1e-13 * energy);
+  EXPECT_NEAR(u * Kv, v * Ku, 1e-13 * u.l2_norm() * Kv.l2_norm());
+}
+
+// With degree 1, R is constant in the cell and the corotational force is the
+// gradient of the energy (theory: both placements of R coincide): central
+// differences, with error O(h^2) and round-off 1e-16 / h.
+TEST(Elasticity, LinearElementsHaveAnEnergy)
+{
+  Body   body(box("1, 2, 1", "1, 2, 1", 0.), case_text(1, "corotational"));
+  Vector u = body.interpolate(bend);
+  Vector f(body.state.u);
+  body.state.u.copy_locally_owned_data_from(u);
+  f                      = body.system.evaluate(body.state, 0., 1.).internal;
+  const Vector direction = body.interpolate([](const Point<3> &x) {
+    return Tensor<1, 3>({x[1], std::cos(3 * x[0]), x[2] * x[0]});
+  });
+  const double h         = 1e-5;
+  double       energy[2];
+  for (const int side : {0, 1})
+    {
+      body.state.u.copy_locally_owned_data_from(u);
+      Vector owned(body.state.u);
+      owned.copy_locally_owned_data_from(direction);
+      body.state.u.add(side == 0 ? -h : h, owned);
+      body.system.evaluate(body.state, 0., 1.);
+      energy[side] =
+        body.system.elasticity().state(body.system.displacement()).energy;
+    }
+  Vector owned(body.state.u);
+  owned.copy_locally_owned_data_from(direction);
+  const double work = f * owned;
+  EXPECT_NEAR((energy[1] - energy[0]) / (2 * h), work, 1e-7 * std::abs(work));
+}
+
+// det F of a reflection is negative in every cell.
+TEST_P(ElasticityTest, InvertedCellsAreCounted)
+{
+  Body body(box("1, 1, 1", "1, 1, 1"), case_text(GetParam(), "corotational"));
+  const Vector u = body.interpolate(
+    [](const Point<3> &x) { return Tensor<1, 3>({-2 * x[0], 0., 0.}); });
+  const ElasticState state = body.system.elasticity().state(u);
+  EXPECT_EQ(state.inverted_cells, 5u);
+  EXPECT_NEAR(state.min_det_F, -1, 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, ElasticityTest, testing::Values(1u, 2u, 3u));

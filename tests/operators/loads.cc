@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// External forces: resultants and moments that are known exactly.
+
+#include <corotet/operators/surface.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  Tensor<1, 3>
+  resultant(const Vector &f)
+  {
+    Tensor<1, 3> sum;
+    for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
+      sum[i % 3] += f.local_element(i);
+    return dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+  }
+
+  // The external force on a 1 x 2 x 1 box of 3 kg/m^3 at time t.
+  struct Loaded : public Body
+  {
+    Loaded(const unsigned int degree, const std::string &text)
+      : Body(box("1, 2, 1", "2, 3, 2", 0.2),
+             "subsection Discretization\n set Degree = " +
+               std::to_string(degree) +
+               "\nend\nsubsection Material\n set Density = 3\nend\n" + text)
+    {}
+
+    const Vector &
+    force(const double t)
+    {
+      return system.evaluate(state, t, 1.).external;
+    }
+  };
+
+  void
+  expect_near(const Tensor<1, 3> &found,
+              const Tensor<1, 3> &expected,
+              const double        tolerance)
+  {
+    EXPECT_LE((found - expected).norm(), tolerance)
+      << found << " against " << expected;
+  }
+} // namespace
+
+class LoadsTest : public testing::TestWithParam<unsigned int>
+{};
+
+// Mass 6 kg; the expression's dependence on time, space, both or none takes
+// four ways through the code, all with the same resultant.
+TEST_P(LoadsTest, GravityAndBodyForce)
+{
+  for (const std::string gravity :
+       {"0; 0; -10", "0; 0; -5*t", "0; 0; -20*x", "0; 0; -10*t*x"})
+    {
+      Loaded body(GetParam(),
+                  "subsection Loads\n set Gravity = " + gravity + "\nend\n");
+      expect_near(resultant(body.force(2.)),
+                  Tensor<1, 3>({0., 0., -60.}),
+                  1e-12 * 60);
+    }
+  for (const std::string force :
+       {"4; 0; 0", "2*t; 0; 0", "4*y; 0; 0", "2*t*y; 0; 0"})
+    {
+      Loaded body(GetParam(),
+                  "subsection Loads\n set Body force = " + force + "\nend\n");
+      expect_near(resultant(body.force(2.)), Tensor<1, 3>({8., 0., 0.}), 1e-12);
+    }
+}
+
+// Area of x-max: 2. The load rule is exact for the linear traction.
+TEST_P(LoadsTest, Traction)
+{
+  Loaded body(GetParam(),
+              "subsection Boundary conditions\n set Traction = x-max: 1; t; "
+              "6*y*z\nend\n");
+  expect_near(resultant(body.force(3.)), Tensor<1, 3>({2., 6., 6.}), 1e-12);
+}
+
+// All of a point force is at the nearest node, on one rank only.
+TEST_P(LoadsTest, PointForce)
+{
+  Loaded        body(GetParam(),
+              "subsection Loads\n set Point forces = 1.1 2 1: 1; 2; 3*t, 0 0 "
+                     "0: 5; 0; 0\nend\n");
+  const Vector &f = body.force(2.);
+  expect_near(resultant(f), Tensor<1, 3>({6., 2., 6.}), 1e-14);
+  unsigned int n_loaded = 0;
+  for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+    if (f.local_element(3 * n) != 0)
+      {
+        ++n_loaded;
+        const auto x = body.discretization.node_position(n);
+        EXPECT_TRUE(x.norm() < 1e-14 || x.distance(Point<3>(1, 2, 1)) < 1e-14);
+      }
+  EXPECT_EQ(dealii::Utilities::MPI::sum(n_loaded, MPI_COMM_WORLD), 2u);
+}
+
+// A pressure on the whole surface exerts no net force and no net torque,
+// however the body is deformed; the rule is exact for it.
+TEST_P(LoadsTest, PressureOnClosedSurface)
+{
+  Loaded body(GetParam(),
+              "subsection Boundary conditions\n set Pressure = x-min: 7, "
+              "x-max: 7, y-min: 7, y-max: 7, z-min: 7, z-max: 7\nend\n");
+  body.state.u.copy_locally_owned_data_from(
+    body.interpolate([](const Point<3> &x) {
+      return Tensor<1, 3>(
+        {std::sin(3 * x[1]), 0.3 * x[0] * x[2], std::cos(2 * x[0]) * x[1]});
+    }));
+  const Vector &f     = body.force(0.);
+  double        scale = 0;
+  Tensor<1, 3>  torque;
+  for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+    {
+      Tensor<1, 3> x = body.discretization.node_position(n), force;
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          x[a] += body.state.u.local_element(3 * n + a);
+          force[a] = f.local_element(3 * n + a);
+        }
+      scale += force.norm();
+      torque += cross_product_3d(x, force);
+    }
+  scale = dealii::Utilities::MPI::sum(scale, MPI_COMM_WORLD);
+  expect_near(resultant(f), Tensor<1, 3>(), 1e-12 * scale);
+  expect_near(dealii::Utilities::MPI::sum(torque, MPI_COMM_WORLD),
+              Tensor<1, 3>(),
+              1e-12 * scale);
+}
+
+// The pressure turns with the body: on x-max of area 2, turned by a right angle
+// about z, the force -p A e_x becomes -p A e_y. With linear elasticity it does
+// not turn.
+TEST_P(LoadsTest, PressureFollows)
+{
+  for (const std::string type : {"corotational", "linear"})
+    {
+      Loaded             body(GetParam(),
+                  "subsection Material\n set Type = " + type +
+                    "\nend\nsubsection Boundary conditions\n set Pressure = "
+                                "x-max: 3\nend\n");
+      const Tensor<2, 3> R =
+        rotation_about(Tensor<1, 3>({0., 0., 1.}), dealii::numbers::PI / 2);
+      body.state.u.copy_locally_owned_data_from(body.interpolate(
+        [&](const Point<3> &x) { return R * x - Tensor<1, 3>(x); }));
+      expect_near(resultant(body.force(0.)),
+                  type == "linear" ? Tensor<1, 3>({-6., 0., 0.}) :
+                                     Tensor<1, 3>({0., -6., 0.}),
+                  1e-13 * 6);
+    }
+}
+
+// The volume of a stretched and sheared box is 2 det F, for any affine F.
+TEST_P(LoadsTest, DisplacedVolume)
+{
+  Loaded       body(GetParam(), "");
+  Tensor<2, 3> F(dealii::unit_symmetric_tensor<3>());
+  F[0][1]        = 0.7;
+  F[2][0]        = -0.3;
+  F[1][1]        = 1.5;
+  const Vector u = body.interpolate(
+    [&](const Point<3> &x) { return F * x - Tensor<1, 3>(x); });
+  EXPECT_NEAR(displaced_volume(body.discretization,
+                               body.system.reference_element(),
+                               u),
+              2 * determinant(F),
+              1e-12);
+}
+
+TEST(Loads, Refusals)
+{
+  EXPECT_EQ(refusal([] {
+              Loaded(1,
+                     "subsection Loads\n set Point forces = 1 2: 0;0;1\nend");
+            }),
+            "Loads/Point forces: found '1 2: 0;0;1'; allowed: 'x y z: fx; fy; "
+            "fz'");
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, LoadsTest, testing::Values(1u, 2u, 3u));

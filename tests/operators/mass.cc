@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Mass matrices against the exact shares of theory.md (HRZ and row sums), and
+// total mass.
+
+#include <corotet/operators/mass.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  std::vector<double>
+  sorted_shares(const unsigned int degree, const MassType type)
+  {
+    std::vector<double> shares = lumped_shares(ReferenceElement(degree), type);
+    std::sort(shares.begin(), shares.end());
+    return shares;
+  }
+} // namespace
+
+// Diagonal scaling: vertices 1/4; 1/36, edges 4/27; 1/193, 27/772, faces
+// 27/193.
+TEST(Mass, DiagonalScalingShares)
+{
+  const auto p1 = sorted_shares(1, MassType::diagonal_scaling);
+  const auto p2 = sorted_shares(2, MassType::diagonal_scaling);
+  const auto p3 = sorted_shares(3, MassType::diagonal_scaling);
+  for (const double share : p1)
+    EXPECT_NEAR(share, 1. / 4, 1e-15);
+  for (unsigned int i = 0; i < 10; ++i)
+    EXPECT_NEAR(p2[i], i < 4 ? 1. / 36 : 4. / 27, 1e-15);
+  for (unsigned int i = 0; i < 20; ++i)
+    EXPECT_NEAR(p3[i],
+                i < 4  ? 1. / 193 :
+                i < 16 ? 27. / 772 :
+                         27. / 193,
+                1e-15);
+}
+
+// Row sums: 1/4 for degree 1; -1/20 (vertices) and 0 (edges) are refused.
+TEST(Mass, RowSumsAreRefusedForDegree2And3)
+{
+  for (const double share : sorted_shares(1, MassType::row_sum))
+    EXPECT_NEAR(share, 1. / 4, 1e-15);
+  EXPECT_EQ(refusal([] { sorted_shares(2, MassType::row_sum); }),
+            "Discretization/Mass: row-sum lumping with degree 2 gives some "
+            "nodes the share -0.05 of a cell's mass, and a mass must be "
+            "positive; found 'row sum', allowed: 'diagonal scaling' or "
+            "'consistent' (or degree 1)");
+  EXPECT_EQ(refusal([] { sorted_shares(3, MassType::row_sum); }),
+            "Discretization/Mass: row-sum lumping with degree 3 gives some "
+            "nodes the share 0 of a cell's mass, and a mass must be positive; "
+            "found 'row sum', allowed: 'diagonal scaling' or 'consistent' (or "
+            "degree 1)");
+}
+
+class MassTest
+  : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
+{};
+
+// The box has 2 m^3 of 3 kg/m^3. M times a constant acceleration is the total
+// mass; the consistent M of linear fields is exact: int rho x y over the box.
+TEST_P(MassTest, TotalAndMoments)
+{
+  const auto &[degree, type] = GetParam();
+  Body        body(box("1, 2, 1", "2, 3, 2", 0.2),
+            "subsection Discretization\n set Degree = " +
+              std::to_string(degree) + "\n set Mass = " + type +
+              "\nend\nsubsection Material\n set Density = 3\nend\n");
+  const Mass &mass = body.system.mass();
+  EXPECT_NEAR(mass.total(), 6, 1e-13);
+  const Vector one = body.interpolate(
+    [](const Point<3> &) { return Tensor<1, 3>({1., 0., 0.}); });
+  Vector product(body.state.u);
+  mass.apply(product, one);
+  EXPECT_NEAR(product * one, 6, 1e-13);
+  double smallest = 1;
+  for (unsigned int i = 0; i < product.locally_owned_size(); ++i)
+    smallest = std::min(smallest, mass.diagonal().local_element(i));
+  EXPECT_GT(smallest, 0.);
+
+  if (mass.is_lumped())
+    return;
+  const Vector x = body.interpolate(
+    [](const Point<3> &p) { return Tensor<1, 3>({p[0], p[1], 0.}); });
+  const Vector y = body.interpolate(
+    [](const Point<3> &p) { return Tensor<1, 3>({p[1], p[1], 0.}); });
+  mass.apply(product, x);
+  // int x y = 1/2 * 2, int y^2 = 8/3.
+  EXPECT_NEAR(product * y, 3 * (1. + 8. / 3), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  DegreesAndTypes,
+  MassTest,
+  testing::Values(std::make_tuple(1u, "consistent"),
+                  std::make_tuple(2u, "consistent"),
+                  std::make_tuple(3u, "consistent"),
+                  std::make_tuple(1u, "row sum"),
+                  std::make_tuple(1u, "diagonal scaling"),
+                  std::make_tuple(2u, "diagonal scaling"),
+                  std::make_tuple(3u, "diagonal scaling")));

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Dynamics against conservation laws and exact motions.
+
+#include <corotet/simulation/budget.h>
+#include <corotet/time_integration/backward_euler.h>
+#include <corotet/time_integration/generalized_alpha.h>
+#include <corotet/time_integration/newmark.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  // Steps @p body from time 0 to @p end.
+  StepRecord
+  run(Body &body, TimeIntegrator &integrator, const double end, unsigned int n)
+  {
+    body.system.prescribe(body.state, 0., 1.);
+    body.system.solve_acceleration(body.state, 0.);
+    Budget     budget(body.system, body.discretization, body.state, 0., 1.);
+    StepRecord record = budget.initial_record();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        integrator.step(body.system,
+                        {i * end / n, end / n, (i + 1.) / n},
+                        body.state);
+        budget.update(record, body.state, (i + 1) * end / n, 1.);
+      }
+    return record;
+  }
+
+  const std::string exact_solvers = R"(
+    subsection Newton
+      set Residual tolerance  = 1e-13
+      set Increment tolerance = 1e-13
+    end
+    subsection Linear solver
+      set Type      = direct
+      set Tolerance = 1e-13
+    end
+  )";
+
+  std::string
+  discretization(const unsigned int degree, const std::string &mass)
+  {
+    return fmt::format(
+      "subsection Discretization\n set Degree = {}\n set Mass = {}\nend\n",
+      degree,
+      mass);
+  }
+
+  void
+  vibrate(Body &body)
+  {
+    body.state.v.copy_locally_owned_data_from(
+      body.interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({0., x[0] * x[0], 0.3 * x[0]});
+      }));
+  }
+} // namespace
+
+class DynamicsTest
+  : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
+{};
+
+// Patch test: the surface moves by the linear field G x (1 + t). Inertia is
+// zero then, and the linear field solves the equations exactly: the nodes
+// inside must follow, to round-off of the solvers, with linear and (G is
+// symmetric: no rotation, constant strain) corotational elasticity.
+TEST_P(DynamicsTest, PatchTest)
+{
+  const auto &[degree, mass] = GetParam();
+  for (const std::string type : {"linear", "corotational"})
+    {
+      std::string sides;
+      for (const std::string side :
+           {"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"})
+        sides += (sides.empty() ? "" : ", ") + side +
+                 ": (0.1*x+0.02*y)*(1+t); (0.02*x-0.05*y+0.03*z)*(1+t); "
+                 "(0.03*y+0.07*z)*(1+t)";
+      Body             body(box("1, 1, 1", "2, 2, 2", 0.2),
+                discretization(degree, mass) + exact_solvers +
+                  fmt::format(R"(
+        subsection Material
+          set Type = {}
+        end
+        subsection Boundary conditions
+          set Displacement = {}
+        end
+        subsection Initial conditions
+          set Displacement = 0.1*x+0.02*y; 0.02*x-0.05*y+0.03*z; 0.03*y+0.07*z
+          set Velocity     = 0.1*x+0.02*y; 0.02*x-0.05*y+0.03*z; 0.03*y+0.07*z
+        end
+        subsection Time integration
+          set Time step = 0.1
+        end)",
+                              type,
+                              sides));
+      GeneralizedAlpha integrator;
+      run(body, integrator, 1., 10);
+      double error = 0;
+      for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+        {
+          const auto         x = body.discretization.node_position(n);
+          const Tensor<1, 3> exact(
+            {2 * (0.1 * x[0] + 0.02 * x[1]),
+             2 * (0.02 * x[0] - 0.05 * x[1] + 0.03 * x[2]),
+             2 * (0.03 * x[1] + 0.07 * x[2])});
+          for (unsigned int a = 0; a < 3; ++a)
+            error = std::max(error,
+                             std::abs(body.state.u.local_element(3 * n + a) -
+                                      exact[a]));
+        }
+      EXPECT_LE(dealii::Utilities::MPI::max(error, MPI_COMM_WORLD), 1e-12);
+    }
+}
+
+// A free body under gravity falls by g t^2 / 2 and does not deform: both
+// second-order integrators are exact for a constant acceleration.
+TEST_P(DynamicsTest, FreeFall)
+{
+  const auto &[degree, mass] = GetParam();
+  Newmark          newmark;
+  GeneralizedAlpha generalized_alpha;
+  for (TimeIntegrator *integrator :
+       std::initializer_list<TimeIntegrator *>{&newmark, &generalized_alpha})
+    {
+      Body             body(box("1, 1, 1", "2, 2, 2", 0.2),
+                discretization(degree, mass) +
+                  "subsection Loads\n set Gravity = 1; 0; -10\nend\n");
+      const StepRecord record = run(body, *integrator, 2., 20);
+      const Vector     exact  = body.interpolate(
+        [](const Point<3> &) { return Tensor<1, 3>({2., 0., -20.}); });
+      EXPECT_LE(largest_difference(body.state.u, exact), 1e-10);
+      // Work of gravity is kinetic energy; momentum is m g t.
+      EXPECT_NEAR(record.kinetic_energy, 1000 * 0.5 * 4 * 101, 1e-4);
+      EXPECT_NEAR(record.energy_balance, 0, 1e-10 * record.kinetic_energy);
+      EXPECT_NEAR(record.momentum[2], -1000 * 20, 1e-6);
+    }
+}
+
+// The trapezoidal rule keeps the energy of linear elasticity, here of a clamped
+// body in free vibration, over 1,000 steps.
+TEST_P(DynamicsTest, TrapezoidalRuleKeepsEnergy)
+{
+  const auto &[degree, mass] = GetParam();
+  Body body(box("2, 1, 1", "2, 1, 1", 0.),
+            discretization(degree, mass) + exact_solvers + R"(
+    subsection Material
+      set Type = linear
+    end
+    subsection Boundary conditions
+      set Fixed = x-min
+    end)");
+  vibrate(body);
+  Newmark          newmark;
+  const StepRecord record = run(body, newmark, 10., 1000);
+  const double     total  = record.kinetic_energy + record.elastic_energy;
+  EXPECT_GT(record.elastic_energy, 0.01 * total);
+  EXPECT_LE(std::abs(record.energy_balance), 1e-10 * total);
+  EXPECT_EQ(record.external_work, 0.);
+}
+
+INSTANTIATE_TEST_SUITE_P(DegreesAndMasses,
+                         DynamicsTest,
+                         testing::Combine(testing::Values(1u, 2u, 3u),
+                                          testing::Values("consistent",
+                                                          "diagonal scaling")));
+
+namespace
+{
+  // Order of a corotational beam's tip motion, by runs with n, 2n and 4n steps.
+  double
+  beam_order(TimeIntegrator &integrator, const unsigned int n)
+  {
+    double tip[3];
+    for (const unsigned int i : {0, 1, 2})
+      {
+        Body body(box("2, 1, 1", "2, 1, 1", 0.),
+                  discretization(1, "consistent") + exact_solvers + R"(
+          subsection Material
+            set Young's modulus = 2e4
+          end
+          subsection Boundary conditions
+            set Fixed = x-min
+          end)");
+        vibrate(body);
+        run(body, integrator, 0.4, n << i);
+        tip[i] = 0;
+        for (unsigned int k = 0; k < body.state.u.locally_owned_size(); ++k)
+          tip[i] += (1 + k % 3) * body.state.u.local_element(k);
+        tip[i] = dealii::Utilities::MPI::sum(tip[i], MPI_COMM_WORLD);
+      }
+    return std::log2((tip[0] - tip[1]) / (tip[1] - tip[2]));
+  }
+} // namespace
+
+TEST(Dynamics, TemporalOrders)
+{
+  BackwardEuler    backward_euler;
+  Newmark          newmark;
+  GeneralizedAlpha generalized_alpha;
+  EXPECT_NEAR(beam_order(backward_euler, 400), 1, 0.1);
+  EXPECT_NEAR(beam_order(newmark, 50), 2, 0.1);
+  EXPECT_NEAR(beam_order(generalized_alpha, 50), 2, 0.1);
+}
+
+// Supports that move put the right inertia forces in: all supports accelerate
+// by the same law, d = t^3 / 6 along x; a stiff body follows rigidly, the force
+// of the supports is m t and their work the kinetic energy m (t^2/2)^2 / 2.
+TEST(Dynamics, MovingSupports)
+{
+  for (const std::string mass : {"consistent", "diagonal scaling"})
+    {
+      Body             body(box("1, 1, 1", "2, 2, 2"),
+                discretization(2, mass) + exact_solvers + R"(
+        subsection Material
+          set Young's modulus = 1e9
+        end
+        subsection Boundary conditions
+          set Displacement = x-min: t^3/6; 0; 0, x-max: t^3/6; 0; 0
+        end
+        subsection Time integration
+          set Time step = 0.01
+        end)");
+      Newmark          newmark;
+      const StepRecord record = run(body, newmark, 1., 100);
+      // The body's own deformation is some 1e-6; the trapezoidal rule's error
+      // in the work is dt^2 / 12 of the change of the integrand's slope.
+      EXPECT_NEAR(record.reaction[0], 1000, 1e-3 * 1000);
+      EXPECT_NEAR(record.external_work, 125, 1e-3 * 125);
+      EXPECT_NEAR(record.kinetic_energy, 125, 1e-3 * 125);
+    }
+}
+
+// Damping: what is lost is accounted for, with both coefficients.
+TEST(Dynamics, RayleighDamping)
+{
+  Body body(box("2, 1, 1", "2, 1, 1", 0.),
+            discretization(2, "consistent") + exact_solvers + R"(
+    subsection Material
+      set Type = linear
+    end
+    subsection Boundary conditions
+      set Fixed = x-min
+    end
+    subsection Damping
+      set Mass coefficient      = 0.5
+      set Stiffness coefficient = 1e-3
+    end)");
+  vibrate(body);
+  Newmark          newmark;
+  const StepRecord record = run(body, newmark, 1., 100);
+  const double     total  = record.kinetic_energy + record.elastic_energy;
+  EXPECT_GT(record.dissipated_energy, 0.1 * total);
+  EXPECT_LE(std::abs(record.energy_balance), 1e-10 * total);
+}
+
+// Mass-proportional damping of a free body: v = v_0 exp(-alpha_M t).
+TEST(Dynamics, MassDampingOfRigidMotion)
+{
+  Body    body(box("1, 1, 1", "1, 1, 1", 0.),
+            "subsection Damping\n set Mass coefficient = 2\nend\nsubsection "
+               "Initial conditions\n set Velocity = 3; 0; 0\nend\n" +
+              exact_solvers);
+  Newmark newmark;
+  run(body, newmark, 1., 1000);
+  for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+    // Second order: error (2 dt)^2 / 12 of the value.
+    EXPECT_NEAR(body.state.v.local_element(3 * n), 3 * std::exp(-2.), 1e-6);
+}

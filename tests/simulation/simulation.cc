@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Whole runs: the same on any number of ranks, and a failure that says so.
+
+#include <corotet/simulation/simulation.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+
+namespace
+{
+  // Keeps all records.
+  class Recorder : public Observer
+  {
+  public:
+    void
+    start(const Snapshot &initial) override
+    {
+      records.push_back(initial.record);
+    }
+
+    void
+    step(const Snapshot &state) override
+    {
+      records.push_back(state.record);
+      cells = state.cell_results().det_F.size();
+      last  = state.last;
+    }
+
+    void
+    finish(const RunSummary &run_summary) override
+    {
+      summary = run_summary;
+    }
+
+    std::vector<StepRecord> records;
+    RunSummary              summary;
+    std::size_t             cells = 0;
+    bool                    last  = false;
+  };
+
+  const std::string swinging_beam = R"(
+    subsection Mesh
+      subsection box
+        set Size  = 1, 0.2, 0.2
+        set Cells = 5, 1, 1
+      end
+    end
+    subsection Boundary conditions
+      set Fixed        = x-min
+      set Pressure     = z-max: 2000*t
+    end
+    subsection Loads
+      set Gravity = 0; 0; -9.81
+    end
+    subsection Damping
+      set Stiffness coefficient = 1e-4
+    end
+    subsection Time integration
+      set End time  = 0.2
+      set Time step = 0.01
+    end
+    subsection Newton
+      set Residual tolerance  = 1e-10
+      set Increment tolerance = 1e-10
+    end
+    subsection Linear solver
+      set Tolerance = 1e-11
+    end
+  )";
+
+  // The recorder and, because the observer's list owns it, the list.
+  struct CompleteRun
+  {
+    CompleteRun(const std::string &text, const MPI_Comm comm)
+      : parameters(text)
+      , log(comm, true)
+      , simulation(parameters, "", comm, log)
+    {
+      observers.push_back(std::make_unique<Recorder>());
+    }
+
+    const Recorder &
+    recorder() const
+    {
+      return static_cast<const Recorder &>(*observers.front());
+    }
+
+    Parameters                             parameters;
+    Log                                    log;
+    Simulation                             simulation;
+    std::vector<std::unique_ptr<Observer>> observers;
+  };
+
+  void
+  expect_close(const double a, const double b, const double scale)
+  {
+    EXPECT_NEAR(a, b, 1e-8 * scale);
+  }
+} // namespace
+
+// Each rank alone, and all ranks together: every number of the history agrees
+// to 1e-8, as the solvers' tolerances (1e-11, 1e-10) allow.
+TEST(Simulation, SameOnAnyNumberOfRanks)
+{
+  for (const std::string degree : {"1", "2", "3"})
+    {
+      const std::string text =
+        swinging_beam + "subsection Discretization\n set Degree = " + degree +
+        "\nend\n";
+      CompleteRun alone(text, MPI_COMM_SELF), together(text, MPI_COMM_WORLD);
+      alone.simulation.run(alone.observers);
+      together.simulation.run(together.observers);
+      const auto &a = alone.recorder().records;
+      const auto &b = together.recorder().records;
+      ASSERT_EQ(a.size(), 21u);
+      ASSERT_EQ(b.size(), 21u);
+      const double energy = a.back().external_work;
+      for (unsigned int i = 0; i < a.size(); ++i)
+        {
+          expect_close(a[i].kinetic_energy, b[i].kinetic_energy, energy);
+          expect_close(a[i].elastic_energy, b[i].elastic_energy, energy);
+          expect_close(a[i].external_work, b[i].external_work, energy);
+          expect_close(a[i].dissipated_energy, b[i].dissipated_energy, energy);
+          expect_close(a[i].energy_balance, b[i].energy_balance, energy);
+          expect_close(a[i].max_displacement,
+                       b[i].max_displacement,
+                       a.back().max_displacement);
+          expect_close(a[i].min_det_F, b[i].min_det_F, 1);
+          expect_close(a[i].volume, b[i].volume, 0.04);
+          expect_close((a[i].momentum - b[i].momentum).norm(),
+                       0,
+                       a.back().momentum.norm());
+          expect_close((a[i].angular_momentum - b[i].angular_momentum).norm(),
+                       0,
+                       a.back().angular_momentum.norm());
+          expect_close((a[i].reaction - b[i].reaction).norm(),
+                       0,
+                       a.back().reaction.norm());
+          EXPECT_EQ(a[i].inverted_cells, b[i].inverted_cells);
+        }
+      EXPECT_GT(a.back().dissipated_energy, 0.);
+      EXPECT_TRUE(together.recorder().last);
+      EXPECT_EQ(dealii::Utilities::MPI::sum(together.recorder().cells,
+                                            MPI_COMM_WORLD),
+                25u);
+      EXPECT_EQ(together.recorder().summary.status, "done");
+      EXPECT_EQ(together.recorder().summary.cells, 25u);
+      EXPECT_EQ(together.recorder().summary.steps, 20u);
+      EXPECT_NEAR(together.recorder().summary.mesh_volume, 0.04, 1e-15);
+      EXPECT_NEAR(together.recorder().summary.total_mass, 40, 1e-12);
+    }
+}
+
+// A failure keeps what was computed, tells the observers, and is thrown on.
+TEST(Simulation, FailureIsTold)
+{
+  CompleteRun run(swinging_beam + R"(
+    subsection Boundary conditions
+      set Traction = x-max: 0; 0; if(t > 0.051, 1/(t-t), 0)
+    end)",
+          MPI_COMM_WORLD);
+  try
+    {
+      run.simulation.run(run.observers);
+      FAIL() << "nothing was thrown";
+    }
+  catch (const ComputationError &error)
+    {
+      EXPECT_EQ(std::string(error.what())
+                  .find("step 6 (t = 0.05): the forces "
+                        "are not finite"),
+                0u)
+        << error.what();
+    }
+  EXPECT_EQ(run.recorder().summary.status, "failed");
+  EXPECT_EQ(run.recorder().summary.steps, 5u);
+  EXPECT_EQ(run.recorder().records.size(), 6u);
+}
+
+TEST(Simulation, EndTimeMustBeAfterStart)
+{
+  EXPECT_EQ(refusal([] {
+              CompleteRun("subsection Time integration\n set Start time = 2\nend\n",
+                  MPI_COMM_WORLD);
+            }),
+            "Time integration/End time: found 1; allowed: a time after the "
+            "start time 2");
+}

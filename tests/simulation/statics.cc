@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Static linear elasticity against exact solutions: orders of convergence and
+// reactions.
+
+#include <corotet/simulation/budget.h>
+#include <corotet/time_integration/load_stepping.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  void
+  solve_static(Body &body)
+  {
+    LoadStepping load_stepping;
+    load_stepping.step(body.system, {0., 1., 1.}, body.state);
+  }
+
+  // u = A sin(k . x + 1/2), a plane wave: smooth and without any symmetry. Then
+  // -div sigma = ((lambda + mu) (A . k) k + mu |k|^2 A) sin(k . x + 1/2) and
+  // sigma = (lambda (A . k) I + mu (A k^T + k A^T)) cos(k . x + 1/2).
+  class Wave : public dealii::Function<3>
+  {
+  public:
+    Wave()
+      : dealii::Function<3>(3)
+    {}
+
+    double
+    value(const Point<3> &x, const unsigned int component) const override
+    {
+      return A[component] * std::sin(k * x + 0.5);
+    }
+
+    Tensor<1, 3>
+    gradient(const Point<3> &x, const unsigned int component) const override
+    {
+      return k * (A[component] * std::cos(k * x + 0.5));
+    }
+
+    std::string
+    body_force() const
+    {
+      const Tensor<1, 3> b = (lambda + mu) * (A * k) * k + mu * (k * k) * A;
+      return components(b, "sin");
+    }
+
+    std::string
+    traction(const Tensor<1, 3> &n) const
+    {
+      return components(lambda * (A * k) * n + mu * ((k * n) * A + (A * n) * k),
+                        "cos");
+    }
+
+    std::string
+    displacement() const
+    {
+      return components(A, "sin");
+    }
+
+    const double       E = 10, nu = 0.3;
+    const double       lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
+    const double       mu     = E / (2 * (1 + nu));
+    const Tensor<1, 3> A{{0.1, -0.05, 0.08}}, k{{1.5, 1., -2.}};
+
+  private:
+    std::string
+    components(const Tensor<1, 3> &factor, const std::string &function) const
+    {
+      std::string text;
+      for (unsigned int a = 0; a < 3; ++a)
+        text += fmt::format("{}{:.17g}*{}({:.17g}*x+{:.17g}*y+{:.17g}*z+0.5)",
+                            a > 0 ? "; " : "",
+                            factor[a],
+                            function,
+                            k[0],
+                            k[1],
+                            k[2]);
+      return text;
+    }
+  };
+
+  struct Errors
+  {
+    double L2, H1;
+  };
+
+  // On the unit cube with n^3 cuboids: displacement on three sides, traction on
+  // the others.
+  Errors
+  wave_errors(const unsigned int degree, const unsigned int n)
+  {
+    const Wave  wave;
+    std::string displacements, tractions;
+    for (unsigned int a = 0; a < 3; ++a)
+      {
+        Tensor<1, 3> normal;
+        normal[a] = 1;
+        displacements += fmt::format("{}{}-min: {}",
+                                     a > 0 ? ", " : "",
+                                     "xyz"[a],
+                                     wave.displacement());
+        tractions += fmt::format("{}{}-max: {}",
+                                 a > 0 ? ", " : "",
+                                 "xyz"[a],
+                                 wave.traction(normal));
+      }
+    Body body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n), 0.1),
+              fmt::format(R"(
+      subsection Discretization
+        set Degree = {}
+      end
+      subsection Material
+        set Type            = linear
+        set Young's modulus = 10
+        set Poisson's ratio = 0.3
+      end
+      subsection Boundary conditions
+        set Displacement = {}
+        set Traction     = {}
+      end
+      subsection Loads
+        set Body force = {}
+      end
+      subsection Linear solver
+        set Type      = direct
+        set Tolerance = 1e-12
+      end)",
+                          degree,
+                          displacements,
+                          tractions,
+                          wave.body_force()));
+    solve_static(body);
+
+    Vector u =
+      body.interpolate([](const Point<3> &) { return Tensor<1, 3>(); });
+    u.copy_locally_owned_data_from(body.state.u);
+    u.update_ghost_values();
+    const dealii::QWitherdenVincentSimplex<3> rule(degree + 2 > 5 ? 5 :
+                                                                    degree + 2);
+    const auto error = [&](const dealii::VectorTools::NormType norm) {
+      dealii::Vector<float> by_cell(body.mesh.triangulation().n_active_cells());
+      dealii::VectorTools::integrate_difference(
+        body.discretization.mapping(),
+        body.discretization.dof_handler(),
+        u,
+        wave,
+        by_cell,
+        rule,
+        norm);
+      return dealii::VectorTools::compute_global_error(
+        body.mesh.triangulation(), by_cell, norm);
+    };
+    return {error(dealii::VectorTools::L2_norm),
+            error(dealii::VectorTools::H1_seminorm)};
+  }
+} // namespace
+
+// Theory: p + 1 in L2 and p in H1; measured between the two finest meshes that
+// keep the test fast.
+TEST(Statics, OrdersOfConvergence)
+{
+  const unsigned int coarse[] = {6, 4, 3};
+  for (unsigned int degree = 1; degree <= 3; ++degree)
+    {
+      const unsigned int n      = coarse[degree - 1];
+      const Errors       first  = wave_errors(degree, n);
+      const Errors       second = wave_errors(degree, 2 * n);
+      EXPECT_GE(std::log2(first.L2 / second.L2), degree + 0.9) << degree;
+      EXPECT_GE(std::log2(first.H1 / second.H1), degree - 0.05) << degree;
+    }
+}
+
+// Statics: the supports carry the loads. A point force, and a traction of the
+// same resultant (area 1), give the same reaction.
+TEST(Statics, Reactions)
+{
+  for (const std::string load :
+       {"subsection Loads\n set Point forces = 2 0.5 0.5: 1; 2; -3\nend\n",
+        "subsection Boundary conditions\n set Traction = x-max: 1; 2; "
+        "-3\nend\n"})
+    for (const std::string type : {"linear", "corotational"})
+      {
+        Body body(
+          box("2, 1, 1", "4, 2, 2", 0.1),
+          "subsection Boundary conditions\n set Fixed = "
+          "x-min\nend\nsubsection Material\n set Type = " +
+            type +
+            "\nend\nsubsection Newton\n set Residual tolerance = "
+            "1e-12\nend\nsubsection Linear solver\n set Type = direct\n "
+            "set Tolerance = 1e-12\nend\n" +
+            load);
+        Budget budget(body.system, body.discretization, body.state, 0., 0.);
+        solve_static(body);
+        StepRecord record;
+        budget.update(record, body.state, 1., 1.);
+        // Equilibrium holds to Newton's tolerance.
+        EXPECT_LE((record.reaction + Tensor<1, 3>({1., 2., -3.})).norm(), 1e-10)
+          << record.reaction;
+        // Clapeyron: half the work of the final load is stored; the mean force
+        // of a proportional step is half of it. Exact for linear elasticity.
+        if (type == "linear")
+          {
+            EXPECT_NEAR(record.energy_balance,
+                        0,
+                        1e-10 * record.elastic_energy);
+          }
+        EXPECT_GT(record.elastic_energy, 0.);
+      }
+}
+
+// A stretch in one step: nu = 0, so that sigma = E eps and the supports pull
+// with E eps A; volume grows by the stretch.
+TEST(Statics, PrescribedStretch)
+{
+  Body   body(box("2, 1, 1", "4, 2, 2", 0.1), R"(
+    subsection Material
+      set Young's modulus = 1000
+      set Poisson's ratio = 0
+    end
+    subsection Boundary conditions
+      set Displacement = x-min: 0; 0; 0, x-max: 0.2; free; free
+    end)");
+  Budget budget(body.system, body.discretization, body.state, 0., 0.);
+  solve_static(body);
+  StepRecord record;
+  budget.update(record, body.state, 1., 1.);
+  EXPECT_NEAR(record.elastic_energy, 0.5 * 1000 * 0.1 * 0.1 * 2, 1e-7);
+  EXPECT_NEAR(record.external_work, record.elastic_energy, 1e-7);
+  EXPECT_NEAR(record.volume, 2.2, 1e-7);
+  EXPECT_NEAR(record.max_displacement, 0.2, 1e-9);
+  EXPECT_NEAR(record.min_det_F, 1.1, 1e-7);
+  EXPECT_LE(record.reaction.norm(), 1e-6);
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Every preconditioner leads conjugate gradients to the same solution, on one
+// rank and on two, and to round-off of the required residual.
+
+#include <corotet/solvers/preconditioners.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet_tests;
+using dealii::Point;
+using dealii::Tensor;
+
+class PreconditionerTest : public testing::TestWithParam<std::string>
+{};
+
+// A clamped beam, statics (the ill-conditioned case), all degrees. The residual
+// is computed by the matrix itself; the tolerance is what was asked for.
+TEST_P(PreconditionerTest, SolvesClampedBeam)
+{
+  for (const std::string degree : {"1", "2", "3"})
+    {
+      Body              body(box("4, 1, 1", "4, 1, 1", 0.1),
+                "subsection Discretization\n set Degree = " + degree +
+                  "\nend\nsubsection Boundary conditions\n set Fixed = "
+                               "x-min\nend\nsubsection Linear solver\n set Type = " +
+                  GetParam() + "\n set Tolerance = 1e-12\nend\n");
+      const auto       &motion = body.system.prescribed_motion();
+      EffectiveOperator A(body.discretization,
+                          body.system.reference_element(),
+                          body.system.elasticity(),
+                          body.system.mass(),
+                          motion.is_prescribed());
+      A.update(1., 0.);
+      Vector expected(body.state.u), b(expected), x(expected), r(expected);
+      expected.copy_locally_owned_data_from(
+        body.interpolate([](const Point<3> &p) {
+          return Tensor<1, 3>({p[0] * p[1], p[0], p[0] * p[0]});
+        }));
+      motion.set_zero(expected);
+      A.vmult(b, expected);
+      const unsigned int iterations = body.parameters.linear_solver.solve(
+        A, x, b, body.discretization.node_positions());
+      body.parameters.linear_solver.clear();
+      A.vmult(r, x);
+      r -= b;
+      EXPECT_LE(r.l2_norm(), 2e-12 * b.l2_norm());
+      EXPECT_GE(iterations, 1u);
+      // The condition number of this beam is below 1e6.
+      EXPECT_LE(largest_difference(x, expected), 1e-6 * expected.linfty_norm());
+      if (GetParam() == "direct")
+        {
+          EXPECT_LE(iterations, 2u);
+        }
+    }
+}
+
+// The list itself is the parameter: a newcomer is tested without an edit.
+INSTANTIATE_TEST_SUITE_P(All, PreconditionerTest, testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const auto &candidate : preconditioners())
+                             names.push_back(candidate.name);
+                           return names;
+                         }()));
+
+TEST(LinearSolver, FailureIsClear)
+{
+  Body              body(box("4, 1, 1", "4, 1, 1"),
+            "subsection Boundary conditions\n set Fixed = x-min\nend\n"
+                         "subsection Linear solver\n set Type = jacobi\n set "
+                         "Maximum iterations = 3\nend\n");
+  EffectiveOperator A(body.discretization,
+                      body.system.reference_element(),
+                      body.system.elasticity(),
+                      body.system.mass(),
+                      body.system.prescribed_motion().is_prescribed());
+  A.update(1., 0.);
+  Vector x(body.state.u), b(x);
+  b = 1.;
+  body.system.prescribed_motion().set_zero(b);
+  try
+    {
+      body.parameters.linear_solver.solve(A,
+                                          x,
+                                          b,
+                                          body.discretization.node_positions());
+      FAIL() << "nothing was thrown";
+    }
+  catch (const ComputationError &error)
+    {
+      EXPECT_EQ(std::string(error.what())
+                  .find("the linear solver stopped after 3 iterations at a "
+                        "relative residual of "),
+                0u)
+        << error.what();
+      EXPECT_EQ(error.exit_status, 2);
+    }
+  body.parameters.linear_solver.clear();
+}

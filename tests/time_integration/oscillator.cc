@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Integrators on a scalar oscillator m a + c v + k u = p sin(w t) with a known
+// solution: measured orders, energy, numerical dissipation, prescribed motion.
+
+#include <corotet/time_integration/backward_euler.h>
+#include <corotet/time_integration/generalized_alpha.h>
+#include <corotet/time_integration/load_stepping.h>
+#include <corotet/time_integration/newmark.h>
+#include <corotet/time_integration/time_integrators.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace corotet;
+
+  // Solves its linear stages exactly.
+  class Oscillator : public SecondOrderSystem
+  {
+  public:
+    void
+    prescribe(State &, const double, const double) override
+    {}
+
+    StageReport
+    solve_stage(State &s, const Stage &stage) override
+    {
+      double      &u = s.u.local_element(0);
+      double      &v = s.v.local_element(0);
+      double      &a = s.a.local_element(0);
+      const double residual =
+        stage.load_factor * load(stage.time) - m * a - c * v - k * u;
+      const double du = residual / (k + stage.velocity_factor * c +
+                                    stage.acceleration_factor * m);
+      u += du;
+      v += stage.velocity_factor * du;
+      a += stage.acceleration_factor * du;
+      return {1, 0};
+    }
+
+    void
+    solve_acceleration(State &s, const double time) override
+    {
+      s.a.local_element(0) =
+        (load(time) - c * s.v.local_element(0) - k * s.u.local_element(0)) / m;
+    }
+
+    double
+    load(const double t) const
+    {
+      return p * std::sin(w * t);
+    }
+
+    double m = 2, c = 0, k = 8, p = 0, w = 3;
+  };
+
+  State
+  initial_state(Oscillator &system, const double u, const double v)
+  {
+    State state{Vector(1), Vector(1), Vector(1)};
+    state.u = u;
+    state.v = v;
+    system.solve_acceleration(state, 0.);
+    return state;
+  }
+
+  // u after n equal steps to @p end.
+  State
+  integrate(TimeIntegrator    &integrator,
+            Oscillator        &system,
+            State              state,
+            const double       end,
+            const unsigned int n)
+  {
+    for (unsigned int i = 0; i < n; ++i)
+      integrator.step(system, {i * end / n, end / n, (i + 1.) / n}, state);
+    return state;
+  }
+
+  // The undamped oscillator with natural frequency 2, driven at w = 3:
+  // u = cos(2t) + b sin(2t) + p / (k - m w^2) sin(3t), u(0) = 1, v(0) = 0.
+  double
+  measured_order(TimeIntegrator &integrator)
+  {
+    Oscillator system;
+    system.p               = 5;
+    const double end       = 2;
+    const double amplitude = system.p / (system.k - system.m * 9);
+    const double exact     = std::cos(2 * end) -
+                         1.5 * amplitude * std::sin(2 * end) +
+                         amplitude * std::sin(3 * end);
+    double error[2];
+    for (const unsigned int i : {0, 1})
+      error[i] = std::abs(
+        integrate(
+          integrator, system, initial_state(system, 1., 0.), end, 1000 << i)
+          .u.local_element(0) -
+        exact);
+    return std::log2(error[0] / error[1]);
+  }
+} // namespace
+
+TEST(Oscillator, Orders)
+{
+  BackwardEuler backward_euler;
+  EXPECT_NEAR(measured_order(backward_euler), 1, 0.1);
+  Newmark newmark;
+  EXPECT_NEAR(measured_order(newmark), 2, 0.1);
+  newmark.gamma = 0.6;
+  newmark.beta  = 0.3025;
+  EXPECT_NEAR(measured_order(newmark), 1, 0.1);
+  for (const double rho : {0., 0.5, 0.8, 1.})
+    {
+      GeneralizedAlpha generalized_alpha;
+      generalized_alpha.spectral_radius = rho;
+      EXPECT_NEAR(measured_order(generalized_alpha), 2, 0.1) << rho;
+    }
+}
+
+// Whatever the list has: dynamic integrators are at least of first order.
+TEST(Oscillator, EveryIntegratorConverges)
+{
+  for (const auto &candidate : time_integrators())
+    {
+      const auto integrator = candidate.make();
+      if (integrator->is_dynamic())
+        {
+          EXPECT_GT(measured_order(*integrator), 0.9) << candidate.name;
+        }
+    }
+}
+
+// Without loads and damping the trapezoidal rule and generalized-alpha with
+// spectral radius 1 keep m v^2 + k u^2: 10,000 steps of round-off.
+TEST(Oscillator, EnergyIsKept)
+{
+  const auto energy_change = [](TimeIntegrator &integrator) {
+    Oscillator  system;
+    const State state = integrate(
+      integrator, system, initial_state(system, 1., 2.), 1000., 10000);
+    const double u = state.u.local_element(0), v = state.v.local_element(0);
+    return (system.m * v * v + system.k * u * u) / (2 * 4. + 8.) - 1;
+  };
+  Newmark newmark;
+  EXPECT_NEAR(energy_change(newmark), 0, 1e-11);
+  GeneralizedAlpha generalized_alpha;
+  generalized_alpha.spectral_radius = 1;
+  // It keeps energy in a norm that differs from this one by a bounded O(dt^2).
+  EXPECT_NEAR(energy_change(generalized_alpha), 0, 0.1 * 0.1);
+}
+
+// Motion far too fast for the step shrinks by the spectral radius per step.
+TEST(Oscillator, SpectralRadiusAtInfinity)
+{
+  for (const double rho : {0.3, 0.5, 0.9})
+    {
+      GeneralizedAlpha integrator;
+      integrator.spectral_radius = rho;
+      Oscillator system;
+      system.k        = 1e12;
+      const auto norm = [&](const unsigned int n) {
+        const State s = integrate(
+          integrator, system, initial_state(system, 1., 0.), 0.1 * n, n);
+        return std::abs(s.u.local_element(0));
+      };
+      // The amplification matrix at infinity is defective: powers of rho times
+      // a polynomial. Over many steps its rate remains.
+      const double rate = std::pow(norm(200) / norm(100), 0.01);
+      EXPECT_NEAR(rate, rho, 0.02 * rho) << rho;
+    }
+}
+
+// k u = s p sin(w t): the load factor s grows in equal steps.
+TEST(Oscillator, LoadStepping)
+{
+  LoadStepping integrator;
+  Oscillator   system;
+  system.p    = 5;
+  State state = initial_state(system, 0., 1.);
+  integrator.step(system, {0.25, 0.25, 0.5}, state);
+  EXPECT_NEAR(state.u.local_element(0),
+              0.5 * system.load(0.5) / system.k,
+              1e-15);
+  EXPECT_EQ(state.v.local_element(0), 0.);
+  integrator.proportional = false;
+  integrator.step(system, {0.5, 0.25, 0.75}, state);
+  EXPECT_NEAR(state.u.local_element(0), system.load(0.75) / system.k, 1e-15);
+}
+
+TEST(TimeIntegrator, NumberOfSteps)
+{
+  const Newmark newmark;
+  EXPECT_EQ(newmark.n_steps(1., 0.1), 10u);
+  EXPECT_EQ(newmark.n_steps(0.3, 0.1), 3u);
+  EXPECT_EQ(newmark.n_steps(1., 0.3), 4u);
+  LoadStepping statics;
+  statics.load_steps = 7;
+  EXPECT_EQ(statics.n_steps(1., 0.1), 7u);
+}
