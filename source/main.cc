@@ -2,58 +2,16 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
-#include <corotet/base/parameter_file.h>
-#include <corotet/output/observers.h>
-#include <corotet/output/output_directory.h>
-#include <corotet/simulation/command_line.h>
-#include <corotet/simulation/simulation.h>
+#include <corotet/output/recorded_run.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <fmt/format.h>
 
 #include <iostream>
 
 namespace
 {
-  using namespace corotet;
-
-  void
-  run(const CommandLine &command, ParameterFile &file)
-  {
-    SimulationParameters parameters;
-    OutputParameters     output;
-    parameters.declare_parameters(file.handler());
-    file.handler().enter_subsection("Output");
-    output.declare_parameters(file.handler());
-    file.handler().leave_subsection();
-    const MPI_Comm comm = MPI_COMM_WORLD;
-    if (command.print_parameters)
-      return on_root(comm,
-                     [&] { file.print(std::cout, *command.print_parameters); });
-    file.read(command.parameter_file, command.overrides);
-
-    Log               log(comm, command.quiet);
-    Simulation        simulation(parameters, file.folder(), comm, log);
-    const std::string directory =
-      output.directory_of_run(command.parameter_file);
-    const auto observers = make_observers(output,
-                                          directory,
-                                          simulation.discretization(),
-                                          simulation.end_time(),
-                                          log);
-    if (command.validate)
-      return log.line(command.parameter_file + ": valid");
-
-    prepare_output_directory(directory, output.overwrite, comm);
-    log.open(directory + "/log.txt");
-    on_root(comm, [&] { file.write_effective(directory + "/parameters.prm"); });
-    simulation.run(observers);
-    log.line("Results are in " + directory);
-  }
-
+  // Shows an error once, not once per rank.
   int
   report(const int exit_status, const std::string &message)
   {
@@ -66,30 +24,36 @@ namespace
 int
 main(int argc, char **argv)
 {
-  // deal.II hands the arguments on to PETSc, which warns about unknown ones.
-  int                                      n_known         = 1;
-  char                                    *known[]         = {argv[0], nullptr};
-  char                                   **known_arguments = known;
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_known, known_arguments, 1);
-  ParameterFile                            file;
+  using namespace corotet;
+
+  // deal.II hands its arguments on to PETSc, which warns about unknown ones.
+  int                                      n_passed_on    = 1;
+  char                                    *passed_on[]    = {argv[0], nullptr};
+  char                                   **first_argument = passed_on;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_passed_on, first_argument, 1);
+
+  ParameterFile file;
   try
     {
       CommandLine command = parse_command_line(argc, argv);
+      if (command.message)
+        {
+          on_root(MPI_COMM_WORLD, [&] { std::cout << *command.message; });
+          return 0;
+        }
       if (command.output_directory)
         command.overrides.push_back("Output/Directory = " +
                                     *command.output_directory);
-      if (command.message)
-        on_root(MPI_COMM_WORLD, [&] { std::cout << *command.message; });
-      else
-        run(command, file);
+      recorded_run(command, file, MPI_COMM_WORLD);
       return 0;
     }
   catch (const InputError &error)
     {
-      const std::string place =
-        error.entry.empty() ? "" : file.location(error.entry) + ": ";
-      const std::string entry = error.entry.empty() ? "" : error.entry + ": ";
-      return report(error.exit_status, place + entry + error.what());
+      if (error.entry.empty())
+        return report(error.exit_status, error.what());
+      return report(error.exit_status,
+                    file.location(error.entry) + ": " + error.entry + ": " +
+                      error.what());
     }
   catch (const Error &error)
     {

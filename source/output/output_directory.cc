@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <regex>
 #include <string_view>
 #include <vector>
@@ -88,43 +89,67 @@ namespace corotet
       return results;
     }
 
-    void
-    prepare(const fs::path &directory, const bool overwrite)
+    // What has to be removed from the directory before a run, folders after
+    // what they hold. Throws if it must not be.
+    std::vector<fs::path>
+    to_be_removed(const fs::path &directory, const bool overwrite)
     {
       if (fs::exists(directory) && !fs::is_directory(directory))
         throw InputError(directory_entry,
                          "the output directory '" + directory.string() +
                            "' is a file; a directory or a new name is allowed");
-      fs::create_directories(directory);
-      if (fs::is_empty(directory))
-        return;
+      if (!fs::exists(directory) || fs::is_empty(directory))
+        return {};
       if (!overwrite)
         throw InputError(directory_entry,
                          "the output directory '" + directory.string() +
                            "' is not empty; choose another one, or set "
                            "Output/Overwrite = true to remove the results in "
                            "it");
-      for (const fs::path &path : old_results(directory))
-        fs::remove(path);
+      return old_results(directory);
+    }
+
+    // Runs @p action on the directory on rank 0.
+    void
+    on_root_with_directory(const std::string &directory,
+                           const MPI_Comm     comm,
+                           const std::function<void(const fs::path &)> &action)
+    {
+      on_root(comm, [&] {
+        try
+          {
+            action(fs::path(directory).lexically_normal());
+          }
+        catch (const fs::filesystem_error &error)
+          {
+            throw MachineError(
+              "the output directory '" + directory +
+              "' cannot be made or emptied: " + error.code().message());
+          }
+      });
     }
   } // namespace
+
+  void
+  check_output_directory(const std::string &directory,
+                         const bool         overwrite,
+                         const MPI_Comm     comm)
+  {
+    on_root_with_directory(directory, comm, [&](const fs::path &path) {
+      to_be_removed(path, overwrite);
+    });
+  }
 
   void
   prepare_output_directory(const std::string &directory,
                            const bool         overwrite,
                            const MPI_Comm     comm)
   {
-    on_root(comm, [&] {
-      try
-        {
-          prepare(fs::path(directory).lexically_normal(), overwrite);
-        }
-      catch (const fs::filesystem_error &error)
-        {
-          throw MachineError(
-            "the output directory '" + directory +
-            "' cannot be made or emptied: " + error.code().message());
-        }
+    on_root_with_directory(directory, comm, [&](const fs::path &path) {
+      const std::vector<fs::path> old = to_be_removed(path, overwrite);
+      fs::create_directories(path);
+      for (const fs::path &file : old)
+        fs::remove(file);
     });
   }
 } // namespace corotet

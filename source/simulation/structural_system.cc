@@ -179,11 +179,11 @@ namespace corotet
     r -= forces.damping;
     r -= forces.inertia;
     motion.set_zero(r);
-    return {r.l2_norm(),
-            std::max({forces.external.l2_norm(),
-                      forces.internal.l2_norm(),
-                      forces.damping.l2_norm(),
-                      forces.inertia.l2_norm()})};
+    return {norm(r),
+            std::max({norm(forces.external),
+                      norm(forces.internal),
+                      norm(forces.damping),
+                      norm(forces.inertia)})};
   }
 
   unsigned int
@@ -214,7 +214,7 @@ namespace corotet
     stage_state->u += dx;
     stage_state->v.add(stage.velocity_factor, dx);
     stage_state->a.add(stage.acceleration_factor, dx);
-    return {dx.l2_norm(), stage_state->u.l2_norm()};
+    return {norm(dx), norm(stage_state->u)};
   }
 
   void

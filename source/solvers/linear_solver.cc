@@ -42,7 +42,7 @@ namespace corotet
                       const Vector            &b,
                       const Vector            &positions)
   {
-    const double b_norm = b.l2_norm();
+    const double b_norm = norm(b);
     x                   = 0;
     if (b_norm == 0)
       return 0;

@@ -43,7 +43,7 @@ namespace
       set Increment tolerance = 1e-13
     end
     subsection Linear solver
-      set Type      = direct
+      set Type      = jacobi
       set Tolerance = 1e-13
     end
   )";
@@ -209,8 +209,8 @@ TEST(Dynamics, TemporalOrders)
   Newmark          newmark;
   GeneralizedAlpha generalized_alpha;
   EXPECT_NEAR(beam_order(backward_euler, 400), 1, 0.1);
-  EXPECT_NEAR(beam_order(newmark, 50), 2, 0.1);
-  EXPECT_NEAR(beam_order(generalized_alpha, 50), 2, 0.1);
+  EXPECT_NEAR(beam_order(newmark, 100), 2, 0.1);
+  EXPECT_NEAR(beam_order(generalized_alpha, 100), 2, 0.1);
 }
 
 // Supports that move put the right inertia forces in: all supports accelerate
@@ -220,8 +220,7 @@ TEST(Dynamics, MovingSupports)
 {
   for (const std::string mass : {"consistent", "diagonal scaling"})
     {
-      Body             body(box("1, 1, 1", "2, 2, 2"),
-                discretization(2, mass) + exact_solvers + R"(
+      Body body(box("1, 1, 1", "2, 2, 2"), discretization(2, mass) + R"(
         subsection Material
           set Young's modulus = 1e9
         end
@@ -231,13 +230,16 @@ TEST(Dynamics, MovingSupports)
         subsection Time integration
           set Time step = 0.01
         end)");
-      Newmark          newmark;
-      const StepRecord record = run(body, newmark, 1., 100);
-      // The body's own deformation is some 1e-6; the trapezoidal rule's error
-      // in the work is dt^2 / 12 of the change of the integrand's slope.
-      EXPECT_NEAR(record.reaction[0], 1000, 1e-3 * 1000);
-      EXPECT_NEAR(record.external_work, 125, 1e-3 * 125);
-      EXPECT_NEAR(record.kinetic_energy, 125, 1e-3 * 125);
+      // Damps the body's own vibrations, whose periods are below the step.
+      GeneralizedAlpha integrator;
+      integrator.spectral_radius = 0;
+      const StepRecord record    = run(body, integrator, 1., 100);
+      // The mean of the forces at the ends of a step times the displacement has
+      // a relative error of some dt^2 in the work; the deformation of the body
+      // is some 1e-6.
+      EXPECT_NEAR(record.reaction[0], 1000, 1e-4 * 1000);
+      EXPECT_NEAR(record.external_work, 125, 2e-4 * 125);
+      EXPECT_NEAR(record.kinetic_energy, 125, 1e-4 * 125);
     }
 }
 

@@ -163,7 +163,7 @@ TEST(Simulation, FailureIsTold)
     subsection Boundary conditions
       set Traction = x-max: 0; 0; if(t > 0.051, 1/(t-t), 0)
     end)",
-          MPI_COMM_WORLD);
+                  MPI_COMM_WORLD);
   try
     {
       run.simulation.run(run.observers);
@@ -185,8 +185,9 @@ TEST(Simulation, FailureIsTold)
 TEST(Simulation, EndTimeMustBeAfterStart)
 {
   EXPECT_EQ(refusal([] {
-              CompleteRun("subsection Time integration\n set Start time = 2\nend\n",
-                  MPI_COMM_WORLD);
+              CompleteRun(
+                "subsection Time integration\n set Start time = 2\nend\n",
+                MPI_COMM_WORLD);
             }),
             "Time integration/End time: found 1; allowed: a time after the "
             "start time 2");

@@ -13,6 +13,13 @@ namespace corotet
    * Owned entries come first, then ghosts.
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /**
+   * Euclidean norm. Other than Vector::l2_norm(), which stops the program in
+   * debug mode, it is not finite if the vector is not. Collective.
+   */
+  double
+  norm(const Vector &vector);
 } // namespace corotet
 
 #endif

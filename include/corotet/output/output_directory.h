@@ -24,6 +24,15 @@ namespace corotet
   prepare_output_directory(const std::string &directory,
                            const bool         overwrite,
                            const MPI_Comm     comm);
+
+  /**
+   * Throws what prepare_output_directory() would throw about what is there, and
+   * changes nothing. Collective.
+   */
+  void
+  check_output_directory(const std::string &directory,
+                         const bool         overwrite,
+                         const MPI_Comm     comm);
 } // namespace corotet
 
 #endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_recorded_run_h
+#define corotet_output_recorded_run_h
+
+#include <corotet/base/parameter_file.h>
+#include <corotet/simulation/command_line.h>
+
+#include <mpi.h>
+
+namespace corotet
+{
+  /**
+   * What the command line asks for: a run of its parameter file with all
+   * results in the output directory, only the check of it, or the list of
+   * parameters. Declares the parameters in @p file and reads it.
+   *
+   * Throws Error of every kind. An InputError with an entry is to be shown with
+   * the place that @p file knows. Collective.
+   */
+  void
+  recorded_run(const CommandLine &command,
+               ParameterFile     &file,
+               const MPI_Comm     comm);
+} // namespace corotet
+
+#endif
