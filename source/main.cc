@@ -32,10 +32,11 @@ main(int argc, char **argv)
   char                                   **first_argument = passed_on;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_passed_on, first_argument, 1);
 
+  CommandLine   command;
   ParameterFile file;
   try
     {
-      CommandLine command = parse_command_line(argc, argv);
+      command = parse_command_line(argc, argv);
       if (command.message)
         {
           on_root(MPI_COMM_WORLD, [&] { std::cout << *command.message; });
@@ -51,9 +52,12 @@ main(int argc, char **argv)
     {
       if (error.entry.empty())
         return report(error.exit_status, error.what());
+      const bool by_option =
+        command.output_directory && error.entry == "Output/Directory";
+      const std::string place =
+        by_option ? "--output" : file.location(error.entry);
       return report(error.exit_status,
-                    file.location(error.entry) + ": " + error.entry + ": " +
-                      error.what());
+                    place + ": " + error.entry + ": " + error.what());
     }
   catch (const Error &error)
     {

@@ -33,6 +33,8 @@ def check(case, program, seconds):
     expected = case.with_suffix(".output").read_text()
     with tempfile.TemporaryDirectory() as folder:
         # If the program accepts the case against expectation, its results must not land beside the case.
+        # Quiet, as what was read before the error (the mesh, say) would be on standard output.
+        arguments.append("--quiet")
         if "--output" not in arguments:
             arguments += ["--output", f"{folder}/output"]
         run = subprocess.run([*program, *arguments, parameter_file], cwd=case.parent, capture_output=True, text=True, timeout=60,

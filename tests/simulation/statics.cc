@@ -74,7 +74,7 @@ namespace
     const double       E = 10, nu = 0.3;
     const double       lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
     const double       mu     = E / (2 * (1 + nu));
-    const Tensor<1, 3> A{{0.1, -0.05, 0.08}}, k{{1.5, 1., -2.}};
+    const Tensor<1, 3> A{{0.1, -0.05, 0.08}}, k{{0.9, 0.6, -1.2}};
 
   private:
     std::string
@@ -173,10 +173,9 @@ namespace
 // keep the test fast.
 TEST(Statics, OrdersOfConvergence)
 {
-  const unsigned int coarse[] = {6, 4, 3};
   for (unsigned int degree = 1; degree <= 3; ++degree)
     {
-      const unsigned int n      = coarse[degree - 1];
+      const unsigned int n      = degree == 1 ? 8 : 4;
       const Errors       first  = wave_errors(degree, n);
       const Errors       second = wave_errors(degree, 2 * n);
       EXPECT_GE(std::log2(first.L2 / second.L2), degree + 0.9) << degree;
@@ -199,7 +198,7 @@ TEST(Statics, Reactions)
           "subsection Boundary conditions\n set Fixed = "
           "x-min\nend\nsubsection Material\n set Type = " +
             type +
-            "\nend\nsubsection Newton\n set Residual tolerance = "
+            "\n set Young's modulus = 200\nend\nsubsection Newton\n set Residual tolerance = "
             "1e-12\nend\nsubsection Linear solver\n set Type = direct\n "
             "set Tolerance = 1e-12\nend\n" +
             load);
