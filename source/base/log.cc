@@ -6,16 +6,41 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
 
 namespace corotet
 {
+  namespace
+  {
+    // mpirun gives its processes a terminal of its own, whatever it writes to
+    // itself: then nobody knows whether a person sees the output.
+    bool
+    started_by_mpirun()
+    {
+      return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr ||
+             std::getenv("PMI_SIZE") != nullptr;
+    }
+
+    // Columns of the terminal: a line that wraps could not be overwritten.
+    std::size_t
+    terminal_width()
+    {
+      winsize size{};
+      if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        return size.ws_col;
+      return 80;
+    }
+  } // namespace
+
   Log::Log(const MPI_Comm comm, const bool quiet)
     : root(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
     , quiet(quiet)
-    , terminal(root && !quiet && isatty(STDOUT_FILENO) != 0)
+    , terminal(root && !quiet && isatty(STDOUT_FILENO) != 0 &&
+               !started_by_mpirun())
   {}
 
   Log::~Log()
@@ -48,7 +73,8 @@ namespace corotet
   {
     if (!terminal)
       return;
-    std::cout << "\r\033[K" << text << std::flush;
+    std::cout << "\r\033[K" << text.substr(0, terminal_width() - 1)
+              << std::flush;
     progress_shown = true;
   }
 

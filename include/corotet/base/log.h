@@ -16,8 +16,9 @@ namespace corotet
    * (unless quiet) and in log.txt.
    *
    * Lines that come before the file is opened are kept and written into it
-   * then. A progress line goes to a terminal only, where it stands below the
-   * last line and is overwritten by the next; it is never part of the file.
+   * then. A progress line goes to a terminal only (not through mpirun), where
+   * it stands below the last line and is overwritten by the next; it is never
+   * part of the file.
    */
   class Log
   {

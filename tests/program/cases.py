@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Each ready case, shortened to two steps, and coarser where it is large: the files it leaves behind are complete.
+
+- summary.json has all its keys, history.csv all its columns in their order, a row for the start and one for each step;
+- VTK's own reader accepts the time series;
+- parameters.prm, run again, gives the same history but for the wall time: it is the whole truth about the run, and a run on
+  one rank is reproducible to the last digit;
+- the file itself is short and begins with a comment.
+
+To be given the case as argument: cases.py Cases.test_NAME
+"""
+
+import re
+import unittest
+
+from support import CASES, COLUMNS, COLUMNS_AFTER_PROBES, SUMMARY_KEYS, WALL_TIME_KEYS, ProgramTest, read_history, read_summary
+
+N_STEPS = 2
+LOAD_STEPS = (f"Time integration/static/Load steps = {N_STEPS}",)
+SHORTER = {
+    "bracket": (*LOAD_STEPS, "Mesh/gmsh/Element size = 0.01"),
+    "cantilever": ("Time integration/End time = 0.02",),
+    "gravity_corotational": (*LOAD_STEPS, "Loads/Gravity = 0; 0; -1"),
+    "gravity_linear": LOAD_STEPS,
+    "spring": ("Time integration/End time = 0.012",),
+    "tuning_fork": ("Time integration/End time = 8e-5", "Output/Time between results = 0"),
+    "two_materials": ("Time integration/End time = 0.01",),
+}
+
+
+class Cases(ProgramTest):
+
+    def check_case(self, file):
+        text = file.read_text(encoding="utf-8")
+        self.assertTrue(text.startswith("# "), "the file must begin with a comment that says what it shows")
+        self.assertLessEqual(text.count("\n"), 60)
+
+        first = self.run_case(file.stem, "first", *SHORTER[file.stem])
+        self.check_summary(read_summary(first), read_history(first))
+        probes = re.findall(r"(\w+):", re.search(r"set Probes\s*=(.*)", text).group(1))
+        self.check_columns(first, probes)
+        self.assertEqual([row["step"] for row in read_history(first)], [str(i) for i in range(N_STEPS + 1)])
+        self.assertIn("Results are in", (first / "log.txt").read_text(encoding="utf-8"))
+        self.check_vtkhdf(first)
+
+        self.run_program(first / "parameters.prm", "--output", "second")
+        rows = [read_history(self.folder / name) for name in ("first", "second")]
+        for row in rows[0] + rows[1]:
+            del row["wall_time"]
+        self.assertEqual(*rows)
+
+    def check_columns(self, directory, probes):
+        header = (directory / "history.csv").read_text(encoding="utf-8").splitlines()[0].split(",")
+        self.assertGreater(len(probes), 0)
+        self.assertEqual(header, COLUMNS + [f"{name}_{c}" for name in probes for c in "xyz"] + COLUMNS_AFTER_PROBES)
+
+    def check_summary(self, summary, rows):
+        self.assertEqual(list(summary), SUMMARY_KEYS)
+        self.assertEqual(list(summary["wall_time"]), WALL_TIME_KEYS)
+        self.assertEqual(summary["status"], "done")
+        self.assertEqual(summary["steps"], N_STEPS)
+        self.assertEqual(summary["dofs"], 3 * summary["nodes"])
+        self.assertEqual(list(summary["final"]), list(rows[-1]))
+        self.assertEqual(list(summary["final"].values()), [float(value) for value in rows[-1].values()])
+
+
+for case in CASES:
+    setattr(Cases, f"test_{case.stem}", lambda self, file=case: self.check_case(file))
+
+if __name__ == "__main__":
+    unittest.main()

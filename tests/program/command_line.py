@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Options that answer instead of running, and --validate."""
+
+import json
+import unittest
+
+from support import CASES, ROOT, ProgramTest
+
+
+class CommandLine(ProgramTest):
+
+    def test_help(self):
+        text = self.run_program("--help").stdout
+        for option in ("--set", "--output", "--validate", "--print-parameters", "--quiet", "--version", "--help"):
+            self.assertIn(option, text)
+
+    def test_version(self):
+        self.assertRegex(self.run_program("--version").stdout, r"corotet \d+\.\d+\.\d+.*deal\.II \d+\.\d+")
+
+    def test_print_parameters(self):
+        # What is printed is a file of defaults: prm and json can be read again, and say the same.
+        prm = self.run_program("--print-parameters", "prm").stdout
+        self.assertEqual(self.run_program("--print-parameters").stdout, prm)
+        self.assertIn("subsection Time integration", prm)
+        listing = self.run_program("--print-parameters", "json").stdout
+        self.assertIn("Time integration", json.loads(listing))
+        for name, text in (("defaults.prm", prm), ("defaults.json", listing)):
+            (self.folder / name).write_text(text, encoding="utf-8")
+            self.run_program(name, "--validate", "--quiet")
+
+    def test_validate(self):
+        for case in CASES:
+            run = self.run_program(case, "--validate")
+            self.assertIn(f"{case}: valid", run.stdout)
+        self.assertEqual(list(self.folder.iterdir()), [], "--validate must not leave anything behind")
+
+    def test_quiet(self):
+        run = self.run_program(ROOT / "parameters" / "gravity_linear.prm", "--quiet", "--output", "results")
+        self.assertEqual(run.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()

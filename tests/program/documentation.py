@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""The documentation is true where a program can tell: parameters, columns, links, citations, the list of cases."""
+
+import re
+import unittest
+
+from support import CASES, COLUMNS, COLUMNS_AFTER_PROBES, ROOT, SUMMARY_KEYS, ProgramTest
+
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "meshes" / "README.md", *sorted((ROOT / "doc").glob("*.md"))]
+
+
+class Documentation(ProgramTest):
+
+    def test_parameters(self):
+        self.assertEqual((ROOT / "doc" / "parameters.md").read_text(encoding="utf-8"),
+                         self.run_program("--print-parameters", "markdown").stdout,
+                         "doc/parameters.md is outdated: write the output of --print-parameters markdown to it")
+
+    def test_results(self):
+        text = (ROOT / "doc" / "results.md").read_text(encoding="utf-8")
+        names = [re.sub("_[xyz]$", "", name) for name in COLUMNS + COLUMNS_AFTER_PROBES] + SUMMARY_KEYS
+        self.assertEqual([name for name in names if f"`{name}" not in text], [])
+
+    def test_links(self):
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)#:]+)[^):]*\)|src=\"([^\"]+)\"", page.read_text(encoding="utf-8")):
+                path = page.parent / "".join(target)
+                self.assertTrue(path.exists(), f"{page.name} refers to {path}")
+
+    def test_citations(self):
+        # Keys are names and years, as in [chung1993, newmark1959] on pages and "@cite chung1993" in comments.
+        keys = set(re.findall(r"@\w+\{(\w+),", (ROOT / "doc" / "references.bib").read_text(encoding="utf-8")))
+        cited = set()
+        for page in PAGES:
+            for list_of_keys in re.findall(r"\[([a-z]+\d{4}(?:, [a-z]+\d{4})*)\](?!\()", page.read_text(encoding="utf-8")):
+                cited |= set(list_of_keys.split(", "))
+        for folder in ("include", "source"):
+            for file in sorted((ROOT / folder).rglob("*.*")):
+                cited |= set(re.findall(r"@cite (\w+)", file.read_text(encoding="utf-8")))
+        self.assertLessEqual(cited, keys)
+
+    def test_cases(self):
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        self.assertEqual([case.name for case in CASES if f"`{case.name}`" not in text], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Exit statuses 1, 2 and 3, what is said, and what is left behind (status 1 for wrong input: see also tests/errors)."""
+
+import hashlib
+import unittest
+
+from support import ROOT, ProgramTest, read_history, read_summary
+
+SMALL = ("Mesh/box/Cells = 4, 1, 1", "Discretization/Degree = 1")
+
+
+def fingerprint(directory):
+    """Content and time of change of all files below @p directory."""
+    return {file: (file.stat().st_mtime_ns, hashlib.sha256(file.read_bytes()).hexdigest())
+            for file in directory.rglob("*") if file.is_file()}
+
+
+class ExitStatus(ProgramTest):
+
+    def run_small(self, *settings, **others):
+        overrides = [word for setting in (*SMALL, *settings) for word in ("--set", setting)]
+        arguments = [ROOT / "parameters" / "cantilever.prm", *overrides]
+        return self.run_program(*arguments, "--output", others.pop("output", "results"), **others)
+
+    def check_message(self, run, *parts):
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertTrue(run.stderr.startswith("corotet: error: "), run.stderr)
+        for part in parts:
+            self.assertIn(part, run.stderr)
+
+    def test_failed_computation(self):
+        # After two ordinary steps gravity becomes that of a neutron star: eight iterations are not enough then.
+        run = self.run_small("Loads/Gravity = 0; 0; if(t < 0.025, -9.81, -1e12)", "Newton/Maximum iterations = 8",
+                             "Time integration/End time = 0.1", "Time integration/Type = backward Euler", status=2)
+        self.check_message(run, "step 3", "Newton's method did not converge in 8 iterations")
+        directory = self.folder / "results"
+        self.assertEqual([row["step"] for row in read_history(directory)], ["0", "1", "2"])
+        self.check_vtkhdf(directory)
+        summary = read_summary(directory)
+        self.assertEqual((summary["status"], summary["steps"]), ("failed", 2))
+        self.assertIn(summary["message"], run.stderr)
+        self.assertEqual(summary["final"]["step"], 2)
+
+    def test_failed_computation_on_two_ranks(self):
+        run = self.run_small("Newton/Maximum iterations = 1", "Loads/Gravity = 0; 0; -1e3", status=2, ranks=2)
+        # Once, not once per rank; mpirun adds words of its own.
+        self.assertEqual(run.stderr.count("corotet: error: "), 1, run.stderr)
+        self.assertEqual(read_summary(self.folder / "results")["status"], "failed")
+
+    def test_directory_that_cannot_be_made(self):
+        # Not even root makes a folder there.
+        run = self.run_small(output="/proc/corotet", status=3)
+        self.check_message(run, "/proc/corotet")
+
+    def test_directory_in_use(self):
+        short = "Time integration/End time = 0.02"
+        self.run_small(short)
+        before = fingerprint(self.folder)
+        run = self.run_small(short, status=1)
+        self.check_message(run, "results")
+        self.assertEqual(fingerprint(self.folder), before)
+
+        # On demand results are replaced, but nothing else is.
+        self.run_small(short, "Output/Overwrite = true")
+        self.assertNotEqual(fingerprint(self.folder), before)
+        (self.folder / "results" / "letter.txt").write_text("not a result", encoding="utf-8")
+        before = fingerprint(self.folder)
+        run = self.run_small(short, "Output/Overwrite = true", status=1)
+        self.check_message(run, "letter.txt")
+        self.assertEqual(fingerprint(self.folder), before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""The same parameter file on one and on two ranks gives the same results.
+
+What differs is the order of sums and the linear solver's error. With a linear tolerance of 1e-11 and Newton's of 1e-10, the
+histories must agree to 1e-8 relative: each column to the largest value in it (in its three components, for vectors), the
+energy balance, which is a difference of energies, to the largest energy. Iterations and wall times may differ. VTK's reader
+must accept both time series, which two ranks write together.
+"""
+
+import re
+import unittest
+
+from support import ProgramTest, read_history, read_summary
+
+STRICT = ("Linear solver/Tolerance = 1e-11", "Newton/Residual tolerance = 1e-10", "Newton/Increment tolerance = 1e-10")
+MAY_DIFFER = {"newton_iterations", "linear_iterations", "wall_time"}
+
+
+def group(column):
+    if column == "energy_balance":
+        return "external_work"
+    return re.sub("_[xyz]$", "", column)
+
+
+class Ranks(ProgramTest):
+
+    def check(self, preconditioner):
+        settings = (*STRICT, "Time integration/End time = 0.03", f"Linear solver/Type = {preconditioner}")
+        one = self.run_case("cantilever", "one", *settings)
+        two = self.run_case("cantilever", "two", *settings, ranks=2)
+        self.assertEqual((read_summary(one)["ranks"], read_summary(two)["ranks"]), (1, 2))
+        histories = [[{name: float(value) for name, value in row.items() if name not in MAY_DIFFER} for row in read_history(directory)]
+                     for directory in (one, two)]
+        self.assertEqual(len(histories[0]), len(histories[1]))
+        sizes = {}
+        for row in histories[0]:
+            for name, value in row.items():
+                sizes[group(name)] = max(sizes.get(group(name), 0), abs(value))
+        for row, other in zip(*histories):
+            for name, value in row.items():
+                self.assertLessEqual(abs(other[name] - value), 1e-8 * sizes[group(name)], f"{name} in step {row['step']:g}")
+        self.check_vtkhdf(one)
+        self.check_vtkhdf(two)
+
+    def test_direct(self):
+        self.check("direct")
+
+    def test_amg(self):
+        self.check("amg")
+
+
+if __name__ == "__main__":
+    unittest.main()

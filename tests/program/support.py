@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""What the tests of the program share. The environment says what to run: COROTET_PROGRAM, COROTET_MPIRUN (words)."""
+
+import csv
+import json
+import os
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CASES = sorted((ROOT / "parameters").glob("*.prm"))
+
+COLUMNS = ("step time dt newton_iterations linear_iterations kinetic_energy elastic_energy dissipated_energy external_work "
+           "energy_balance momentum_x momentum_y momentum_z angular_momentum_x angular_momentum_y angular_momentum_z "
+           "max_displacement min_det_F inverted_cells wall_time").split()
+COLUMNS_AFTER_PROBES = "volume reaction_x reaction_y reaction_z".split()
+SUMMARY_KEYS = ("status version git_revision dealii_version ranks cells nodes dofs degree mesh_volume total_mass steps end_time "
+                "final wall_time peak_memory_bytes").split()
+WALL_TIME_KEYS = "setup assembly solve output total".split()
+
+
+def read_history(directory):
+    """The rows of history.csv as dictionaries of text."""
+    with open(directory / "history.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def read_summary(directory):
+    return json.loads((directory / "summary.json").read_text(encoding="utf-8"))
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a temporary folder, in which it runs the program."""
+
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_program(self, *arguments, status=0, ranks=1):
+        """Runs the program; its exit status must be @p status."""
+        launcher = [] if ranks == 1 else shlex.split(os.environ["COROTET_MPIRUN"])
+        command = [*launcher, os.environ["COROTET_PROGRAM"], *map(str, arguments)]
+        run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=600, check=False)
+        self.assertEqual(run.returncode, status, f"exit status of {shlex.join(command)}\n{run.stdout}\n{run.stderr}")
+        if status == 0 and ranks == 1:
+            self.assertEqual(run.stderr, "")
+        return run
+
+    def run_case(self, case, output, *settings, **others):
+        """Runs parameters/@p case.prm with overrides; returns the output directory."""
+        overrides = [word for setting in settings for word in ("--set", setting)]
+        self.run_program(ROOT / "parameters" / f"{case}.prm", *overrides, "--output", output, **others)
+        return self.folder / output
+
+    def check_vtkhdf(self, directory):
+        """VTK's own reader accepts the time series."""
+        check = subprocess.run([sys.executable, ROOT / "tests" / "output" / "check_vtkhdf.py", directory], capture_output=True, text=True,
+                               check=False)
+        self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
