@@ -8,6 +8,7 @@
 #include <deal.II/lac/solver_cg.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace corotet
 {
@@ -235,10 +236,13 @@ namespace corotet
       inverse.local_element(i) = 1 / mass_matrix.diagonal().local_element(i);
     const dealii::DiagonalMatrix<Vector> inverse_diagonal(inverse);
     Vector                               a_free(r);
-    a_free = 0;
+    a_free              = 0;
+    const double r_norm = norm(r);
+    if (!std::isfinite(r_norm))
+      throw ComputationError("the forces at the start are not finite");
     // One iteration if the mass is lumped; else few, as the scaled mass matrix
     // is well conditioned whatever the mesh. So round-off is the only limit.
-    dealii::SolverControl    control(500, 1e-13 * r.l2_norm());
+    dealii::SolverControl    control(500, 1e-13 * r_norm);
     dealii::SolverCG<Vector> cg(control);
     try
       {
@@ -249,9 +253,7 @@ namespace corotet
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
-        throw ComputationError("the initial acceleration could not be "
-                               "computed: the initial state or the loads are "
-                               "not finite");
+        throw ComputationError("the initial acceleration did not converge");
       }
     state.a += a_free;
   }

@@ -182,6 +182,28 @@ TEST(Simulation, FailureIsTold)
   EXPECT_EQ(run.recorder().records.size(), 6u);
 }
 
+// The same before the first step: no results, but a summary.
+TEST(Simulation, FailureAtTheStartIsTold)
+{
+  CompleteRun run(swinging_beam + R"(
+    subsection Loads
+      set Gravity = 0; 0; 1/t
+    end)",
+                  MPI_COMM_WORLD);
+  try
+    {
+      run.simulation.run(run.observers);
+      FAIL() << "nothing was thrown";
+    }
+  catch (const ComputationError &error)
+    {
+      EXPECT_STREQ(error.what(),
+                   "step 1 (t = 0): the forces at the start are not finite");
+    }
+  EXPECT_EQ(run.recorder().summary.status, "failed");
+  EXPECT_EQ(run.recorder().records.size(), 0u);
+}
+
 TEST(Simulation, EndTimeMustBeAfterStart)
 {
   EXPECT_EQ(refusal([] {
