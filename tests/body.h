@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <functional>
+#include <iostream>
 #include <string>
 
 namespace corotet_tests
@@ -137,6 +138,14 @@ namespace corotet_tests
         R[(a + 1) % 3][(a + 2) % 3] -= std::sin(angle) * axis[a];
       }
     return R;
+  }
+
+  /// Shows a figure that a test has measured, once.
+  inline void
+  report(const std::string &what, const double figure)
+  {
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "[ MEASURED ] " << what << ": " << figure << std::endl;
   }
 
   /// The text of the InputError that @p action throws: "ENTRY: MESSAGE".

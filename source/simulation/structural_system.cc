@@ -184,7 +184,8 @@ namespace corotet
             std::max({norm(forces.external),
                       norm(forces.internal),
                       norm(forces.damping),
-                      norm(forces.inertia)})};
+                      norm(forces.inertia)}),
+            elastic.round_off()};
   }
 
   unsigned int

@@ -51,7 +51,11 @@ namespace corotet
                       report.iterations));
     };
     check_finite();
-    if (residual.value <= 1e-3 * residual_tolerance * residual.scale)
+    const auto is_small = [&](const double tolerance) {
+      return residual.value <=
+             std::max(tolerance * residual.scale, residual.round_off);
+    };
+    if (is_small(1e-3 * residual_tolerance))
       return report;
 
     while (report.iterations < max_iterations)
@@ -66,8 +70,7 @@ namespace corotet
         const double theta = residual.value / previous;
         error = increment.value * (theta < 0.5 ? theta / (1 - theta) : 1.);
         size  = increment.scale;
-        if (residual.value <= residual_tolerance * residual.scale &&
-            error <= increment_tolerance * size)
+        if (is_small(residual_tolerance) && error <= increment_tolerance * size)
           return report;
       }
     throw ComputationError(fmt::format(

@@ -108,6 +108,36 @@ TEST(Newton, LinearProblemTakesOneIteration)
   EXPECT_EQ(solve(line).iterations, 0u) << "a solved problem takes none";
 }
 
+// A residual that round-off keeps from shrinking: accepted if the problem says
+// that it is round-off, else a failure.
+TEST(Newton, RoundOffIsAccepted)
+{
+  class Noisy : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    Norm
+    residual(Vector &r) override
+    {
+      Norm norm = Scalar::residual(r);
+      norm.value += 1e-9;
+      norm.round_off = round_off;
+      return norm;
+    }
+
+    double round_off = 0;
+  };
+  Noisy root([](double x) { return x * x - 2; },
+             [](double x) { return 2 * x; },
+             1.);
+  EXPECT_EQ(failure(root).find("Newton's method did not converge"), 0u);
+  root.x         = 1;
+  root.round_off = 2e-9;
+  EXPECT_LE(solve(root).iterations, 6u);
+  EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
+}
+
 TEST(Newton, Failures)
 {
   Scalar no_root([](double x) { return x * x + 1; },

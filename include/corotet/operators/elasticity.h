@@ -92,6 +92,18 @@ namespace corotet
       return rotations[cell];
     }
 
+    /**
+     * Euclidean norm [N] of what round-off may make of the internal force,
+     * whatever the displacement: corotational strain is a difference of numbers
+     * of size 1, so a few machine precisions of it are noise. Zero for linear
+     * elasticity, whose strain is no such difference. Not collective.
+     */
+    double
+    round_off() const
+    {
+      return round_off_norm;
+    }
+
     bool
     is_corotational() const
     {
@@ -107,6 +119,8 @@ namespace corotet
     }
 
   private:
+    void
+    estimate_round_off();
     template <typename StressOfCell>
     void
     cell_loop(Vector &f, const Vector &u, const StressOfCell &stress) const;
@@ -119,6 +133,7 @@ namespace corotet
     /// One per local cell.
     std::vector<dealii::Tensor<2, 3>> rotations;
     unsigned int                      degenerate_cells = 0;
+    double                            round_off_norm   = 0;
   };
 } // namespace corotet
 

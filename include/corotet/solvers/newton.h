@@ -17,11 +17,13 @@ namespace corotet
   class NewtonProblem
   {
   public:
-    /// A norm and the size that it is compared with, in the same unit.
+    /// A norm and the size that it is compared with, in the same unit; and what
+    /// round-off alone may make of it, below which it means nothing.
     struct Norm
     {
       double value;
       double scale;
+      double round_off = 0;
     };
 
     virtual ~NewtonProblem() = default;
@@ -49,13 +51,15 @@ namespace corotet
   /**
    * Newton's method (section Newton).
    *
-   * It has converged when the residual is below its tolerance and the error
+   * It has converged when the residual is below its tolerance, or below what
+   * round-off makes of it, and the error
    * that is left in x is below that of the increment. That error is estimated
    * as theta / (1 - theta) |dx|, but at most |dx|, with the last increment dx
    * and the contraction theta of the residual in the last iteration: the bound
    * for linear convergence (Deuflhard, Newton methods for nonlinear problems,
    * 2004), which an approximate tangent has. So a linear problem takes one
-   * iteration. A start with a thousandth of the tolerated residual takes none.
+   * iteration. A start with a thousandth of the tolerated residual, or with
+   * round-off only, takes none.
    */
   class Newton
   {
