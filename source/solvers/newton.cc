@@ -51,11 +51,11 @@ namespace corotet
                       report.iterations));
     };
     check_finite();
-    const auto is_small = [&](const double tolerance) {
-      return residual.value <=
-             std::max(tolerance * residual.scale, residual.round_off);
+    const auto is_round_off = [&] {
+      return residual.value <= residual.round_off;
     };
-    if (is_small(1e-3 * residual_tolerance))
+    if (is_round_off() ||
+        residual.value <= 1e-3 * residual_tolerance * residual.scale)
       return report;
 
     while (report.iterations < max_iterations)
@@ -70,7 +70,9 @@ namespace corotet
         const double theta = residual.value / previous;
         error = increment.value * (theta < 0.5 ? theta / (1 - theta) : 1.);
         size  = increment.scale;
-        if (is_small(residual_tolerance) && error <= increment_tolerance * size)
+        if (is_round_off() ||
+            (residual.value <= residual_tolerance * residual.scale &&
+             error <= increment_tolerance * size))
           return report;
       }
     throw ComputationError(fmt::format(
