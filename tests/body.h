@@ -15,10 +15,8 @@
 #include <iostream>
 #include <string>
 
-namespace corotet_tests
+namespace corotet::tests
 {
-  using namespace corotet;
-
   /**
    * The box [0, size] with n cells in each direction (five tetrahedra each).
    * Vertices are moved by up to @p distortion of the cell size, by a fixed rule
@@ -162,6 +160,6 @@ namespace corotet_tests
       }
     return "nothing was refused";
   }
-} // namespace corotet_tests
+} // namespace corotet::tests
 
 #endif

@@ -8,7 +8,8 @@
 
 #include "../body.h"
 
-using namespace corotet_tests;
+using namespace corotet;
+using namespace corotet::tests;
 
 namespace
 {

@@ -11,7 +11,8 @@
 
 #include "../body.h"
 
-using namespace corotet_tests;
+using namespace corotet;
+using namespace corotet::tests;
 using dealii::SymmetricTensor;
 using dealii::Tensor;
 

@@ -13,7 +13,8 @@
 #include "mesh/tools.h"
 
 using namespace corotet;
-using namespace corotet_tests;
+using namespace corotet;
+using namespace corotet::tests;
 
 namespace
 {

@@ -14,10 +14,8 @@
 #include <fstream>
 #include <functional>
 
-namespace corotet_tests
+namespace corotet::tests
 {
-  using namespace corotet;
-
   /// An empty folder of this process, removed at the end.
   class TemporaryFolder
   {
@@ -102,6 +100,6 @@ namespace corotet_tests
       volumes[cell.region] += signed_volume(cell_vertices(mesh, cell));
     return volumes;
   }
-} // namespace corotet_tests
+} // namespace corotet::tests
 
 #endif

@@ -9,7 +9,8 @@
 
 #include "../body.h"
 
-using namespace corotet_tests;
+using namespace corotet;
+using namespace corotet::tests;
 
 namespace
 {

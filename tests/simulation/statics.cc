@@ -16,7 +16,8 @@
 
 #include "../body.h"
 
-using namespace corotet_tests;
+using namespace corotet;
+using namespace corotet::tests;
 using dealii::Point;
 using dealii::Tensor;
 
