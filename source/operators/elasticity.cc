@@ -186,6 +186,8 @@ namespace corotet
     result.min_det_F    = dealii::Utilities::MPI::min(result.min_det_F, comm);
     result.inverted_cells =
       dealii::Utilities::MPI::sum(result.inverted_cells, comm);
+    result.degenerate_cells =
+      dealii::Utilities::MPI::sum(degenerate_cells, comm);
     return result;
   }
 

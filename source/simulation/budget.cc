@@ -79,10 +79,11 @@ namespace corotet
 
     const ElasticState elastic =
       system.elasticity().state(system.displacement());
-    record.elastic_energy = elastic.energy;
-    record.min_det_F      = elastic.min_det_F;
-    record.inverted_cells = elastic.inverted_cells;
-    record.volume         = displaced_volume(discretization,
+    record.elastic_energy   = elastic.energy;
+    record.min_det_F        = elastic.min_det_F;
+    record.inverted_cells   = elastic.inverted_cells;
+    record.degenerate_cells = elastic.degenerate_cells;
+    record.volume           = displaced_volume(discretization,
                                      system.reference_element(),
                                      system.displacement());
   }

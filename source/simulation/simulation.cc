@@ -110,6 +110,9 @@ namespace corotet
                                  static_cast<double>(step) / n_steps};
         const StageReport report = integrator.step(system, time_step, present);
 
+        const unsigned int inverted   = record.inverted_cells;
+        const unsigned int degenerate = record.degenerate_cells;
+
         record.step              = step;
         record.dt                = dt;
         record.newton_iterations = report.newton_iterations;
@@ -121,6 +124,12 @@ namespace corotet
                        time,
                        integrator.load_factor(time_step.done));
         record.wall_time = seconds();
+        if (record.inverted_cells != inverted ||
+            record.degenerate_cells != degenerate)
+          log.warning(fmt::format("step {}: {} inverted, {} degenerate cells",
+                                  step,
+                                  record.inverted_cells,
+                                  record.degenerate_cells));
 
         ScopedTimer timer(wall_times.output);
         for (const auto &observer : observers)

@@ -211,7 +211,7 @@ TEST(Mesh, FromParameters)
   prm.parse_input(text);
 
   const TemporaryFolder folder;
-  const std::string     log_file = (folder.path / "log.txt").string();
+  const std::string     log_file = folder / "log.txt";
   {
     Log log(comm, true);
     log.open(log_file);

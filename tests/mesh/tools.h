@@ -8,43 +8,14 @@
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <functional>
 
+#include "../temporary_folder.h"
+
 namespace corotet::tests
 {
-  /// An empty folder of this process, removed at the end.
-  class TemporaryFolder
-  {
-  public:
-    TemporaryFolder()
-      : path(std::filesystem::temp_directory_path() /
-             ("corotet_mesh_" + std::to_string(getpid())))
-    {
-      std::filesystem::remove_all(path);
-      std::filesystem::create_directories(path);
-    }
-
-    ~TemporaryFolder()
-    {
-      std::error_code ignored;
-      std::filesystem::remove_all(path, ignored);
-    }
-
-    /// The path of a new file with this content.
-    std::string
-    write(const std::string &name, const std::string &content) const
-    {
-      std::ofstream(path / name) << content;
-      return (path / name).string();
-    }
-
-    const std::filesystem::path path;
-  };
-
   /// "ENTRY: MESSAGE" of the InputError that @p action throws, or "none".
   inline std::string
   refusal(const std::function<void()> &action)

@@ -209,4 +209,16 @@ TEST_P(ElasticityTest, InvertedCellsAreCounted)
   EXPECT_NEAR(state.min_det_F, -1, 1e-13);
 }
 
+// A body pressed flat: every cell is collapsed to a plane.
+TEST_P(ElasticityTest, DegenerateCellsAreCounted)
+{
+  Body body(box("1, 1, 1", "1, 1, 1"), case_text(GetParam(), "corotational"));
+  body.state.u.copy_locally_owned_data_from(body.interpolate(
+    [](const Point<3> &x) { return Tensor<1, 3>({0., 0., -x[2]}); }));
+  body.system.evaluate(body.state, 0., 1.);
+  const ElasticState state =
+    body.system.elasticity().state(body.system.displacement());
+  EXPECT_EQ(state.degenerate_cells, 5u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Degrees, ElasticityTest, testing::Values(1u, 2u, 3u));

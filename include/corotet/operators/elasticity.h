@@ -25,6 +25,9 @@ namespace corotet
     double min_det_F = 1;
     /// Cells where det F is negative at one of these points.
     unsigned int inverted_cells = 0;
+    /// Cells whose centre the last rotation update found collapsed to a plane,
+    /// a line or a point. Zero for linear elasticity.
+    unsigned int degenerate_cells = 0;
   };
 
   /**
@@ -108,14 +111,6 @@ namespace corotet
     is_corotational() const
     {
       return corotational;
-    }
-
-    /// Owned cells that the last update found collapsed to a plane, a line or a
-    /// point. Not collective.
-    unsigned int
-    n_degenerate_cells() const
-    {
-      return degenerate_cells;
     }
 
   private:

@@ -42,6 +42,7 @@ namespace corotet
     double       max_displacement = 0;
     double       min_det_F        = 1;
     unsigned int inverted_cells   = 0;
+    unsigned int degenerate_cells = 0;
     /// Since the start of the run [s].
     double wall_time = 0;
 
