@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/solvers/cholmod_factor.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace corotet
+{
+  namespace
+  {
+    /// Below this number of nodes, nested dissection takes longer than it
+    /// saves: measured, one factorisation per ordering.
+    constexpr int min_nodes_for_dissection = 5000;
+
+    /// A pivot that is smaller than this many machine precisions, relative to
+    /// the diagonal entry that it is left of, is round-off.
+    constexpr double pivot_noise = 64;
+  } // namespace
+
+  CholmodFactor::CholmodFactor(const int         n_rows,
+                               const std::size_t n_entries,
+                               const bool        single_precision)
+    : n_rows(n_rows)
+  {
+    cholmod_start(&common);
+    common.print        = 0;
+    common.supernodal   = CHOLMOD_SUPERNODAL;
+    common.nthreads_max = 1;
+    // Wider supernodes than CHOLMOD's own: three columns per node.
+    common.nrelax[0] = 8;
+    common.nrelax[1] = 32;
+    common.nrelax[2] = 96;
+    common.zrelax[1] = 0.2;
+    if (n_entries <= std::numeric_limits<int>::max())
+      lower = cholmod_allocate_sparse(n_rows,
+                                      n_rows,
+                                      n_entries,
+                                      false,
+                                      true,
+                                      1,
+                                      CHOLMOD_REAL + (single_precision ?
+                                                        CHOLMOD_SINGLE :
+                                                        CHOLMOD_DOUBLE),
+                                      &common);
+    else
+      common.status = CHOLMOD_TOO_LARGE;
+    try
+      {
+        check_status();
+      }
+    catch (...)
+      {
+        cholmod_finish(&common);
+        throw;
+      }
+  }
+
+  CholmodFactor::~CholmodFactor()
+  {
+    free_factor();
+    cholmod_free_sparse(&lower, &common);
+    cholmod_finish(&common);
+  }
+
+  void
+  CholmodFactor::free_factor()
+  {
+    for (cholmod_dense **vector : {&rhs, &solution, &work_y, &work_e})
+      cholmod_free_dense(vector, &common);
+    cholmod_free_factor(&L, &common);
+  }
+
+  void
+  CholmodFactor::check_status() const
+  {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY)
+      throw MachineError("memory is too short to factorise a matrix with " +
+                         std::to_string(n_rows) + " unknowns");
+    if (common.status == CHOLMOD_TOO_LARGE)
+      throw ComputationError("the matrix with " + std::to_string(n_rows) +
+                             " unknowns is too large to be factorised: its "
+                             "factor has more than 2^31 entries");
+    AssertThrow(common.status >= CHOLMOD_OK, dealii::ExcInternalError());
+  }
+
+  /// Orders the graph of nodes, which has a ninth of the matrix's entries.
+  void
+  CholmodFactor::order()
+  {
+    const int       n_nodes = n_rows / 3;
+    const int      *starts  = row_starts();
+    const int      *column  = columns();
+    cholmod_sparse *nodes   = cholmod_allocate_sparse(n_nodes,
+                                                    n_nodes,
+                                                    starts[n_rows],
+                                                    false,
+                                                    true,
+                                                    1,
+                                                    CHOLMOD_PATTERN,
+                                                    &common);
+    check_status();
+    int             *node_starts = static_cast<int *>(nodes->p);
+    int             *node_rows   = static_cast<int *>(nodes->i);
+    std::vector<int> node_order(n_nodes), last_seen(n_nodes, -1);
+    int              n = 0;
+    for (int node = 0; node < n_nodes; ++node)
+      {
+        node_starts[node] = n;
+        for (int k = starts[3 * node]; k < starts[3 * node + 3]; ++k)
+          if (std::exchange(last_seen[column[k] / 3], node) != node)
+            node_rows[n++] = column[k] / 3;
+      }
+    node_starts[n_nodes] = n;
+    if (n_nodes < min_nodes_for_dissection)
+      cholmod_amd(nodes, nullptr, 0, node_order.data(), &common);
+    else
+      cholmod_metis(nodes, nullptr, 0, true, node_order.data(), &common);
+    cholmod_free_sparse(&nodes, &common);
+    check_status();
+
+    permutation.resize(n_rows);
+    for (int row = 0; row < n_rows; ++row)
+      permutation[row] = 3 * node_order[row / 3] + row % 3;
+  }
+
+  void
+  CholmodFactor::analyze()
+  {
+    free_factor();
+    if (permutation.empty())
+      order();
+    common.nmethods           = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    L   = cholmod_analyze_p(lower, permutation.data(), nullptr, 0, &common);
+    rhs = cholmod_allocate_dense(n_rows, 1, n_rows, type(), &common);
+    check_status();
+  }
+
+  void
+  CholmodFactor::convert_to_double()
+  {
+    cholmod_sparse_xtype(CHOLMOD_REAL + CHOLMOD_DOUBLE, lower, &common);
+    check_status();
+    analyze();
+  }
+
+  /// Whether each L_kk^2, what elimination leaves of a diagonal entry of A, is
+  /// more than round-off.
+  template <typename Number>
+  bool
+  CholmodFactor::pivots_are_sound() const
+  {
+    const int    *first  = static_cast<const int *>(L->super);
+    const int    *pi     = static_cast<const int *>(L->pi);
+    const int    *px     = static_cast<const int *>(L->px);
+    const int    *row    = static_cast<const int *>(L->Perm);
+    const int    *ends   = static_cast<const int *>(lower->p) + 1;
+    const int    *column = static_cast<const int *>(lower->i);
+    const Number *x      = static_cast<const Number *>(L->x);
+    const Number *a      = static_cast<const Number *>(lower->x);
+    const Number  noise  = pivot_noise * std::numeric_limits<Number>::epsilon();
+    for (std::size_t s = 0; s < L->nsuper; ++s)
+      {
+        const std::size_t length = pi[s + 1] - pi[s];
+        for (int k = first[s]; k < first[s + 1]; ++k)
+          {
+            const Number pivot = x[px[s] + (k - first[s]) * (length + 1)];
+            // Rows are sorted, with the diagonal last, or nearly so.
+            int diagonal = ends[row[k]] - 1;
+            while (diagonal > ends[row[k] - 1] && column[diagonal] != row[k])
+              --diagonal;
+            if (!(pivot * pivot > noise * a[diagonal]))
+              return false;
+          }
+      }
+    return true;
+  }
+
+  bool
+  CholmodFactor::factorize()
+  {
+    cholmod_factorize(lower, L, &common);
+    check_status();
+    if (L->minor < L->n)
+      return false;
+    return is_single() ? pivots_are_sound<float>() : pivots_are_sound<double>();
+  }
+
+  template <typename Number>
+  void
+  CholmodFactor::solve(Number *dst, const Number *src)
+  {
+    if (is_single())
+      std::copy_n(src, n_rows, static_cast<float *>(rhs->x));
+    else
+      std::copy_n(src, n_rows, static_cast<double *>(rhs->x));
+    cholmod_solve2(CHOLMOD_A,
+                   L,
+                   rhs,
+                   nullptr,
+                   &solution,
+                   nullptr,
+                   &work_y,
+                   &work_e,
+                   &common);
+    check_status();
+    if (is_single())
+      std::copy_n(static_cast<const float *>(solution->x), n_rows, dst);
+    else
+      std::copy_n(static_cast<const double *>(solution->x), n_rows, dst);
+  }
+
+  template void
+  CholmodFactor::solve(float *, const float *);
+  template void
+  CholmodFactor::solve(double *, const double *);
+} // namespace corotet

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/solvers/cholmod_factor.h>
+#include <corotet/solvers/sparse_cholesky.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_CrsGraph.h>
+#include <Epetra_MpiComm.h>
+
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+namespace corotet
+{
+  using dealii::Utilities::MPI::mpi_type_id_for_type;
+
+  namespace
+  {
+    MPI_Comm
+    communicator_of(const Epetra_CrsGraph &graph)
+    {
+      return dynamic_cast<const Epetra_MpiComm &>(graph.Comm()).Comm();
+    }
+
+    /// What each rank has of a distributed array; on rank 0 only.
+    struct Shares
+    {
+      std::vector<int> counts, offsets;
+
+      Shares() = default;
+
+      /// Collective.
+      Shares(const int own_count, const MPI_Comm comm)
+        : counts(dealii::Utilities::MPI::gather(comm, own_count, 0))
+        , offsets(counts.size())
+      {
+        std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+      }
+
+      /// Puts the parts of all ranks into @p all on rank 0; there, the own part
+      /// may be in place already. Collective.
+      template <typename T>
+      void
+      gather(const T          *part,
+             const std::size_t size,
+             T                *all,
+             const MPI_Comm    comm) const
+      {
+        const MPI_Datatype type = mpi_type_id_for_type<T>;
+        MPI_Gatherv(part == all ? MPI_IN_PLACE : part,
+                    size,
+                    type,
+                    all,
+                    counts.data(),
+                    offsets.data(),
+                    type,
+                    0,
+                    comm);
+      }
+    };
+  } // namespace
+
+  /**
+   * What depends on the graph of A, and the numbers.
+   */
+  class SparseCholesky::Factors
+  {
+  public:
+    Factors(const Epetra_CrsGraph &graph, const Precision precision);
+
+    bool
+    belong_to(const Epetra_CrsGraph &other) const
+    {
+      return other.DataPtr() == graph.DataPtr();
+    }
+
+    void
+    factorize(const Epetra_CrsMatrix &A);
+
+    template <typename Number>
+    void
+    solve(Number *dst, const Number *src);
+
+    Precision   precision;
+    std::size_t n_entries = 0;
+
+  private:
+    void
+    set_up(const std::vector<int> &columns);
+    template <typename Number>
+    void
+    gather_values(const Epetra_CrsMatrix &A);
+
+    const Epetra_CrsGraph graph;
+    const MPI_Comm        comm;
+    const bool            is_root;
+    const bool            is_alone;
+
+    /// Of each owned row, how many entries its lower triangle has, and their
+    /// positions in the row, one row after another.
+    std::vector<int> row_counts;
+    std::vector<int> positions;
+    Shares           row_shares;
+    Shares           entry_shares;
+
+    /// On rank 0 only.
+    std::unique_ptr<CholmodFactor> factor;
+    /// Own values on their way to rank 0; on rank 0, vectors of all ranks.
+    std::tuple<std::vector<double>, std::vector<float>> buffers;
+  };
+
+  SparseCholesky::Factors::Factors(const Epetra_CrsGraph &graph,
+                                   const Precision        precision)
+    : precision(precision)
+    , graph(graph)
+    , comm(communicator_of(graph))
+    , is_root(graph.Comm().MyPID() == 0)
+    , is_alone(graph.Comm().NumProc() == 1)
+    , row_counts(graph.NumMyRows())
+  {
+    AssertThrow(graph.NumGlobalRows() % 3 == 0,
+                dealii::ExcMessage("The matrix has no three rows per node."));
+    std::vector<int> columns;
+    for (unsigned int row = 0; row < row_counts.size(); ++row)
+      {
+        int  length;
+        int *local_columns;
+        graph.ExtractMyRowView(row, length, local_columns);
+        const std::size_t before = columns.size();
+        for (int k = 0; k < length; ++k)
+          {
+            const int column = graph.GCID(local_columns[k]);
+            if (column <= graph.GRID(row))
+              {
+                columns.push_back(column);
+                positions.push_back(k);
+              }
+          }
+        row_counts[row] = columns.size() - before;
+      }
+    set_up(columns);
+  }
+
+  void
+  SparseCholesky::Factors::set_up(const std::vector<int> &columns)
+  {
+    const int n_rows = graph.NumGlobalRows();
+    row_shares       = Shares(row_counts.size(), comm);
+    entry_shares     = Shares(columns.size(), comm);
+    on_root(comm, [&] {
+      const std::size_t total = std::accumulate(entry_shares.counts.begin(),
+                                                entry_shares.counts.end(),
+                                                std::size_t(0));
+      factor                  = std::make_unique<CholmodFactor>(
+        n_rows, total, precision == Precision::single_precision);
+    });
+    int *starts = is_root ? factor->row_starts() : nullptr;
+    row_shares.gather(row_counts.data(),
+                      row_counts.size(),
+                      is_root ? starts + 1 : nullptr,
+                      comm);
+    entry_shares.gather(columns.data(),
+                        columns.size(),
+                        is_root ? factor->columns() : nullptr,
+                        comm);
+    on_root(comm, [&] {
+      starts[0] = 0;
+      std::partial_sum(starts, starts + n_rows + 1, starts);
+      factor->analyze();
+    });
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky::Factors::gather_values(const Epetra_CrsMatrix &A)
+  {
+    std::vector<Number> &own  = std::get<std::vector<Number>>(buffers);
+    Number              *part = nullptr;
+    if (is_root)
+      part = static_cast<Number *>(factor->values());
+    else
+      {
+        own.resize(positions.size());
+        part = own.data();
+      }
+    const int *position = positions.data();
+    Number    *value    = part;
+    for (unsigned int row = 0; row < row_counts.size(); ++row)
+      {
+        int     length;
+        double *values;
+        A.ExtractMyRowView(row, length, values);
+        for (int k = 0; k < row_counts[row]; ++k)
+          *value++ = values[*position++];
+      }
+    if (!is_alone)
+      entry_shares.gather(part,
+                          positions.size(),
+                          is_root ? part : nullptr,
+                          comm);
+  }
+
+  void
+  SparseCholesky::Factors::factorize(const Epetra_CrsMatrix &A)
+  {
+    if (precision == Precision::single_precision)
+      gather_values<float>(A);
+    else
+      gather_values<double>(A);
+    bool succeeded = false;
+    on_root(comm, [&] {
+      succeeded = factor->factorize();
+      n_entries = factor->n_entries();
+    });
+    succeeded = dealii::Utilities::MPI::broadcast(comm, succeeded);
+    n_entries = dealii::Utilities::MPI::broadcast(comm, n_entries);
+    if (succeeded)
+      return;
+    if (precision == Precision::double_precision)
+      throw ComputationError(
+        "the stiffness matrix is singular: the body or a part of it can move "
+        "without resistance, because not enough is prescribed");
+    precision = Precision::double_precision;
+    on_root(comm, [&] { factor->convert_to_double(); });
+    factorize(A);
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky::Factors::solve(Number *dst, const Number *src)
+  {
+    if (is_alone)
+      return factor->solve(dst, src);
+    std::vector<Number> &all = std::get<std::vector<Number>>(buffers);
+    if (is_root)
+      all.resize(graph.NumGlobalRows());
+    row_shares.gather(src, row_counts.size(), all.data(), comm);
+    on_root(comm, [&] { factor->solve(all.data(), all.data()); });
+    MPI_Scatterv(all.data(),
+                 row_shares.counts.data(),
+                 row_shares.offsets.data(),
+                 mpi_type_id_for_type<Number>,
+                 dst,
+                 row_counts.size(),
+                 mpi_type_id_for_type<Number>,
+                 0,
+                 comm);
+  }
+
+  SparseCholesky::SparseCholesky(const Precision precision)
+    : wanted(precision)
+  {}
+
+  SparseCholesky::~SparseCholesky() = default;
+
+  void
+  SparseCholesky::factorize(const Epetra_CrsMatrix &A)
+  {
+    if (!factors || !factors->belong_to(A.Graph()))
+      factors.reset(new Factors(A.Graph(), wanted));
+    try
+      {
+        factors->factorize(A);
+      }
+    catch (...)
+      {
+        factors.reset();
+        throw;
+      }
+  }
+
+  void
+  SparseCholesky::clear()
+  {
+    factors.reset();
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky::vmult(
+    dealii::LinearAlgebra::distributed::Vector<Number>       &dst,
+    const dealii::LinearAlgebra::distributed::Vector<Number> &src) const
+  {
+    Assert(factors, dealii::ExcNotInitialized());
+    factors->solve(dst.begin(), src.begin());
+  }
+
+  std::size_t
+  SparseCholesky::n_entries() const
+  {
+    return factors ? factors->n_entries : 0;
+  }
+
+  SparseCholesky::Precision
+  SparseCholesky::precision() const
+  {
+    return factors ? factors->precision : wanted;
+  }
+
+  template void
+  SparseCholesky::vmult(
+    dealii::LinearAlgebra::distributed::Vector<double> &,
+    const dealii::LinearAlgebra::distributed::Vector<double> &) const;
+  template void
+  SparseCholesky::vmult(
+    dealii::LinearAlgebra::distributed::Vector<float> &,
+    const dealii::LinearAlgebra::distributed::Vector<float> &) const;
+} // namespace corotet
