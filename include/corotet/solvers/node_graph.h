@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_node_graph_h
+#define corotet_solvers_node_graph_h
+
+#include <Epetra_CrsGraph.h>
+
+#include <functional>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The pattern of a sparse matrix of blocks: the columns of row i are
+   * columns[starts[i]], .., columns[starts[i + 1] - 1], in ascending order.
+   */
+  struct NodeGraph
+  {
+    std::vector<int> starts{0};
+    std::vector<int> columns;
+
+    int
+    n_rows() const
+    {
+      return starts.size() - 1;
+    }
+  };
+
+  /// The graph of 3 x 3 blocks of a matrix on one rank that is full of them.
+  NodeGraph
+  node_graph(const Epetra_CrsGraph &graph);
+
+  NodeGraph
+  transpose(const NodeGraph &graph, const int n_columns);
+
+  /// The pattern of the product of two matrices.
+  NodeGraph
+  product(const NodeGraph &a, const NodeGraph &b, const int n_columns);
+
+  /**
+   * Disjoint aggregates of neighbouring nodes that cover all (Vanek, Mandel,
+   * Brezina 1996): nodes whose strong neighbours are all free take these, in
+   * the order of their numbers; who is left joins the aggregate that it has the
+   * most strong neighbours in, or is alone. @p is_strong(k): whether entry k of
+   * the graph counts. Returns the aggregate of each node.
+   */
+  std::vector<int>
+  aggregate(const NodeGraph &graph, const std::function<bool(int)> &is_strong);
+} // namespace corotet
+
+#endif
