@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_simd_h
+#define corotet_base_simd_h
+
+#include <cstring>
+#include <utility>
+
+/// For functions that hold a register full of everything in their caller's
+/// registers: a call would spill it.
+#define COROTET_ALWAYS_INLINE __attribute__((always_inline)) inline
+
+namespace corotet
+{
+  /**
+   * How many numbers of type T a kernel treats at once: as many as a register
+   * of this machine holds, at least four (a shorter register takes two turns).
+   */
+  template <typename T>
+  inline constexpr int n_lanes =
+#if defined(__AVX512F__)
+    64 / sizeof(T);
+#elif defined(__AVX__)
+    32 / sizeof(T);
+#else
+    4;
+#endif
+
+  namespace internal
+  {
+    template <typename T, int n>
+    struct VectorType
+    {
+      typedef T type __attribute__((vector_size(n * sizeof(T))));
+    };
+  } // namespace internal
+
+  /// A vector of the compiler (GCC, Clang) with @p n elements: + - * / work
+  /// lane by lane, [] gives a lane.
+  template <typename T, int n>
+  using SimdVector = typename internal::VectorType<T, n>::type;
+
+  /// A register of numbers: one lane per cell.
+  template <typename T>
+  using Simd = SimdVector<T, n_lanes<T>>;
+
+  /// Calls function(integral_constant<int, 0>), .., <n - 1>: a loop that is
+  /// unrolled, with a counter that is a constant.
+  template <int n, typename Function>
+  COROTET_ALWAYS_INLINE void
+  static_for(const Function &function)
+  {
+    [&]<int... i>(std::integer_sequence<int, i...>) {
+      (function(std::integral_constant<int, i>()), ...);
+    }(std::make_integer_sequence<int, n>());
+  }
+
+  /// All lanes @p value.
+  template <typename T>
+  COROTET_ALWAYS_INLINE Simd<T>
+                        broadcast(const T value)
+  {
+    return Simd<T>{} + value;
+  }
+
+  /// The n numbers from @p source on, wherever it lies.
+  template <int n, typename T>
+  COROTET_ALWAYS_INLINE SimdVector<T, n>
+                        load_unaligned(const T *source)
+  {
+    SimdVector<T, n> v;
+    std::memcpy(&v, source, sizeof(v));
+    return v;
+  }
+
+  /// n numbers from an address that is a multiple of their size together.
+  template <int n, typename T>
+  COROTET_ALWAYS_INLINE SimdVector<T, n>
+                        load_aligned(const T *source)
+  {
+    SimdVector<T, n> v;
+    std::memcpy(&v, __builtin_assume_aligned(source, sizeof(v)), sizeof(v));
+    return v;
+  }
+
+  template <typename V, typename T>
+  COROTET_ALWAYS_INLINE void
+  store_aligned(const V v, T *target)
+  {
+    std::memcpy(__builtin_assume_aligned(target, sizeof(v)), &v, sizeof(v));
+  }
+} // namespace corotet
+
+#endif
