@@ -30,7 +30,7 @@ namespace corotet
   public:
     /// @p degree of the smoother. @p threshold: couplings |A_ij| below it times
     /// sqrt(|A_ii| |A_jj|) are ignored when nodes are aggregated [-].
-    explicit SmoothedAggregation(const unsigned int degree    = 2,
+    explicit SmoothedAggregation(const unsigned int degree    = 3,
                                  const double       threshold = 0);
 
     /// @p positions: three coordinates per node [m]. Throws ComputationError if
