@@ -7,12 +7,15 @@ PRM ?= parameters/cantilever.prm
 ARGUMENTS ?=
 # The CMake presets that `make test` builds and tests.
 PRESETS ?= release debug
+# Not empty: `make bench` takes less than three minutes instead of fifteen, and only small cases.
+QUICK ?=
 
-.PHONY: help run test format check clean
+.PHONY: help run test bench format check clean
 
 help:
 	@echo 'make run [PRM=parameters/x.prm]  build the program and run a case; its results replace those of the last run'
 	@echo 'make test                        build and test: Release and Debug'
+	@echo 'make bench [QUICK=1]             measure; status 1 if a required ratio is not reached'
 	@echo 'make format                      format the C++ files'
 	@echo 'make check                       check formatting and layering'
 	@echo 'make clean                       remove what was built (not results)'
@@ -26,6 +29,11 @@ test:
 	@for preset in $(PRESETS); do \
 	  $(TOOLCHAIN) sh -ec 'cmake --preset $$0; cmake --build --preset $$0; ctest --preset $$0' $$preset || exit 1; \
 	done
+
+bench:
+	@$(TOOLCHAIN) sh -ec 'cmake -G Ninja -B build/bench -DCMAKE_BUILD_TYPE=Release -DCOROTET_TESTS=OFF -DCOROTET_BENCHMARKS=ON; \
+	  cmake --build build/bench --target bench_machine bench_kernels bench_case'
+	@$(TOOLCHAIN) benchmarks/run_benchmarks.py $(if $(QUICK),--quick)
 
 format:
 	@$(TOOLCHAIN) scripts/check_format --fix

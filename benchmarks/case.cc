@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Benchmarks of one beam: operators, updates, solvers, dynamics and memory. Its
+// arguments say which beam, and those of Google Benchmark which benchmarks.
+// Runs on any number of ranks.
+
+#include <deal.II/base/mpi.h>
+
+#include <CLI/CLI.hpp>
+
+#include "case_data.h"
+
+int
+main(int argc, char **argv)
+{
+  using namespace corotet::benchmarks;
+  const Session session(argv);
+  Case          which;
+  CLI::App      application("Benchmarks of a beam");
+  application.add_option("--label", which.label, "First part of all names");
+  application.add_option("--degree", which.degree)->check(CLI::Range(1, 3));
+  application.add_option("--cells", which.cells, "Cuboids in x, y and z")
+    ->delimiter(',');
+  application.allow_extras();
+  CLI11_PARSE(application, argc, argv);
+
+  CaseData data(which);
+  add_operators(data);
+  add_updates(data);
+  add_solvers(data);
+  add_dynamics(data);
+  add_memory(data);
+  return run(argc, argv);
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_benchmarks_case_data_h
+#define corotet_benchmarks_case_data_h
+
+#include <corotet/operators/effective_operator.h>
+#include <corotet/solvers/preconditioner.h>
+
+#include <deal.II/lac/solver_cg.h>
+
+#include <memory>
+#include <optional>
+
+#include "measure.h"
+#include "problem.h"
+#include "sparse_matrices.h"
+
+namespace corotet::benchmarks
+{
+  /**
+   * What the benchmarks of one case share, made when the first of them needs
+   * it: the problem at rest and its assembled stiffness matrix.
+   */
+  class CaseData
+  {
+  public:
+    explicit CaseData(const Case &c)
+      : description(c)
+    {}
+
+    const Case &
+    which() const
+    {
+      return description;
+    }
+
+    std::string
+    name(const std::string &benchmark) const
+    {
+      return description.label + "/" + benchmark;
+    }
+
+    Problem &
+    problem();
+
+    /// K at rest, clamped: c_K = 1, c_M = 0.
+    EffectiveOperator &
+    assembled();
+
+    /// The same matrix in blocks. On one rank only.
+    const BlockMatrix &
+    blocks();
+
+    /// Times [s] and memory [bytes] that it took to make the assembled matrix.
+    const Counters &
+    assembly_figures()
+    {
+      assembled();
+      return figures;
+    }
+
+  private:
+    Case                               description;
+    std::unique_ptr<Problem>           the_problem;
+    std::unique_ptr<EffectiveOperator> the_matrix;
+    std::optional<BlockMatrix>         the_blocks;
+    Counters                           figures;
+  };
+
+  /// The preconditioner that parameter files call @p type, with @p parameters
+  /// as its subsection has them.
+  std::unique_ptr<Preconditioner>
+  make_preconditioner(const std::string &type,
+                      const std::string &parameters = "");
+
+  /// Solves A x = b by conjugate gradients from x = 0 until the residual is
+  /// @p tolerance times |b|. Returns the number of iterations.
+  template <typename Operator>
+  unsigned int
+  conjugate_gradients(const Operator       &A,
+                      Vector               &x,
+                      const Vector         &b,
+                      const Preconditioner &P,
+                      const double          tolerance)
+  {
+    x = 0;
+    dealii::SolverControl    control(20000, tolerance * b.l2_norm());
+    dealii::SolverCG<Vector> cg(control);
+    cg.solve(A, x, b, P);
+    return control.last_step();
+  }
+
+  /// y = K x: the matrix formats and the matrix-free operators.
+  void
+  add_operators(CaseData &data);
+
+  /// Rotations and matrices of a bent beam.
+  void
+  add_updates(CaseData &data);
+
+  /// Linear static solves.
+  void
+  add_solvers(CaseData &data);
+
+  /// Implicit steps in dynamics.
+  void
+  add_dynamics(CaseData &data);
+
+  /// Peak memory of a process that does nothing else.
+  void
+  add_memory(CaseData &data);
+} // namespace corotet::benchmarks
+
+#endif

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/simulation/structural_system.h>
+#include <corotet/solvers/preconditioners.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <fmt/format.h>
+
+#include "case_data.h"
+
+namespace corotet::benchmarks
+{
+  namespace
+  {
+    constexpr double dynamic_tolerance = 1e-6;
+
+    /// A run as the program makes it, without its driver: the straight beam is
+    /// released and falls.
+    struct Run
+    {
+      Run(const Case &c, const std::string &solver, const double dt)
+        : log(MPI_COMM_WORLD, true)
+        , mesh(beam(c.cells), 0, 1., MPI_COMM_WORLD, log)
+      {
+        parameters.declare_parameters(prm);
+        prm.parse_input_from_string(text(c, solver, dt));
+        discretization =
+          std::make_unique<Discretization>(mesh, parameters.degree);
+        system = std::make_unique<StructuralSystem>(*discretization,
+                                                    parameters,
+                                                    wall_times,
+                                                    log);
+        system->initialize(state);
+        system->prescribe(state, 0, 1);
+        system->solve_acceleration(state, 0);
+      }
+
+      static std::string
+      text(const Case &c, const std::string &solver, const double dt)
+      {
+        const auto set = [](const std::string &section,
+                            const std::string &entries) {
+          return "subsection " + section + "\n" + entries + "\nend\n";
+        };
+        return set("Discretization", fmt::format("set Degree = {}", c.degree)) +
+               set("Material",
+                   fmt::format("set Young's modulus = {}\n"
+                               "set Poisson's ratio = {}\nset Density = {}",
+                               youngs_modulus,
+                               poissons_ratio,
+                               density)) +
+               set("Boundary conditions", "set Fixed = x-min") +
+               set("Loads",
+                   fmt::format("set Gravity = 0; 0; {}", -standard_fall)) +
+               set("Time integration",
+                   fmt::format("set Type = generalized-alpha\n"
+                               "set End time = 100\nset Time step = {}",
+                               dt)) +
+               set("Newton",
+                   fmt::format("set Residual tolerance = {0}\n"
+                               "set Increment tolerance = {0}",
+                               dynamic_tolerance)) +
+               set("Linear solver",
+                   fmt::format("set Type = {}\nset Tolerance = {}",
+                               solver,
+                               dynamic_tolerance));
+      }
+
+      StageReport
+      step()
+      {
+        const StageReport report = parameters.time_integrator.selected().step(
+          *system, {time, parameters.time_step, 0.5}, state);
+        time += parameters.time_step;
+        return report;
+      }
+
+      Log                               log;
+      dealii::ParameterHandler          prm;
+      SimulationParameters              parameters;
+      Mesh                              mesh;
+      std::unique_ptr<Discretization>   discretization;
+      WallTimes                         wall_times;
+      std::unique_ptr<StructuralSystem> system;
+      State                             state;
+      double                            time = 0;
+    };
+
+    /// Time of a Newton iteration, all that belongs to it included; the first
+    /// step, which sets up everything, is not.
+    Counters
+    newton_iterations(CaseData          &data,
+                      const std::string &solver,
+                      const double       dt)
+    {
+      Run run(data.which(), solver, dt);
+      run.step();
+      constexpr unsigned int n_steps = 2;
+      StageReport            total;
+      const double           time   = seconds([&] {
+        for (unsigned int i = 0; i < n_steps; ++i)
+          {
+            const StageReport report = run.step();
+            total.newton_iterations += report.newton_iterations;
+            total.linear_iterations += report.linear_iterations;
+          }
+      });
+      const double           newton = total.newton_iterations;
+      return {{"seconds", time / newton},
+              {"step_s", time / n_steps},
+              {"newton_iterations", newton / n_steps},
+              {"linear_iterations", total.linear_iterations / newton},
+              {"unknowns", 3. * run.discretization->n_global_nodes()}};
+    }
+
+    /**
+     * One backward Euler step from rest in the bent state, with one Newton
+     * iteration: rotations, forces, matrix, preconditioner and solution of
+     * (K + M / dt^2) du = weight - f(u).
+     */
+    Counters
+    backward_euler_step(CaseData &data, const std::string &solver)
+    {
+      Problem     &problem = data.problem();
+      auto        &A       = data.assembled();
+      const Vector u       = problem.bent(bent_beam_angle);
+      const Vector weight  = problem.weight();
+      const double dt      = first_period() / 10;
+      const auto   P       = make_preconditioner(solver);
+      Vector       r(weight), du(weight), positions(weight), f(u);
+      Counters     result;
+      result["seconds"]  = seconds([&] {
+        problem.elasticity.update_rotations(u);
+        problem.elasticity.internal_force(f, u);
+        r = weight;
+        r -= f;
+        problem.clamp(r);
+        A.update(1., 1 / (dt * dt));
+        positions = problem.discretization.node_positions();
+        positions += u;
+        result["setup_s"] = seconds([&] { P->build(A, positions); });
+        result["solve_s"] = seconds([&] {
+          result["cg_iterations"] =
+            conjugate_gradients(A, du, r, *P, dynamic_tolerance);
+        });
+      });
+      result["unknowns"] = problem.n_unknowns();
+      problem.elasticity.update_rotations(problem.vector());
+      A.update(1., 0.);
+      return result;
+    }
+  } // namespace
+
+  void
+  add_dynamics(CaseData &data)
+  {
+    for (const auto &candidate : preconditioners())
+      if (candidate.name != "direct")
+        {
+          const std::string type = candidate.name;
+          add_long(data.name("newton/" + type), [&data, type] {
+            return newton_iterations(data, type, first_period() / 100);
+          });
+          add_long(data.name("newton_short_step/" + type), [&data, type] {
+            return newton_iterations(data, type, first_period() / 1000);
+          });
+          add_long(
+            data.name("backward_euler/" + type),
+            [&data, type] { return backward_euler_step(data, type); },
+            3);
+        }
+  }
+} // namespace corotet::benchmarks

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include "measure.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <vector>
+
+namespace corotet::benchmarks
+{
+  namespace
+  {
+    /// Shows nothing: for ranks other than 0.
+    class Silence : public benchmark::BenchmarkReporter
+    {
+    public:
+      bool
+      ReportContext(const Context &) override
+      {
+        return true;
+      }
+
+      void
+      ReportRuns(const std::vector<Run> &) override
+      {}
+    };
+
+    void
+    report(benchmark::State &state, const Counters &counters)
+    {
+      for (const auto &[name, value] : counters)
+        state.counters[name] = value;
+    }
+  } // namespace
+
+  double
+  seconds(const std::function<void()> &action)
+  {
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto start = std::chrono::steady_clock::now();
+    action();
+    return dealii::Utilities::MPI::max(
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+        .count(),
+      MPI_COMM_WORLD);
+  }
+
+  void
+  add_short(const std::string               &name,
+            const std::function<Measured()> &prepare,
+            const unsigned int               repetitions,
+            const double                     duration)
+  {
+    benchmark::RegisterBenchmark(
+      name,
+      [=](benchmark::State &state) {
+        const Measured measured = prepare();
+        // Also warms the caches; the same on all
+        // ranks.
+        const double once = seconds(measured.action);
+        const int n = std::clamp(static_cast<int>(duration / once), 1, 1000000);
+        for (auto _ : state)
+          state.SetIterationTime(seconds([&] {
+                                   for (int i = 0; i < n; ++i)
+                                     measured.action();
+                                 }) /
+                                 n);
+        report(state, measured.counters);
+      })
+      ->Iterations(1)
+      ->Repetitions(repetitions)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+  }
+
+  void
+  add_long(const std::string               &name,
+           const std::function<Counters()> &action,
+           const unsigned int               repetitions)
+  {
+    benchmark::RegisterBenchmark(name,
+                                 [=](benchmark::State &state) {
+                                   for (auto _ : state)
+                                     {
+                                       const Counters counters = action();
+                                       state.SetIterationTime(
+                                         counters.at("seconds"));
+                                       report(state, counters);
+                                     }
+                                 })
+      ->Iterations(1)
+      ->Repetitions(repetitions)
+      ->UseManualTime()
+      ->Unit(benchmark::kSecond);
+  }
+
+  int
+  run(int argc, char **argv)
+  {
+    const bool root =
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    std::vector<char *> arguments;
+    for (int i = 0; i < argc; ++i)
+      if (root || std::string(argv[i]).rfind("--benchmark_out", 0) != 0)
+        arguments.push_back(argv[i]);
+    int n = arguments.size();
+    benchmark::Initialize(&n, arguments.data());
+    Silence silence;
+    if (root)
+      benchmark::RunSpecifiedBenchmarks();
+    else
+      benchmark::RunSpecifiedBenchmarks(&silence);
+    benchmark::Shutdown();
+    return 0;
+  }
+
+  double
+  peak_memory()
+  {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss * 1024.;
+  }
+
+  double
+  present_memory()
+  {
+    std::ifstream statm("/proc/self/statm");
+    double        total = 0, resident = 0;
+    statm >> total >> resident;
+    return resident * sysconf(_SC_PAGESIZE);
+  }
+} // namespace corotet::benchmarks

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_benchmarks_measure_h
+#define corotet_benchmarks_measure_h
+
+#include <deal.II/base/mpi.h>
+
+#include <benchmark/benchmark.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace corotet::benchmarks
+{
+  /// MPI from its construction to its destruction. It is told the program's
+  /// name only: arguments would go to PETSc, which warns of unknown ones.
+  class Session
+  {
+  public:
+    explicit Session(char **argv)
+      : program{argv[0], nullptr}
+      , mpi(n_arguments, arguments, 1)
+    {}
+
+  private:
+    int                                      n_arguments = 1;
+    char                                    *program[2];
+    char                                   **arguments = program;
+    dealii::Utilities::MPI::MPI_InitFinalize mpi;
+  };
+
+  /// Figures that are reported beside the time, by name.
+  using Counters = std::map<std::string, double>;
+
+  /// Wall time [s] that @p action takes on the slowest rank. Collective.
+  double
+  seconds(const std::function<void()> &action);
+
+  /**
+   * Registers a benchmark of something short: @p prepare makes the action that
+   * is timed, and the figures that go with it. The action is called until
+   * @p duration [s] are over in each of @p repetitions.
+   */
+  struct Measured
+  {
+    std::function<void()> action;
+    Counters              counters;
+  };
+
+  void
+  add_short(const std::string               &name,
+            const std::function<Measured()> &prepare,
+            const unsigned int               repetitions = 7,
+            const double                     duration    = 0.1);
+
+  /// Registers a benchmark of something long, which is done @p repetitions
+  /// times. It returns its figures; "seconds" is the time that is reported.
+  void
+  add_long(const std::string               &name,
+           const std::function<Counters()> &action,
+           const unsigned int               repetitions = 1);
+
+  /// Runs what is registered, as Google Benchmark's arguments say. Rank 0 shows
+  /// and writes the results. Collective.
+  int
+  run(int argc, char **argv);
+
+  /// Largest resident memory of this process so far [bytes].
+  double
+  peak_memory();
+
+  /// Resident memory of this process [bytes].
+  double
+  present_memory();
+} // namespace corotet::benchmarks
+
+#endif

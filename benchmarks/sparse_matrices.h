@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_benchmarks_sparse_matrices_h
+#define corotet_benchmarks_sparse_matrices_h
+
+#include <corotet/base/simd.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+namespace corotet::benchmarks
+{
+  /// Compressed rows as Eigen sees them, in memory that belongs to others.
+  using CsrView =
+    Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor, int>>;
+
+  /// The numbers of a Trilinos matrix, without a copy. One rank only.
+  CsrView
+  csr_view(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+  /**
+   * Compressed rows of 3 x 3 blocks: one column index per block, and one
+   * register of four numbers per column of a block (the fourth belongs to the
+   * next column).
+   */
+  class BlockMatrix
+  {
+  public:
+    /// Rows and columns of @p matrix come in threes with the same pattern.
+    explicit BlockMatrix(const CsrView &matrix);
+
+    /// y = A x.
+    void
+    vmult(double *y, const double *x) const;
+
+    std::size_t
+    n_blocks() const
+    {
+      return columns.size();
+    }
+
+  private:
+    std::vector<std::size_t> row_starts;
+    std::vector<int>         columns;
+    /// [block][column][row], and one number more.
+    std::vector<double> values;
+  };
+} // namespace corotet::benchmarks
+
+#endif
