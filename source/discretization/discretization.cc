@@ -6,96 +6,128 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
+#include <algorithm>
+
 namespace corotet
 {
   using dealii::numbers::invalid_dof_index;
   using dealii::types::global_dof_index;
 
   Discretization::Discretization(const Mesh &mesh, const unsigned int degree)
-    : mesh_pointer(&mesh)
+    : Nodes(degree)
+    , mesh_pointer(&mesh)
     , fe(dealii::FE_SimplexP<3>(degree), 3)
     , linear_mapping(dealii::FE_SimplexP<3>(1))
     , dofs(mesh.triangulation())
-    , n_cell_nodes(fe.dofs_per_cell / 3)
   {
     dofs.distribute_dofs(fe);
-    renumber_nodes_by_cells();
+    const std::vector<CellIterator> cells = order_cells();
+    renumber_nodes(cells);
     vector_partitioner =
       std::make_shared<const dealii::Utilities::MPI::Partitioner>(
         dofs.locally_owned_dofs(),
         dealii::DoFTools::extract_locally_relevant_dofs(dofs),
         mesh.communicator());
-    set_up_cells();
+    set_up_cells(cells);
+  }
+
+  std::vector<Discretization::CellIterator>
+  Discretization::order_cells()
+  {
+    const dealii::IndexSet       &owned = dofs.locally_owned_dofs();
+    std::vector<CellIterator>     inner, ghosted, ghosts;
+    std::vector<global_dof_index> cell_dofs(fe.dofs_per_cell);
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_ghost())
+        ghosts.push_back(cell);
+      else if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(cell_dofs);
+          const bool all_owned =
+            std::all_of(cell_dofs.begin(),
+                        cell_dofs.end(),
+                        [&](const auto dof) { return owned.is_element(dof); });
+          (all_owned ? inner : ghosted).push_back(cell);
+        }
+    n_owned       = inner.size() + ghosted.size();
+    ghosted_cells = {inner.size() / 2, inner.size() / 2 + ghosted.size()};
+    inner.insert(inner.begin() + ghosted_cells.first,
+                 ghosted.begin(),
+                 ghosted.end());
+    inner.insert(inner.end(), ghosts.begin(), ghosts.end());
+    return inner;
   }
 
   void
-  Discretization::renumber_nodes_by_cells()
+  Discretization::renumber_nodes(const std::vector<CellIterator> &cells)
   {
     const dealii::IndexSet        owned = dofs.locally_owned_dofs();
     std::vector<global_dof_index> new_numbers(owned.n_elements(),
                                               invalid_dof_index);
     std::vector<global_dof_index> cell_dofs(fe.dofs_per_cell);
-    global_dof_index              next = owned.is_empty() ? 0 : *owned.begin();
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_locally_owned())
+    global_dof_index              next =
+      owned.is_empty() ? 0 : *owned.begin() + owned.n_elements();
+    // Going backwards, a node's number is taken where the sweep needs it last.
+    const auto number_backwards = [&](const unsigned int begin,
+                                      const unsigned int end) {
+      for (unsigned int c = end; c-- > begin;)
         {
-          cell->get_dof_indices(cell_dofs);
-          for (unsigned int i = 0; i < n_cell_nodes; ++i)
-            for (unsigned int c = 0; c < 3; ++c)
+          cells[c]->get_dof_indices(cell_dofs);
+          for (unsigned int i = n_cell_nodes; i-- > 0;)
+            for (unsigned int a = 3; a-- > 0;)
               {
                 const global_dof_index dof =
-                  cell_dofs[fe.component_to_system_index(c, i)];
+                  cell_dofs[fe.component_to_system_index(a, i)];
                 if (!owned.is_element(dof))
                   continue;
                 global_dof_index &number =
                   new_numbers[owned.index_within_set(dof)];
                 if (number == invalid_dof_index)
-                  number = next++;
+                  number = --next;
               }
         }
+    };
+    number_backwards(n_owned, cells.size());
+    first_shared = owned.is_empty() ? 0 : (next - *owned.begin()) / 3;
+    number_backwards(0, n_owned);
     dofs.renumber_dofs(new_numbers);
   }
 
   void
-  Discretization::set_up_cells()
+  Discretization::set_up_cells(const std::vector<CellIterator> &cells)
   {
     initialize_vector(positions);
     std::vector<global_dof_index>        cell_dofs(fe.dofs_per_cell);
     const std::vector<dealii::Point<3>> &unit_points =
       fe.base_element(0).get_unit_support_points();
-
-    const auto add_cell = [&](const auto &cell) {
-      cell->get_dof_indices(cell_dofs);
-      dealii::Tensor<2, 3> jacobian;
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int a = 0; a < 3; ++a)
-          jacobian[a][k] = cell->vertex(k + 1)[a] - cell->vertex(0)[a];
-      geometries.push_back(
-        {invert(jacobian), determinant(jacobian) / 6, cell->material_id()});
-      for (unsigned int i = 0; i < n_cell_nodes; ++i)
-        {
-          const unsigned int dof = vector_partitioner->global_to_local(
-            cell_dofs[fe.component_to_system_index(0, i)]);
-          nodes_of_cells.push_back(dof / 3);
-          const dealii::Tensor<1, 3> x =
-            cell->vertex(0) + jacobian * unit_points[i];
-          for (unsigned int a = 0; a < 3; ++a)
-            positions.local_element(dof + a) = x[a];
-        }
-    };
-
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        const CellIterator &cell = cells[c];
+        if (c < n_owned)
           for (const unsigned int f : cell->face_indices())
             if (cell->face(f)->at_boundary())
-              surface.push_back({n_owned, f, cell->face(f)->boundary_id()});
-          add_cell(cell);
-          ++n_owned;
-        }
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_ghost())
-        add_cell(cell);
+              surface.push_back({c, f, cell->face(f)->boundary_id()});
+
+        dealii::Tensor<2, 3> jacobian;
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int a = 0; a < 3; ++a)
+            jacobian[a][k] = cell->vertex(k + 1)[a] - cell->vertex(0)[a];
+        geometries.push_back(
+          {invert(jacobian), determinant(jacobian) / 6, cell->material_id()});
+
+        cell->get_dof_indices(cell_dofs);
+        for (unsigned int i = 0; i < n_cell_nodes; ++i)
+          {
+            const unsigned int dof = vector_partitioner->global_to_local(
+              cell_dofs[fe.component_to_system_index(0, i)]);
+            nodes_of_cells.push_back(dof / 3);
+            const dealii::Tensor<1, 3> x =
+              cell->vertex(0) + jacobian * unit_points[i];
+            for (unsigned int a = 0; a < 3; ++a)
+              positions.local_element(dof + a) = x[a];
+          }
+      }
     positions.set_ghost_state(true);
+    make_batches();
   }
 } // namespace corotet

@@ -3,11 +3,12 @@
 
 #include <corotet/material/corotational.h>
 #include <corotet/material/polar_decomposition.h>
-#include <corotet/operators/cell_kernel.h>
 #include <corotet/operators/elasticity.h>
+#include <corotet/operators/quadrature_sweep.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
 #include <limits>
 
 namespace corotet
@@ -33,8 +34,10 @@ namespace corotet
     : discretization(discretization)
     , reference(reference)
     , corotational(corotational)
-    , rotations(discretization.n_local_cells(),
-                Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()))
+    , cell_loop(discretization)
+    , shapes(discretization.batches().n_batches())
+    , rotations(discretization.batches().n_batches())
+    , cell_coefficients(discretization.batches().n_batches())
   {
     std::map<unsigned int, unsigned int> index;
     for (const auto &[region, material] : materials)
@@ -45,8 +48,37 @@ namespace corotet
     material_of_cell.resize(discretization.n_local_cells());
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       material_of_cell[c] = index.at(discretization.geometry(c).region);
+    set_up_cells();
     if (corotational)
       estimate_round_off();
+  }
+
+  void
+  Elasticity::set_up_cells()
+  {
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+      {
+        const auto [batch, lane]     = discretization.batches().place(c);
+        const CellGeometry &geometry = discretization.geometry(c);
+        CellShapes         &shape    = shapes[batch];
+        shape.volume[lane]           = geometry.volume;
+        shape.lambda[lane]           = material(c).lambda;
+        shape.mu[lane]               = material(c).mu;
+        shape.scale[lane] = std::sqrt(material(c).mu * geometry.volume);
+        cell_coefficients[batch].lame_ratio[lane] =
+          material(c).lambda / material(c).mu;
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            rotations[batch].rotation[4 * k][lane] = 1;
+            for (unsigned int a = 0; a < 3; ++a)
+              {
+                shape.inverse_jacobian[3 * k + a][lane] =
+                  geometry.inverse_jacobian[k][a];
+                cell_coefficients[batch].gradients[3 * k + a][lane] =
+                  shape.scale[lane] * geometry.inverse_jacobian[k][a];
+              }
+          }
+      }
   }
 
   void
@@ -78,116 +110,175 @@ namespace corotet
     round_off_norm = noise.l2_norm();
   }
 
+  ElasticData
+  Elasticity::elastic_data() const
+  {
+    return {discretization.batches(),
+            shapes.data(),
+            rotations.data(),
+            cell_coefficients.data(),
+            {}};
+  }
+
+  Tensor<2, 3>
+  Elasticity::rotation(const unsigned int cell) const
+  {
+    const auto [batch, lane] = discretization.batches().place(cell);
+    Tensor<2, 3> R;
+    for (unsigned int i = 0; i < 9; ++i)
+      R[i / 3][i % 3] = rotations[batch].rotation[i][lane];
+    return R;
+  }
+
   void
   Elasticity::update_rotations(const Vector &u)
   {
     if (!corotational)
       return;
-    degenerate_cells = 0;
-    with_degree(discretization.degree(), [&](const auto p) {
-      using Kernel = CellKernel<decltype(p)::value>;
-      typename Kernel::NodalValues cell_u;
-      for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
-        {
-          Kernel::gather_differences(u.begin(),
-                                     discretization.cell_nodes(c),
-                                     cell_u);
-          const PolarDecomposition polar =
-            polar_decomposition(deformation_gradient(Kernel::gradient(
-              reference.centre, 0, discretization.geometry(c), cell_u)));
-          rotations[c] = polar.rotation;
-          if (polar.state == PolarState::degenerate &&
-              c < discretization.n_owned_cells())
-            ++degenerate_cells;
-        }
-    });
+    const ElasticSweep sweep   = rotation_sweep(discretization.degree());
+    const CellBatches &batches = discretization.batches();
+    ElasticData        data    = elastic_data();
+    sweep(data, 0, batches.n_owned_batches(), u.begin(), nullptr);
+    counts = data.counts;
+    sweep(
+      data, batches.n_owned_batches(), batches.n_batches(), u.begin(), nullptr);
   }
 
-  template <typename StressOfCell>
+  template <typename Add>
   void
-  Elasticity::cell_loop(Vector             &f,
-                        const Vector       &u,
-                        const StressOfCell &stress) const
+  Elasticity::cell_sweep(Vector       &f,
+                         const Vector &u,
+                         const Add    &add,
+                         const double  scale) const
   {
-    f = 0;
-    with_degree(discretization.degree(), [&](const auto p) {
-      using Kernel = CellKernel<decltype(p)::value>;
-      typename Kernel::NodalValues cell_u;
-      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-        {
-          const auto nodes = discretization.cell_nodes(c);
-          Kernel::gather_differences(u.begin(), nodes, cell_u);
-          typename Kernel::NodalValues cell_f = {};
-          Kernel::integrate(reference,
-                            discretization.geometry(c),
-                            cell_u,
-                            cell_f,
-                            [&](const Tensor<2, 3> &gradient) {
-                              return stress(c, gradient);
-                            });
-          Kernel::scatter_add(cell_f, nodes, f.begin());
-        }
+    cell_loop.run(u, add, [&](const unsigned int i, const auto y) {
+      store_to(y * scale, f.begin() + i);
     });
-    f.compress(dealii::VectorOperation::add);
   }
 
   void
   Elasticity::internal_force(Vector &f, const Vector &u) const
   {
-    cell_loop(f, u, [&](const unsigned int c, const Tensor<2, 3> &grad_u) {
-      return corotational_stress(material(c), grad_u, rotations[c]);
-    });
+    const unsigned int degree = discretization.degree();
+    const ElasticSweep sweep  = force_sweep(degree);
+    ElasticData        data   = elastic_data();
+    cell_sweep(
+      f,
+      u,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      stiffness_scale(degree));
+  }
+
+  void
+  Elasticity::update_rotations_and_force(Vector &f, const Vector &u)
+  {
+    if (!corotational)
+      return internal_force(f, u);
+    const unsigned int degree  = discretization.degree();
+    const ElasticSweep sweep   = rotation_and_force_sweep(degree);
+    const CellBatches &batches = discretization.batches();
+    ElasticData        data    = elastic_data();
+    cell_sweep(
+      f,
+      u,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      stiffness_scale(degree));
+    counts = data.counts;
+    rotation_sweep(degree)(
+      data, batches.n_owned_batches(), batches.n_batches(), u.begin(), nullptr);
+  }
+
+  void
+  Elasticity::explicit_step(Vector       &u,
+                            Vector       &v,
+                            const Vector &external,
+                            const Vector &inverse_mass,
+                            const double  dt)
+  {
+    const unsigned int degree = discretization.degree();
+    const ElasticSweep sweep =
+      corotational ? rotation_and_force_sweep(degree) : force_sweep(degree);
+    const double scale = stiffness_scale(degree);
+    ElasticData  data  = elastic_data();
+    cell_loop.run(
+      u,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      // No cell of this rank will need these nodes again in this sweep.
+      [&](const unsigned int i, const auto y) {
+        using V          = decltype(y + y);
+        const V velocity = load_as<V>(v.begin() + i) +
+                           dt * load_as<V>(inverse_mass.begin() + i) *
+                             (load_as<V>(external.begin() + i) - scale * y);
+        store_to(velocity, v.begin() + i);
+        store_to(load_as<V>(u.begin() + i) + dt * velocity, u.begin() + i);
+      });
+    counts = data.counts;
   }
 
   void
   Elasticity::apply_tangent(Vector &f, const Vector &v) const
   {
-    cell_loop(f, v, [&](const unsigned int c, const Tensor<2, 3> &grad_v) {
-      return corotational_tangent(material(c), grad_v, rotations[c]);
-    });
+    const unsigned int      degree = discretization.degree();
+    const FormSweep<double> sweep =
+      form_sweep<double>(degree, Terms::stiffness);
+    const FormData<double> data{discretization.batches(),
+                                cell_coefficients.data(),
+                                nullptr,
+                                0};
+    cell_sweep(
+      f,
+      v,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      stiffness_scale(degree));
+  }
+
+  void
+  Elasticity::apply_tangent_by_quadrature(Vector &f, const Vector &v) const
+  {
+    const QuadratureSweep sweep =
+      tangent_by_quadrature_sweep(discretization.degree());
+    const ElasticData data = elastic_data();
+    cell_sweep(
+      f,
+      v,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double *sums) { sweep(reference, data, first, end, source, sums); },
+      1.);
   }
 
   ElasticState
   Elasticity::state(const Vector &u) const
   {
-    ElasticState result;
-    result.min_det_F = std::numeric_limits<double>::infinity();
-    with_degree(discretization.degree(), [&](const auto p) {
-      using Kernel = CellKernel<decltype(p)::value>;
-      typename Kernel::NodalValues cell_u;
-      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-        {
-          const CellGeometry &geometry = discretization.geometry(c);
-          Kernel::gather_differences(u.begin(),
-                                     discretization.cell_nodes(c),
-                                     cell_u);
-          const auto &rule    = reference.stiffness_rule;
-          double      density = 0;
-          double      det_F   = determinant(deformation_gradient(
-            Kernel::gradient(reference.centre, 0, geometry, cell_u)));
-          for (unsigned int q = 0; q < Kernel::n_points; ++q)
-            {
-              const Tensor<2, 3> grad_u =
-                Kernel::gradient(rule, q, geometry, cell_u);
-              density +=
-                rule.weights[q] *
-                energy_density(material(c),
-                               corotational_strain(grad_u, rotations[c]));
-              det_F =
-                std::min(det_F, determinant(deformation_gradient(grad_u)));
-            }
-          result.energy += density * geometry.volume;
-          result.min_det_F = std::min(result.min_det_F, det_F);
-          result.inverted_cells += (det_F < 0);
-        }
-    });
+    PointResults local;
+    state_sweep(
+      discretization.degree())(reference,
+                               elastic_data(),
+                               0,
+                               discretization.batches().n_owned_batches(),
+                               u.begin(),
+                               local);
+    using namespace dealii::Utilities::MPI;
     const MPI_Comm comm = discretization.communicator();
-    result.energy       = dealii::Utilities::MPI::sum(result.energy, comm);
-    result.min_det_F    = dealii::Utilities::MPI::min(result.min_det_F, comm);
-    result.inverted_cells =
-      dealii::Utilities::MPI::sum(result.inverted_cells, comm);
-    result.degenerate_cells =
-      dealii::Utilities::MPI::sum(degenerate_cells, comm);
+    ElasticState   result;
+    result.energy           = sum(local.energy, comm);
+    result.min_det_F        = min(local.min_det_F, comm);
+    result.inverted_cells   = sum(local.inverted_cells, comm);
+    result.degenerate_cells = sum(counts.degenerate, comm);
+    result.robust_rotations = sum(counts.robust, comm);
     return result;
   }
 
@@ -198,26 +289,33 @@ namespace corotet
     CellResults        result{std::vector<double>(n),
                        std::vector<double>(n),
                        std::vector<double>(n)};
-    with_degree(discretization.degree(), [&](const auto p) {
-      using Kernel = CellKernel<decltype(p)::value>;
-      typename Kernel::NodalValues cell_u;
-      for (unsigned int c = 0; c < n; ++c)
-        {
-          Kernel::gather_differences(u.begin(),
-                                     discretization.cell_nodes(c),
-                                     cell_u);
-          const Tensor<2, 3> grad_u = Kernel::gradient(
-            reference.centre, 0, discretization.geometry(c), cell_u);
-          const Tensor<2, 3> F = deformation_gradient(grad_u);
-          // Also linear elasticity shows how far its cells rotate: that is
-          // what it neglects.
-          result.rotation_angle[c] = rotation_angle(
-            corotational ? rotations[c] : polar_decomposition(F).rotation);
-          result.det_F[c]     = determinant(F);
-          result.von_mises[c] = von_mises(
-            stress(material(c), corotational_strain(grad_u, rotations[c])));
-        }
-    });
+    for (unsigned int c = 0; c < n; ++c)
+      {
+        const Tensor<2, 3> grad_u = centre_gradient(c, u);
+        const Tensor<2, 3> F      = deformation_gradient(grad_u);
+        const Tensor<2, 3> R      = rotation(c);
+        // Also linear elasticity shows how far its cells rotate: that is what
+        // it neglects.
+        result.rotation_angle[c] =
+          rotation_angle(corotational ? R : polar_decomposition(F).rotation);
+        result.det_F[c] = determinant(F);
+        result.von_mises[c] =
+          von_mises(stress(material(c), corotational_strain(grad_u, R)));
+      }
     return result;
+  }
+
+  Tensor<2, 3>
+  Elasticity::centre_gradient(const unsigned int cell, const Vector &u) const
+  {
+    const auto   nodes = discretization.cell_nodes(cell);
+    Tensor<2, 3> by_xi;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int k = 0; k < 3; ++k)
+          by_xi[a][k] += (u.local_element(3 * nodes[i] + a) -
+                          u.local_element(3 * nodes[0] + a)) *
+                         reference.centre.gradients(0, i, k);
+    return by_xi * discretization.geometry(cell).inverse_jacobian;
   }
 } // namespace corotet

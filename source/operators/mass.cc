@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/operators/cell_kernel.h>
 #include <corotet/operators/mass.h>
 
 #include <deal.II/base/mpi.h>
@@ -55,9 +54,9 @@ namespace corotet
              const std::map<unsigned int, double> &densities,
              const MassType                        type)
     : discretization(discretization)
-    , reference(reference)
     , type(type)
-    , cell_masses(discretization.n_local_cells())
+    , cell_loop(discretization)
+    , masses(discretization.batches().n_batches())
   {
     std::vector<double> shares(reference.n_nodes);
     if (is_lumped())
@@ -71,15 +70,18 @@ namespace corotet
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       {
         const CellGeometry &geometry = discretization.geometry(c);
-        cell_masses[c] = densities.at(geometry.region) * geometry.volume;
+        const auto [batch, lane]     = discretization.batches().place(c);
+        const double cell_mass =
+          densities.at(geometry.region) * geometry.volume;
+        masses[batch].mass[lane] = cell_mass;
         if (c >= discretization.n_owned_cells())
           continue;
-        owned_mass += cell_masses[c];
+        owned_mass += cell_mass;
         const auto nodes = discretization.cell_nodes(c);
         for (unsigned int i = 0; i < reference.n_nodes; ++i)
           for (unsigned int a = 0; a < 3; ++a)
             mass_diagonal.local_element(3 * nodes[i] + a) +=
-              shares[i] * cell_masses[c];
+              shares[i] * cell_mass;
       }
     mass_diagonal.compress(dealii::VectorOperation::add);
     mass_diagonal.update_ghost_values();
@@ -97,25 +99,18 @@ namespace corotet
             mass_diagonal.local_element(i) * a.local_element(i);
         return;
       }
-    f = 0;
-    with_degree(discretization.degree(), [&](const auto p) {
-      using Kernel = CellKernel<decltype(p)::value>;
-      typename Kernel::NodalValues cell_a;
-      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-        {
-          const auto nodes = discretization.cell_nodes(c);
-          Kernel::gather(a.begin(), nodes, cell_a);
-          typename Kernel::NodalValues cell_f = {};
-          for (unsigned int i = 0; i < Kernel::n_nodes; ++i)
-            {
-              const double *row = &reference.mass(i, 0);
-              for (unsigned int j = 0; j < Kernel::n_nodes; ++j)
-                for (unsigned int b = 0; b < 3; ++b)
-                  cell_f[i][b] += cell_masses[c] * row[j] * cell_a[j][b];
-            }
-          Kernel::scatter_add(cell_f, nodes, f.begin());
-        }
-    });
-    f.compress(dealii::VectorOperation::add);
+    const FormData<double>  data{discretization.batches(),
+                                nullptr,
+                                masses.data(),
+                                mass_scale(discretization.degree())};
+    const FormSweep<double> sweep =
+      form_sweep<double>(discretization.degree(), Terms::mass);
+    cell_loop.run(
+      a,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      [&](const unsigned int i, const auto y) { store_to(y, f.begin() + i); });
   }
 } // namespace corotet

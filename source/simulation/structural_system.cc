@@ -129,8 +129,7 @@ namespace corotet
     v_ghosted.copy_locally_owned_data_from(state.v);
     v_ghosted.update_ghost_values();
 
-    elastic.update_rotations(u_ghosted);
-    elastic.internal_force(forces.internal, u_ghosted);
+    elastic.update_rotations_and_force(forces.internal, u_ghosted);
     loads.force(forces.external, time, u_ghosted);
     forces.external *= load_factor;
 
@@ -158,12 +157,8 @@ namespace corotet
     if (!effective_operator)
       {
         ScopedTimer timer(wall_times.assembly);
-        effective_operator =
-          std::make_unique<EffectiveOperator>(discretization,
-                                              reference,
-                                              elastic,
-                                              mass_matrix,
-                                              motion.is_prescribed());
+        effective_operator = std::make_unique<EffectiveOperator>(
+          discretization, elastic, mass_matrix, motion.is_prescribed());
       }
     this->stage  = stage;
     stage_state  = &state;

@@ -25,6 +25,13 @@ namespace corotet
   void
   AMG::build(const EffectiveOperator &A, const Vector &positions)
   {
+    initialize(A.matrix(), positions);
+  }
+
+  void
+  AMG::initialize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                  const Vector                                 &positions)
+  {
     const unsigned int n       = positions.locally_owned_size();
     const unsigned int n_nodes = n / 3;
     rigid_body_modes.assign(6 * static_cast<std::size_t>(n), 0.);
@@ -56,7 +63,7 @@ namespace corotet
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", 6);
     list.set("null space: vectors", rigid_body_modes.data());
-    amg.initialize(A.matrix(), list);
+    amg.initialize(matrix, list);
   }
 
   void

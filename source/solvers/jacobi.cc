@@ -6,11 +6,17 @@
 namespace corotet
 {
   void
-  Jacobi::build(const EffectiveOperator &A, const Vector &positions)
+  Jacobi::build(const EffectiveOperator &A, const Vector &)
   {
-    Vector inverse(positions);
-    for (const auto dof : inverse.locally_owned_elements())
-      inverse(dof) = 1. / A.matrix().diag_element(dof);
+    update(A);
+  }
+
+  void
+  Jacobi::update(const EffectiveOperator &A)
+  {
+    Vector inverse(A.diagonal());
+    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
+      inverse.local_element(i) = 1. / A.diagonal().local_element(i);
     inverse_diagonal.reinit(inverse);
   }
 

@@ -6,6 +6,7 @@
 #include <corotet/solvers/preconditioners.h>
 
 #include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@
 namespace corotet
 {
   LinearSolver::LinearSolver()
-    : preconditioner(preconditioners(), "amg")
+    : preconditioner(preconditioners(), "p-multigrid")
   {}
 
   void
@@ -22,9 +23,20 @@ namespace corotet
   {
     preconditioner.declare_parameters(
       prm,
-      "Preconditioner of conjugate gradients: 'amg', smoothed aggregation with "
-      "rigid body modes; 'jacobi', the diagonal; 'direct', a sparse "
-      "factorisation.");
+      "Preconditioner: 'p-multigrid', over the degrees "
+      "down to 1, matrix-free; 'amg', smoothed aggregation with rigid body "
+      "modes, on the assembled matrix; 'jacobi', the diagonal; 'direct', a "
+      "sparse factorisation of the assembled matrix.");
+    prm.add_parameter("Method",
+                      method,
+                      "Krylov method. GMRES also solves systems that are not "
+                      "symmetric; it restarts after 30 iterations.",
+                      dealii::Patterns::Selection("conjugate gradients|gmres"));
+    prm.add_parameter("Operator",
+                      operator_type,
+                      "How the matrix is applied: cell by cell without "
+                      "storing it, or assembled.",
+                      dealii::Patterns::Selection("matrix-free|assembled"));
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Residual at which iterations stop, relative to the "
@@ -34,6 +46,26 @@ namespace corotet
                       max_iterations,
                       "A solve that needs more has failed [-].",
                       dealii::Patterns::Integer(1));
+  }
+
+  template <typename Matrix>
+  void
+  LinearSolver::iterate(dealii::SolverControl &control,
+                        const Matrix          &A,
+                        Vector                &x,
+                        const Vector          &b) const
+  {
+    if (method == "conjugate gradients")
+      {
+        dealii::SolverCG<Vector> cg(control);
+        cg.solve(A, x, b, preconditioner.selected());
+        return;
+      }
+    dealii::SolverGMRES<Vector>::AdditionalData data;
+    // Then its residual is that of A x = b.
+    data.right_preconditioning = true;
+    dealii::SolverGMRES<Vector> gmres(control, data);
+    gmres.solve(A, x, b, preconditioner.selected());
   }
 
   unsigned int
@@ -54,12 +86,17 @@ namespace corotet
         preconditioner.selected().build(A, positions);
         built_mass_ratio = A.mass_ratio();
       }
+    else if (A.version() != known_version)
+      preconditioner.selected().update(A);
+    known_version = A.version();
 
-    dealii::SolverControl    control(max_iterations, tolerance * b_norm);
-    dealii::SolverCG<Vector> cg(control);
+    dealii::SolverControl control(max_iterations, tolerance * b_norm);
     try
       {
-        cg.solve(A, x, b, preconditioner.selected());
+        if (operator_type == "matrix-free")
+          iterate(control, A, x, b);
+        else
+          iterate(control, A.matrix(), x, b);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {

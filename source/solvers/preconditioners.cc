@@ -4,6 +4,7 @@
 #include <corotet/solvers/amg.h>
 #include <corotet/solvers/direct.h>
 #include <corotet/solvers/jacobi.h>
+#include <corotet/solvers/p_multigrid.h>
 #include <corotet/solvers/preconditioners.h>
 
 namespace corotet
@@ -11,7 +12,8 @@ namespace corotet
   std::vector<Candidate<Preconditioner>>
   preconditioners()
   {
-    return {candidate<Preconditioner, AMG>("amg"),
+    return {candidate<Preconditioner, PMultigrid>("p-multigrid"),
+            candidate<Preconditioner, AMG>("amg"),
             candidate<Preconditioner, Jacobi>("jacobi"),
             candidate<Preconditioner, Direct>("direct")};
   }

@@ -104,7 +104,6 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
       const std::vector<unsigned char> free(
         3 * body.discretization.n_local_nodes(), 0);
       EffectiveOperator A(body.discretization,
-                          body.system.reference_element(),
                           body.system.elasticity(),
                           body.system.mass(),
                           free);
@@ -134,7 +133,6 @@ TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
                            "free; 0\nend\n");
   const auto       &motion = body.system.prescribed_motion();
   EffectiveOperator A(body.discretization,
-                      body.system.reference_element(),
                       body.system.elasticity(),
                       body.system.mass(),
                       motion.is_prescribed());

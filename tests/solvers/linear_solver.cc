@@ -31,7 +31,6 @@ TEST_P(PreconditionerTest, SolvesClampedBeam)
                   GetParam() + "\n set Tolerance = 1e-12\nend\n");
       const auto       &motion = body.system.prescribed_motion();
       EffectiveOperator A(body.discretization,
-                          body.system.reference_element(),
                           body.system.elasticity(),
                           body.system.mass(),
                           motion.is_prescribed());
@@ -74,7 +73,6 @@ TEST(LinearSolver, FailureIsClear)
                          "subsection Linear solver\n set Type = jacobi\n set "
                          "Maximum iterations = 3\nend\n");
   EffectiveOperator A(body.discretization,
-                      body.system.reference_element(),
                       body.system.elasticity(),
                       body.system.mass(),
                       body.system.prescribed_motion().is_prescribed());

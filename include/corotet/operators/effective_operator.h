@@ -4,13 +4,12 @@
 #ifndef corotet_operators_effective_operator_h
 #define corotet_operators_effective_operator_h
 
-#include <corotet/base/vector.h>
+#include <corotet/operators/assembled_matrix.h>
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/mass.h>
+#include <corotet/operators/matrix_free.h>
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace corotet
@@ -21,11 +20,7 @@ namespace corotet
    * columns of prescribed unknowns are those of a diagonal matrix, so A is
    * symmetric and positive definite if c_M > 0 or enough is prescribed.
    *
-   * A is assembled. The sparsity and the place of every block of every cell in
-   * it are found once; update() writes numbers only. Each rank computes its own
-   * rows from all cells that touch them, ghost cells included, so assembly
-   * needs no communication.
-   *
+   * A is applied matrix-free; it is assembled for those who ask for the matrix.
    * The arguments of the constructor must outlive this object.
    */
   class EffectiveOperator
@@ -33,12 +28,11 @@ namespace corotet
   public:
     /// @p is_prescribed: for each local unknown, ghosts included. Collective.
     EffectiveOperator(const Discretization             &discretization,
-                      const ReferenceElement           &reference,
                       const Elasticity                 &elasticity,
                       const Mass                       &mass,
                       const std::vector<unsigned char> &is_prescribed);
 
-    /// Takes the rotations and the coefficients. Not collective.
+    /// Takes the coefficients, c_K > 0, and the rotations. Collective.
     void
     update(const double c_K, const double c_M);
 
@@ -46,19 +40,37 @@ namespace corotet
     void
     vmult(Vector &dst, const Vector &src) const
     {
-      sparse_matrix.vmult(dst, src);
+      matrix_free.vmult(dst, src);
     }
 
-    const dealii::TrilinosWrappers::SparseMatrix &
-    matrix() const
+    /// The diagonal of A, owned entries.
+    const Vector &
+    diagonal() const
     {
-      return sparse_matrix;
+      return matrix_free.diagonal();
     }
+
+    /// A with the numbers of the last update(); they are computed by the first
+    /// call after it. Collective.
+    const dealii::TrilinosWrappers::SparseMatrix &
+    matrix() const;
 
     const Discretization &
     discretization() const
     {
       return disc;
+    }
+
+    const Elasticity &
+    elasticity() const
+    {
+      return elastic;
+    }
+
+    const Mass &
+    mass() const
+    {
+      return mass_matrix;
     }
 
     const std::vector<unsigned char> &
@@ -67,41 +79,50 @@ namespace corotet
       return prescribed;
     }
 
+    /// Of the last update.
+    double
+    stiffness_factor() const
+    {
+      return c_K;
+    }
+
+    double
+    mass_factor() const
+    {
+      return c_M;
+    }
+
+    /// Number of updates so far.
+    unsigned int
+    version() const
+    {
+      return n_updates;
+    }
+
     /// c_M / c_K of the last update [1/s^2]: 0 in statics.
     double
     mass_ratio() const
     {
-      return ratio;
+      return c_M / c_K;
     }
 
   private:
-    void
-    make_sparsity();
-    void
-    locate_blocks();
-    template <int p>
-    void
-    add_cell(const unsigned int cell, const double c_K, const double c_M);
-
     const Discretization             &disc;
-    const ReferenceElement           &reference;
-    const Elasticity                 &elasticity;
-    const Mass                       &mass;
+    const Elasticity                 &elastic;
+    const Mass                       &mass_matrix;
     const std::vector<unsigned char> &prescribed;
-    double                            ratio = 0;
+    double                            c_K       = 1;
+    double                            c_M       = 0;
+    unsigned int                      n_updates = 0;
 
-    dealii::TrilinosWrappers::SparseMatrix sparse_matrix;
-    /// First value of each owned row.
-    std::vector<double *> row_values;
-    std::vector<int>      row_lengths;
-    /// Position in the row of the diagonal entry of each owned row.
-    std::vector<std::uint16_t> diagonal_positions;
-    /// [local cell][row node i][column node j]: position of the first of the
-    /// block's three columns in each of its three rows.
-    std::vector<std::uint16_t> block_positions;
-    /// Local cells with prescribed unknowns.
-    std::vector<unsigned char> touches_prescribed;
+    MatrixFree<double>                       matrix_free;
+    mutable std::unique_ptr<AssembledMatrix> assembled;
+    mutable bool                             is_assembled = false;
   };
+
+  /// Numbers of those unknowns that are marked.
+  std::vector<unsigned int>
+  marked_unknowns(const std::vector<unsigned char> &marks);
 } // namespace corotet
 
 #endif

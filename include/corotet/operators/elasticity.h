@@ -8,6 +8,8 @@
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/material/isotropic.h>
+#include <corotet/operators/cell_loop.h>
+#include <corotet/operators/sweep.h>
 
 #include <map>
 #include <vector>
@@ -28,6 +30,8 @@ namespace corotet
     /// Cells whose centre the last rotation update found collapsed to a plane,
     /// a line or a point. Zero for linear elasticity.
     unsigned int degenerate_cells = 0;
+    /// Cells whose rotation the fast algorithm left to the robust one.
+    unsigned int robust_rotations = 0;
   };
 
   /**
@@ -73,9 +77,32 @@ namespace corotet
     void
     internal_force(Vector &f, const Vector &u) const;
 
+    /// Both, in one sweep over the cells.
+    void
+    update_rotations_and_force(Vector &f, const Vector &u);
+
+    /**
+     * A step of explicit dynamics with lumped mass in one sweep over the cells:
+     * v += dt M^{-1} (g - f(u)), then u += dt v, with new rotations. Entries of
+     * @p inverse_mass are 1 / M_ii, or zero where v is prescribed; @p external
+     * is g. @p u must not have ghost entries in use. Rotations of ghost cells
+     * are not updated: they serve assembled matrices only.
+     */
+    void
+    explicit_step(Vector       &u,
+                  Vector       &v,
+                  const Vector &external,
+                  const Vector &inverse_mass,
+                  const double  dt);
+
     /// f = K v, with K = R K0 R^T at the present rotations.
     void
     apply_tangent(Vector &f, const Vector &v) const;
+
+    /// The same by quadrature, the way of laws that are not constant in a cell:
+    /// to compare with.
+    void
+    apply_tangent_by_quadrature(Vector &f, const Vector &v) const;
 
     ElasticState
     state(const Vector &u) const;
@@ -89,10 +116,22 @@ namespace corotet
       return cell_materials[material_of_cell[cell]];
     }
 
-    const dealii::Tensor<2, 3> &
-    rotation(const unsigned int cell) const
+    dealii::Tensor<2, 3>
+    rotation(const unsigned int cell) const;
+
+    /// What the factored kernel needs of the cells, with the present rotations:
+    /// for the operators that share them.
+    const dealii::AlignedVector<CellCoefficients<double>> &
+    coefficients() const
     {
-      return rotations[cell];
+      return cell_coefficients;
+    }
+
+    /// Of the last rotation update, on this rank.
+    const RotationCounts &
+    rotation_counts() const
+    {
+      return counts;
     }
 
     /**
@@ -115,20 +154,36 @@ namespace corotet
 
   private:
     void
-    estimate_round_off();
-    template <typename StressOfCell>
+    set_up_cells();
     void
-    cell_loop(Vector &f, const Vector &u, const StressOfCell &stress) const;
+    estimate_round_off();
+    ElasticData
+    elastic_data() const;
+    /// grad u at the centre of a cell.
+    dealii::Tensor<2, 3>
+    centre_gradient(const unsigned int cell, const Vector &u) const;
+    template <typename Add>
+    void
+    cell_sweep(Vector       &f,
+               const Vector &u,
+               const Add    &add,
+               const double  scale) const;
 
     const Discretization          &discretization;
     const ReferenceElement        &reference;
     bool                           corotational;
     std::vector<IsotropicMaterial> cell_materials;
     std::vector<unsigned int>      material_of_cell;
-    /// One per local cell.
-    std::vector<dealii::Tensor<2, 3>> rotations;
-    unsigned int                      degenerate_cells = 0;
-    double                            round_off_norm   = 0;
+    CellLoop<double>               cell_loop;
+
+    // In the batches of the discretization. Rotations, and coefficients with
+    // them, are what update_rotations() writes.
+    dealii::AlignedVector<CellShapes>                       shapes;
+    mutable dealii::AlignedVector<CellRotations>            rotations;
+    mutable dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
+
+    RotationCounts counts;
+    double         round_off_norm = 0;
   };
 } // namespace corotet
 

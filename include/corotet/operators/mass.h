@@ -7,6 +7,8 @@
 #include <corotet/base/vector.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
+#include <corotet/operators/cell_loop.h>
+#include <corotet/operators/sweep.h>
 
 #include <map>
 #include <string>
@@ -42,8 +44,8 @@ namespace corotet
   lumped_shares(const ReferenceElement &reference, const MassType type);
 
   /**
-   * The mass matrix M, consistent or lumped. @p discretization and @p reference
-   * must outlive this object.
+   * The mass matrix M, consistent or lumped. @p discretization must outlive
+   * this object.
    */
   class Mass
   {
@@ -75,7 +77,15 @@ namespace corotet
     double
     cell_mass(const unsigned int cell) const
     {
-      return cell_masses[cell];
+      const auto [batch, lane] = discretization.batches().place(cell);
+      return masses[batch].mass[lane];
+    }
+
+    /// Masses of all cells as kernels take them.
+    const dealii::AlignedVector<CellMasses<double>> &
+    cell_masses() const
+    {
+      return masses;
     }
 
     /// Mass of the body [kg].
@@ -86,12 +96,12 @@ namespace corotet
     }
 
   private:
-    const Discretization   &discretization;
-    const ReferenceElement &reference;
-    MassType                type;
-    std::vector<double>     cell_masses;
-    Vector                  mass_diagonal;
-    double                  total_mass;
+    const Discretization                     &discretization;
+    MassType                                  type;
+    CellLoop<double>                          cell_loop;
+    dealii::AlignedVector<CellMasses<double>> masses;
+    Vector                                    mass_diagonal;
+    double                                    total_mass;
   };
 } // namespace corotet
 

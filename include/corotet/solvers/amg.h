@@ -26,6 +26,12 @@ namespace corotet
     void
     build(const EffectiveOperator &A, const Vector &positions) override;
 
+    /// The same for any matrix with three unknowns per node, whose nodes are at
+    /// @p positions. The matrix must live as long as vmult() is called.
+    void
+    initialize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+               const Vector                                 &positions);
+
     void
     clear() override;
 

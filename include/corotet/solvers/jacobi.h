@@ -11,7 +11,7 @@
 namespace corotet
 {
   /**
-   * The inverse of the diagonal. Cheap to make, so it is never outdated.
+   * The inverse of the diagonal, always that of the present operator.
    */
   class Jacobi : public Preconditioner
   {
@@ -20,16 +20,13 @@ namespace corotet
     build(const EffectiveOperator &A, const Vector &positions) override;
 
     void
+    update(const EffectiveOperator &A) override;
+
+    void
     clear() override;
 
     void
     vmult(Vector &dst, const Vector &src) const override;
-
-    unsigned int
-    acceptable_iterations(const unsigned int) const override
-    {
-      return 0;
-    }
 
   private:
     dealii::DiagonalMatrix<Vector> inverse_diagonal;

@@ -8,15 +8,21 @@
 #include <corotet/operators/effective_operator.h>
 #include <corotet/solvers/preconditioner.h>
 
+#include <deal.II/lac/solver_control.h>
+
+#include <string>
+
 namespace corotet
 {
   /**
-   * Conjugate gradients for the effective operator, with a preconditioner
-   * chosen at run time (section Linear solver).
+   * A Krylov method for the effective operator, with a preconditioner chosen at
+   * run time (section Linear solver): conjugate gradients, or GMRES for
+   * operators that are not symmetric.
    *
-   * A preconditioner is made at the first solve, after the coefficients of the
-   * operator changed, and when the iterations have grown past what it calls
-   * acceptable; until then it serves although the rotations have changed.
+   * A preconditioner is made at the first solve, after the ratio of mass to
+   * stiffness in the operator changed, and when the iterations have grown past
+   * what it calls acceptable; until then it takes over new rotations only as
+   * far as that is cheap.
    */
   class LinearSolver
   {
@@ -43,12 +49,23 @@ namespace corotet
     clear();
 
   private:
+    template <typename Matrix>
+    void
+    iterate(dealii::SolverControl &control,
+            const Matrix          &A,
+            Vector                &x,
+            const Vector          &b) const;
+
     Selectable<Preconditioner> preconditioner;
+    std::string                method         = "conjugate gradients";
+    std::string                operator_type  = "matrix-free";
     double                     tolerance      = 1e-8;
     unsigned int               max_iterations = 10000;
 
     bool   is_built         = false;
     double built_mass_ratio = 0;
+    /// Of the operator, when the preconditioner last heard of it.
+    unsigned int known_version = 0;
     /// Iterations of the first solve after the preconditioner was made.
     unsigned int first_iterations = 0;
   };

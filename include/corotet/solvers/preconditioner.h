@@ -33,6 +33,11 @@ namespace corotet
     virtual void
     build(const EffectiveOperator &A, const Vector &positions) = 0;
 
+    /// Takes over a new A as far as that is cheap. Collective.
+    virtual void
+    update(const EffectiveOperator & /*A*/)
+    {}
+
     /// Forgets A and P.
     virtual void
     clear() = 0;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_cell_batches_h
+#define corotet_discretization_cell_batches_h
+
+#include <corotet/base/simd.h>
+
+#include <utility>
+#include <vector>
+
+namespace corotet
+{
+  class Nodes;
+
+  /// Registers of this many cells are what batches are counted in; a register
+  /// of floats holds floats_per_batch batches.
+  inline constexpr unsigned int batch_size       = n_lanes<double>;
+  inline constexpr unsigned int floats_per_batch = n_lanes<float> / batch_size;
+
+  /**
+   * The local cells in batches of batch_size, and the plan of a sweep over the
+   * owned ones. Batches at the end are filled up: lanes without a cell have
+   * nodes of another one and must contribute zeros.
+   */
+  class CellBatches
+  {
+  public:
+    /// Batches [first, end): after them the owned nodes below n_final get no
+    /// contributions of owned cells any more.
+    struct Chunk
+    {
+      unsigned int first;
+      unsigned int end;
+      unsigned int n_final;
+    };
+
+    explicit CellBatches(const Nodes &nodes);
+
+    /// Batches of owned cells, a multiple of floats_per_batch; those of ghost
+    /// cells follow.
+    unsigned int
+    n_owned_batches() const
+    {
+      return n_owned;
+    }
+
+    /// Batches of owned and ghost cells.
+    unsigned int
+    n_batches() const
+    {
+      return at_end.size();
+    }
+
+    /// Batch and lane of a local cell.
+    std::pair<unsigned int, unsigned int>
+    place(const unsigned int cell) const
+    {
+      const bool         is_owned = cell < n_owned_cells;
+      const unsigned int i        = is_owned ? cell : cell - n_owned_cells;
+      return {(is_owned ? 0 : n_owned) + i / batch_size, i % batch_size};
+    }
+
+    /// Local numbers of the nodes of a batch, [node][lane].
+    const unsigned int *
+    nodes(const unsigned int batch) const
+    {
+      return node_numbers.data() +
+             static_cast<std::size_t>(batch) * n_cell_nodes * batch_size;
+    }
+
+    /// Whether a batch has the last local node: four numbers must not be read
+    /// from there.
+    bool
+    is_at_end(const unsigned int batch) const
+    {
+      return at_end[batch];
+    }
+
+    const std::vector<Chunk> &
+    chunks() const
+    {
+      return plan;
+    }
+
+    /// Chunks whose cells may have ghost nodes: [first, second).
+    std::pair<unsigned int, unsigned int>
+    chunks_with_ghosts() const
+    {
+      return ghosted_chunks;
+    }
+
+  private:
+    void
+    plan_chunks(const Nodes &nodes);
+
+    unsigned int                          n_cell_nodes;
+    unsigned int                          n_owned_cells;
+    unsigned int                          n_owned;
+    std::vector<unsigned int>             node_numbers;
+    std::vector<unsigned char>            at_end;
+    std::vector<Chunk>                    plan;
+    std::pair<unsigned int, unsigned int> ghosted_chunks;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_coarser_nodes_h
+#define corotet_discretization_coarser_nodes_h
+
+#include <corotet/discretization/nodes.h>
+
+#include <array>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The nodes of degree p - 1 on the cells of nodes of degree p = 2 or 3, and
+   * the natural embedding P of the coarser functions in the finer ones.
+   *
+   * Each coarser node is numbered by a finer one, its key, on the same vertex
+   * or edge: it has the same owner and the same place in the order.
+   *
+   * @p finer must outlive this object.
+   */
+  class CoarserNodes : public Nodes
+  {
+  public:
+    /// Collective.
+    explicit CoarserNodes(const Nodes &finer);
+
+    /// Local number of the finer node that a local node is numbered by; at
+    /// vertices it is the node there.
+    unsigned int
+    key(const unsigned int local_node) const
+    {
+      return keys[local_node];
+    }
+
+    /// fine += P coarse. Ghost entries of @p coarse must be up to date. Not
+    /// collective.
+    template <typename Number>
+    void
+    prolongate_add(
+      dealii::LinearAlgebra::distributed::Vector<Number>       &fine,
+      const dealii::LinearAlgebra::distributed::Vector<Number> &coarse) const;
+
+    /// coarse = P^T fine. Collective.
+    template <typename Number>
+    void
+    restrict_to(
+      dealii::LinearAlgebra::distributed::Vector<Number>       &coarse,
+      const dealii::LinearAlgebra::distributed::Vector<Number> &fine) const;
+
+  private:
+    /// A finer node and the coarser ones that its value comes from.
+    template <int n>
+    struct Parents
+    {
+      unsigned int                fine;
+      std::array<unsigned int, n> coarse;
+    };
+
+    void
+    number_nodes();
+    void
+    find_parents();
+    /// Calls function(fine node, coarse nodes, their weights) for all owned
+    /// finer nodes.
+    template <typename Number, typename Function>
+    void
+    for_each_fine_node(const Function &function) const;
+
+    const Nodes              &finer;
+    std::vector<unsigned int> keys;
+
+    /// Owned finer nodes on vertices, on edges of cubic cells (near and far
+    /// vertex, middle), in the middle of edges, on faces (vertices, middles of
+    /// edges).
+    std::vector<Parents<1>> on_vertices;
+    std::vector<Parents<3>> on_thirds;
+    std::vector<Parents<2>> on_middles;
+    std::vector<Parents<6>> on_faces;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_nodes_h
+#define corotet_discretization_nodes_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/cell_batches.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/partitioner.h>
+
+#include <memory>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The nodes of a distributed mesh of tetrahedra of degree p = 1, 2, 3: which
+   * ones each cell has, who owns them, and their unknowns.
+   *
+   * Cells and nodes are addressed by local numbers. Owned cells come first,
+   * then ghost cells (all that share a vertex with an owned one); owned nodes
+   * come first, then ghost nodes (all others of local cells). Node n has the
+   * unknowns 3n, 3n+1, 3n+2 (x, y, z), in global numbers and in the local ones
+   * of vectors made by initialize_vector().
+   *
+   * The order serves sweeps over the cells. Cells that are neighbours are near
+   * each other. Those with ghost nodes stand together in the middle, so that
+   * there is work to do before the values of ghosts have come and after their
+   * contributions have gone. Owned nodes are numbered in the order in which the
+   * sweep leaves them for good, so that what is to be done with a result can be
+   * done while it is in the cache; those that get contributions from other
+   * ranks are the last.
+   */
+  class Nodes
+  {
+  public:
+    unsigned int
+    degree() const
+    {
+      return polynomial_degree;
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return vector_partitioner->get_mpi_communicator();
+    }
+
+    /// (p+1)(p+2)(p+3)/6: 4, 10, 20.
+    unsigned int
+    n_nodes_per_cell() const
+    {
+      return n_cell_nodes;
+    }
+
+    unsigned int
+    n_owned_cells() const
+    {
+      return n_owned;
+    }
+
+    /// Owned and ghost cells.
+    unsigned int
+    n_local_cells() const
+    {
+      return nodes_of_cells.size() / n_cell_nodes;
+    }
+
+    /// First of the owned cells that may have ghost nodes, and the one after
+    /// the last.
+    std::pair<unsigned int, unsigned int>
+    cells_with_ghosts() const
+    {
+      return ghosted_cells;
+    }
+
+    /// Local numbers of the nodes of local cell @p cell, in the order of
+    /// FE_SimplexP.
+    dealii::ArrayView<const unsigned int>
+    cell_nodes(const unsigned int cell) const
+    {
+      return {nodes_of_cells.data() +
+                static_cast<std::size_t>(cell) * n_cell_nodes,
+              n_cell_nodes};
+    }
+
+    dealii::types::global_dof_index
+    n_global_nodes() const
+    {
+      return vector_partitioner->size() / 3;
+    }
+
+    unsigned int
+    n_owned_nodes() const
+    {
+      return vector_partitioner->locally_owned_size() / 3;
+    }
+
+    /// Owned and ghost nodes.
+    unsigned int
+    n_local_nodes() const
+    {
+      return n_owned_nodes() + vector_partitioner->n_ghost_indices() / 3;
+    }
+
+    /// Owned nodes from this one on belong to ghost cells, too: other ranks
+    /// contribute to them.
+    unsigned int
+    first_shared_node() const
+    {
+      return first_shared;
+    }
+
+    /// Global number of a local node. Owned nodes are consecutive.
+    dealii::types::global_dof_index
+    global_node(const unsigned int local_node) const
+    {
+      return vector_partitioner->local_to_global(3 * local_node) / 3;
+    }
+
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
+    partitioner() const
+    {
+      return vector_partitioner;
+    }
+
+    /// The cells as kernels take them.
+    const CellBatches &
+    batches() const
+    {
+      return *cell_batches;
+    }
+
+    /// Makes @p vector one of unknowns with ghost entries for all local nodes;
+    /// all zero.
+    template <typename Number>
+    void
+    initialize_vector(
+      dealii::LinearAlgebra::distributed::Vector<Number> &vector) const
+    {
+      vector.reinit(vector_partitioner);
+    }
+
+  protected:
+    Nodes(const unsigned int degree)
+      : polynomial_degree(degree)
+      , n_cell_nodes((degree + 1) * (degree + 2) * (degree + 3) / 6)
+    {}
+
+    /// To be called when all else is known.
+    void
+    make_batches()
+    {
+      cell_batches = std::make_unique<CellBatches>(*this);
+    }
+
+    unsigned int                          polynomial_degree;
+    unsigned int                          n_cell_nodes;
+    unsigned int                          n_owned       = 0;
+    unsigned int                          first_shared  = 0;
+    std::pair<unsigned int, unsigned int> ghosted_cells = {0, 0};
+    std::vector<unsigned int>             nodes_of_cells;
+
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
+                                       vector_partitioner;
+    std::unique_ptr<const CellBatches> cell_batches;
+  };
+} // namespace corotet
+
+#endif

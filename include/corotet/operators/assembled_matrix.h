@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_assembled_matrix_h
+#define corotet_operators_assembled_matrix_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/nodes.h>
+#include <corotet/discretization/reference_element.h>
+#include <corotet/operators/factored_kernel.h>
+
+#include <deal.II/base/aligned_vector.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The matrix A = c_K K + c_M M of one degree. Rows and columns of prescribed
+   * unknowns are those of a diagonal matrix.
+   *
+   * The sparsity and the place of every block of every cell in it are found
+   * once; update() writes numbers only. Each rank computes its own rows from
+   * all cells that touch them, ghost cells included, so assembly needs no
+   * communication.
+   *
+   * @p nodes must outlive this object.
+   */
+  class AssembledMatrix
+  {
+  public:
+    /// @p is_prescribed: for each local unknown, ghosts included. Collective.
+    AssembledMatrix(const Nodes                      &nodes,
+                    const std::vector<unsigned char> &is_prescribed);
+
+    /// Computes A as MatrixFree::set_terms() takes it, from the coefficients of
+    /// all local cells. Not collective.
+    void
+    update(const double                                           c_K,
+           const dealii::AlignedVector<CellCoefficients<double>> &coefficients,
+           const double                                           c_M,
+           const dealii::AlignedVector<CellMasses<double>>       &masses,
+           const Vector                                          *lumped_mass);
+
+    const dealii::TrilinosWrappers::SparseMatrix &
+    matrix() const
+    {
+      return sparse_matrix;
+    }
+
+  private:
+    void
+    make_sparsity();
+    void
+    locate_blocks();
+    template <int p>
+    void
+    add_cell(const unsigned int              cell,
+             const CellCoefficients<double> &coefficients,
+             const unsigned int              lane,
+             const double                    c_K,
+             const double                    cell_mass);
+
+    const Nodes                     &nodes;
+    const ReferenceElement           reference;
+    const std::vector<unsigned char> prescribed;
+
+    dealii::TrilinosWrappers::SparseMatrix sparse_matrix;
+    /// First value of each owned row.
+    std::vector<double *> row_values;
+    std::vector<int>      row_lengths;
+    /// Position in the row of the diagonal entry of each owned row.
+    std::vector<std::uint16_t> diagonal_positions;
+    /// [local cell][row node i][column node j][component]: position of the
+    /// block's columns in each of its three rows.
+    std::vector<std::uint16_t> block_positions;
+    /// Local cells with prescribed unknowns.
+    std::vector<unsigned char> touches_prescribed;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_gather_h
+#define corotet_operators_gather_h
+
+#include <corotet/discretization/cell_batches.h>
+
+/**
+ * Between vectors in memory and registers with one cell per lane.
+ *
+ * Vectors hold x, y, z of one node after another. A node is read as four
+ * numbers (the fourth belongs to the next node) and registers of nodes are
+ * transposed. Sums are written to an array that has four numbers per node, so
+ * that adding to a node is one load, one addition and one store; with three, a
+ * store and the next load would overlap, which processors are slow at.
+ */
+namespace corotet
+{
+  namespace internal
+  {
+    template <typename V, int... i>
+    COROTET_ALWAYS_INLINE auto
+    concatenate(const V a, const V b, std::integer_sequence<int, i...>)
+    {
+      return __builtin_shufflevector(a, b, i...);
+    }
+
+    /// The fours node(4 b + r) for b = first, first + 1, ..
+    template <int n_blocks, typename Node>
+    COROTET_ALWAYS_INLINE auto
+    row(const Node &node, const int r, const int first = 0)
+    {
+      if constexpr (n_blocks == 1)
+        return node(4 * first + r);
+      else
+        return concatenate(row<n_blocks / 2>(node, r, first),
+                           row<n_blocks / 2>(node, r, first + n_blocks / 2),
+                           std::make_integer_sequence<int, 4 * n_blocks>());
+    }
+
+    /// In each block of four lanes those of a (0 to 3) and b (4 to 7).
+    template <int i0, int i1, int i2, int i3, typename V, int... l>
+    COROTET_ALWAYS_INLINE V
+    shuffle(const V a, const V b, std::integer_sequence<int, l...>)
+    {
+      constexpr int n    = sizeof...(l);
+      constexpr int i[4] = {i0, i1, i2, i3};
+      return __builtin_shufflevector(
+        a, b, (l / 4 * 4 + i[l % 4] % 4 + (i[l % 4] < 4 ? 0 : n))...);
+    }
+
+    template <int i0, int i1, int i2, int i3, typename V>
+    COROTET_ALWAYS_INLINE V
+    shuffle_fours(const V a, const V b)
+    {
+      return shuffle<i0, i1, i2, i3>(
+        a, b, std::make_integer_sequence<int, sizeof(V) / sizeof(a[0])>());
+    }
+
+    template <int b, typename V, int... l>
+    COROTET_ALWAYS_INLINE auto
+    block(const V a, std::integer_sequence<int, l...>)
+    {
+      return __builtin_shufflevector(a, a, (4 * b + l)...);
+    }
+
+    /// Place of @p lane's number among those of a node in batches of n_nodes.
+    template <int n_nodes>
+    constexpr int
+    place_in_batches(const int lane)
+    {
+      constexpr int size = batch_size;
+      return lane / size * n_nodes * size + lane % size;
+    }
+  } // namespace internal
+
+  /**
+   * Values at the nodes of the cells of one register.
+   * @param numbers Of the nodes, [batch][node][lane], as CellBatches has them.
+   */
+  template <int n_nodes, typename T>
+  COROTET_ALWAYS_INLINE void
+  gather(const T *source, const unsigned int *numbers, Simd<T> (&u)[n_nodes][3])
+  {
+    using internal::shuffle_fours;
+    for (int i = 0; i < n_nodes; ++i, numbers += batch_size)
+      {
+        const auto node = [&](const int lane) {
+          return load_unaligned<4>(
+            source + 3 * static_cast<std::size_t>(
+                           numbers[internal::place_in_batches<n_nodes>(lane)]));
+        };
+        // Transposed blocks of 4 x 4, of which nobody wants the last row.
+        constexpr int n_blocks = n_lanes<T> / 4;
+        const Simd<T> r0       = internal::row<n_blocks>(node, 0);
+        const Simd<T> r1       = internal::row<n_blocks>(node, 1);
+        const Simd<T> r2       = internal::row<n_blocks>(node, 2);
+        const Simd<T> r3       = internal::row<n_blocks>(node, 3);
+        const Simd<T> xz_01    = shuffle_fours<0, 4, 2, 6>(r0, r1);
+        const Simd<T> xz_23    = shuffle_fours<0, 4, 2, 6>(r2, r3);
+        u[i][0]                = shuffle_fours<0, 1, 4, 5>(xz_01, xz_23);
+        u[i][1] = shuffle_fours<0, 1, 4, 5>(shuffle_fours<1, 5, 3, 7>(r0, r1),
+                                            shuffle_fours<1, 5, 3, 7>(r2, r3));
+        u[i][2] = shuffle_fours<2, 3, 6, 7>(xz_01, xz_23);
+      }
+  }
+
+  /// The same, reading no number but those of the nodes.
+  template <int n_nodes, typename T>
+  __attribute__((noinline)) void
+  gather_one_by_one(const T            *source,
+                    const unsigned int *numbers,
+                    Simd<T> (&u)[n_nodes][3])
+  {
+    for (int i = 0; i < n_nodes; ++i, numbers += batch_size)
+      for (int lane = 0; lane < n_lanes<T>; ++lane)
+        for (int a = 0; a < 3; ++a)
+          u[i][a][lane] =
+            source[3 * static_cast<std::size_t>(
+                         numbers[internal::place_in_batches<n_nodes>(lane)]) +
+                   a];
+  }
+
+  /// Values at the nodes of the register of cells that starts with @p batch.
+  template <int n_nodes, typename T>
+  COROTET_ALWAYS_INLINE void
+  gather_batch(const CellBatches &batches,
+               const unsigned int batch,
+               const T           *source,
+               Simd<T> (&u)[n_nodes][3])
+  {
+    bool at_end = false;
+    for (unsigned int b = 0; b < n_lanes<T> / batch_size; ++b)
+      at_end |= batches.is_at_end(batch + b);
+    if (__builtin_expect(at_end, 0))
+      {
+        // By a copy, so that u itself need not live in memory.
+        Simd<T> copy[n_nodes][3];
+        gather_one_by_one<n_nodes, T>(source, batches.nodes(batch), copy);
+        for (int i = 0; i < n_nodes; ++i)
+          for (int a = 0; a < 3; ++a)
+            u[i][a] = copy[i][a];
+      }
+    else
+      gather<n_nodes, T>(source, batches.nodes(batch), u);
+  }
+
+  /// The same less the value at the first node: gradients do not see a
+  /// translation, and without it they do not lose digits to it.
+  template <int n_nodes, typename T>
+  COROTET_ALWAYS_INLINE void
+  gather_differences(const CellBatches &batches,
+                     const unsigned int batch,
+                     const T           *source,
+                     Simd<T> (&u)[n_nodes][3])
+  {
+    gather_batch<n_nodes>(batches, batch, source, u);
+    static_for<3>([&](auto a) {
+      const Simd<T> origin = u[0][a];
+      static_for<n_nodes>([&](auto i) { u[i][a] -= origin; });
+    });
+  }
+
+  /// Adds the values of cells to @p sums, an aligned array of four numbers per
+  /// node.
+  template <int n_nodes, typename T>
+  COROTET_ALWAYS_INLINE void
+  scatter_add(const Simd<T> (&v)[n_nodes][3],
+              const unsigned int *numbers,
+              T                  *sums)
+  {
+    using internal::shuffle_fours;
+    for (int i = 0; i < n_nodes; ++i, numbers += batch_size)
+      {
+        const Simd<T> zero{};
+        const Simd<T> xy_01   = shuffle_fours<0, 4, 1, 5>(v[i][0], v[i][1]);
+        const Simd<T> xy_23   = shuffle_fours<2, 6, 3, 7>(v[i][0], v[i][1]);
+        const Simd<T> z_01    = shuffle_fours<0, 4, 1, 5>(v[i][2], zero);
+        const Simd<T> z_23    = shuffle_fours<2, 6, 3, 7>(v[i][2], zero);
+        const Simd<T> rows[4] = {shuffle_fours<0, 1, 4, 5>(xy_01, z_01),
+                                 shuffle_fours<2, 3, 6, 7>(xy_01, z_01),
+                                 shuffle_fours<0, 1, 4, 5>(xy_23, z_23),
+                                 shuffle_fours<2, 3, 6, 7>(xy_23, z_23)};
+        static_for<n_lanes<T>>([&](const auto lane) {
+          T *const sum =
+            sums + 4 * static_cast<std::size_t>(
+                         numbers[internal::place_in_batches<n_nodes>(lane)]);
+          const auto value =
+            internal::block<lane / 4>(rows[lane % 4],
+                                      std::make_integer_sequence<int, 4>());
+          store_aligned(load_aligned<4>(sum) + value, sum);
+        });
+      }
+  }
+
+  /**
+   * Takes the sums of nodes [begin, end) out of @p sums, which are zero
+   * afterwards, and calls function(i, y): y is the sum of unknown i of a
+   * vector, or a SimdVector of those of i, i+1, i+2, i+3.
+   */
+  template <typename T, typename Function>
+  inline void
+  take_sums(T                 *sums,
+            const unsigned int begin,
+            const unsigned int end,
+            const Function    &function)
+  {
+    using Four = SimdVector<T, 4>;
+    const Four   zero{};
+    unsigned int n = begin;
+    for (; n + 4 <= end; n += 4)
+      {
+        T *const   s = sums + 4 * static_cast<std::size_t>(n);
+        const Four a = load_aligned<4>(s), b = load_aligned<4>(s + 4),
+                   c = load_aligned<4>(s + 8), d = load_aligned<4>(s + 12);
+        function(3 * n, __builtin_shufflevector(a, b, 0, 1, 2, 4));
+        function(3 * n + 4, __builtin_shufflevector(b, c, 1, 2, 4, 5));
+        function(3 * n + 8, __builtin_shufflevector(c, d, 2, 4, 5, 6));
+        for (int k = 0; k < 16; k += 4)
+          store_aligned(zero, s + k);
+      }
+    for (; n < end; ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          T &sum = sums[4 * static_cast<std::size_t>(n) + a];
+          function(3 * n + a, sum);
+          sum = 0;
+        }
+  }
+
+  /// A number or a SimdVector from memory, as V says; and back.
+  template <typename V, typename T>
+  COROTET_ALWAYS_INLINE V
+  load_as(const T *source)
+  {
+    V v;
+    std::memcpy(&v, source, sizeof(V));
+    return v;
+  }
+
+  template <typename V, typename T>
+  COROTET_ALWAYS_INLINE void
+  store_to(const V v, T *target)
+  {
+    std::memcpy(target, &v, sizeof(V));
+  }
+} // namespace corotet
+
+#endif

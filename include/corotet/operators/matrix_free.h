@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_matrix_free_h
+#define corotet_operators_matrix_free_h
+
+#include <corotet/operators/cell_loop.h>
+#include <corotet/operators/sweep.h>
+
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The operator A = c_K K + c_M M of one degree, applied cell by cell without
+   * a matrix, in numbers of type T. Rows and columns of prescribed unknowns are
+   * those of a diagonal matrix.
+   *
+   * Vectors are those of the nodes. Ghost entries of sources are brought up to
+   * date where they are not in use, and left as they came. Everything that the
+   * constructor and set_*() get by reference or pointer must outlive this
+   * object. Members but those marked are collective.
+   */
+  template <typename T>
+  class MatrixFree
+  {
+  public:
+    using VectorType = dealii::LinearAlgebra::distributed::Vector<T>;
+
+    /// @p prescribed: local unknowns, ghosts included.
+    MatrixFree(const Nodes &nodes, std::vector<unsigned int> prescribed);
+
+    /**
+     * Sets A = c_K K + c_M M with c_K > 0. With @p lumped_mass that vector is
+     * the diagonal of M; otherwise the mass is that of @p masses, consistent.
+     * Not collective.
+     */
+    void
+    set_terms(const double               c_K,
+              const CellCoefficients<T> *coefficients,
+              const double               c_M,
+              const CellMasses<T>       *masses,
+              const VectorType          *lumped_mass);
+
+    /// Computes the diagonal of A. To be called after set_terms() if anything
+    /// of the following is.
+    void
+    compute_diagonal();
+
+    const VectorType &
+    diagonal() const
+    {
+      return diagonal_of_A;
+    }
+
+    /// dst = A src.
+    void
+    vmult(VectorType &dst, const VectorType &src) const;
+
+    /// r = b - A x, zero at prescribed unknowns, where x must be zero.
+    void
+    residual(VectorType &r, const VectorType &b, const VectorType &x) const;
+
+    /**
+     * d = beta d + alpha D^{-1} (b - A x), then x += d, in one sweep. Where
+     * @p inverse_diagonal is zero, x remains: it must be zero there.
+     */
+    void
+    chebyshev_step(VectorType       &x,
+                   VectorType       &d,
+                   const VectorType &b,
+                   const VectorType &inverse_diagonal,
+                   const T           beta,
+                   const T           alpha) const;
+
+    const Nodes &
+    nodes() const
+    {
+      return cell_loop.get_nodes();
+    }
+
+    /// Local unknowns, ghosts included.
+    const std::vector<unsigned int> &
+    prescribed_unknowns() const
+    {
+      return prescribed;
+    }
+
+  private:
+    template <typename Take>
+    void
+    apply(const VectorType &src, const Take &take) const;
+
+    CellLoop<T>               cell_loop;
+    std::vector<unsigned int> prescribed;
+    mutable std::vector<T>    saved;
+
+    FormData<T>       data;
+    FormSweep<T>      sweep;
+    FormSweep<T>      diagonal_sweep;
+    T                 scale       = 0;
+    T                 lumped      = 0;
+    T                 unit        = 0;
+    const VectorType *lumped_mass = nullptr;
+    VectorType        diagonal_of_A;
+  };
+} // namespace corotet
+
+#endif

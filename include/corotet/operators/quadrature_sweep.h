@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_quadrature_sweep_h
+#define corotet_operators_quadrature_sweep_h
+
+#include <corotet/discretization/reference_element.h>
+#include <corotet/operators/sweep.h>
+
+#include <limits>
+
+/**
+ * Loops over batches of cells around the quadrature kernel.
+ */
+namespace corotet
+{
+  /// What a sweep over the points of the stiffness rule finds.
+  struct PointResults
+  {
+    /// Elastic energy [J].
+    double energy = 0;
+    /// Smallest det F at these points and at the centres [-].
+    double min_det_F = std::numeric_limits<double>::infinity();
+    /// Cells where det F is negative at one of them.
+    unsigned int inverted_cells = 0;
+  };
+
+  using StateSweep = void (*)(const ReferenceElement &reference,
+                              const ElasticData      &data,
+                              const unsigned int      first,
+                              const unsigned int      end,
+                              const double           *displacement,
+                              PointResults           &results);
+
+  /// A sweep over the displacement that collects @p results, with the rotations
+  /// that there are.
+  StateSweep
+  state_sweep(const unsigned int degree);
+
+  using QuadratureSweep = void (*)(const ReferenceElement &reference,
+                                   const ElasticData      &data,
+                                   const unsigned int      first,
+                                   const unsigned int      end,
+                                   const double           *source,
+                                   double                 *sums);
+
+  /// K source with the rotations that there are, like form_sweep() but by
+  /// quadrature and in units of one.
+  QuadratureSweep
+  tangent_by_quadrature_sweep(const unsigned int degree);
+} // namespace corotet
+
+#endif

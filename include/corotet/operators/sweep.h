@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_sweep_h
+#define corotet_operators_sweep_h
+
+#include <corotet/discretization/cell_batches.h>
+#include <corotet/operators/factored_kernel.h>
+
+/**
+ * Loops over batches of cells around the cell kernels: gather, compute, add.
+ * They are compiled once for each degree and number type, and know neither
+ * vectors nor ranks; cell_loop.h does.
+ */
+namespace corotet
+{
+  /// Shape of the cells of a batch at rest. Zeros in lanes without a cell.
+  struct alignas(sizeof(Simd<double>)) CellShapes
+  {
+    /// Gradients of the reference coordinates, [3 (k - 1) + component] [1/m].
+    double inverse_jacobian[9][batch_size];
+    /// sqrt(mu volume).
+    double scale[batch_size];
+    /// In m^3.
+    double volume[batch_size];
+    /// Lamé's parameters [Pa].
+    double lambda[batch_size];
+    double mu[batch_size];
+  };
+
+  /// Rotations of the cells of a batch, [3 row + column].
+  struct alignas(sizeof(Simd<double>)) CellRotations
+  {
+    double rotation[9][batch_size];
+  };
+
+  /// The terms of a linear form.
+  enum class Terms
+  {
+    stiffness,
+    mass,
+    stiffness_and_mass
+  };
+
+  /// What the sweep of a linear form reads.
+  template <typename T>
+  struct FormData
+  {
+    const CellBatches &batches;
+    /// Null if there is no stiffness term.
+    const CellCoefficients<T> *coefficients;
+    /// Null if there is no mass term.
+    const CellMasses<T> *masses;
+    /// Multiplies the masses.
+    T mass_factor;
+  };
+
+  /**
+   * Adds to @p sums, four numbers per local node, what batches [first, end) of
+   * owned cells contribute to K source / stiffness_scale + mass_factor M source
+   * / mass_scale, or to one of the terms.
+   */
+  template <typename T>
+  using FormSweep = void (*)(const FormData<T> &data,
+                             const unsigned int first,
+                             const unsigned int end,
+                             const T           *source,
+                             T                 *sums);
+
+  /// The sweep for degree 1, 2 or 3.
+  template <typename T>
+  FormSweep<T>
+  form_sweep(const unsigned int degree, const Terms terms);
+
+  /// A sweep for the diagonal of K + mass_factor M. There is no source.
+  template <typename T>
+  FormSweep<T>
+  diagonal_sweep(const unsigned int degree, const Terms terms);
+
+  /// FactoredKernel's stiffness_scale and mass_scale.
+  double
+  stiffness_scale(const unsigned int degree);
+  double
+  mass_scale(const unsigned int degree);
+
+  /// Cells of the last rotation update that needed care.
+  struct RotationCounts
+  {
+    /// Cells whose rotation took the robust way.
+    unsigned int robust = 0;
+    /// det F < 0 at the centre.
+    unsigned int inverted = 0;
+    /// Collapsed to a plane, a line or a point.
+    unsigned int degenerate = 0;
+  };
+
+  /// What the sweeps of corotational elasticity read and write.
+  struct ElasticData
+  {
+    const CellBatches        &batches;
+    const CellShapes         *shapes;
+    CellRotations            *rotations;
+    CellCoefficients<double> *coefficients;
+    RotationCounts            counts;
+  };
+
+  using ElasticSweep = void (*)(ElasticData       &data,
+                                const unsigned int first,
+                                const unsigned int end,
+                                const double      *source,
+                                double            *sums);
+
+  /**
+   * Sweeps over the displacement: new rotations of the cells (also of ghost
+   * cells; @p sums is not used), the internal force with the rotations that
+   * there are, in units of stiffness_scale, or both in one go.
+   */
+  ElasticSweep
+  rotation_sweep(const unsigned int degree);
+  ElasticSweep
+  force_sweep(const unsigned int degree);
+  ElasticSweep
+  rotation_and_force_sweep(const unsigned int degree);
+} // namespace corotet
+
+#endif

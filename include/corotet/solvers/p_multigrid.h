@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_p_multigrid_h
+#define corotet_solvers_p_multigrid_h
+
+#include <corotet/discretization/coarser_nodes.h>
+#include <corotet/operators/assembled_matrix.h>
+#include <corotet/solvers/amg.h>
+#include <corotet/solvers/chebyshev.h>
+#include <corotet/solvers/preconditioner.h>
+#include <corotet/solvers/smoothed_aggregation.h>
+#include <corotet/solvers/sparse_cholesky.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * One V-cycle over the degrees p, p-1, .., 1 on the same cells (Weber,
+   * Mueller-Roemer, Altenhofen, Stork, Fellner 2015): matrix-free and in single
+   * precision above degree 1, with Chebyshev smoothers; degree 1 is solved by a
+   * sparse factorisation of its assembled matrix, or one cycle of smoothed
+   * aggregation on it.
+   *
+   * All levels have the cells in common, so they share one set of rotated
+   * gradients: a rotation update costs a conversion to single precision and
+   * diagonals. The solver of degree 1 and the smoothers' eigenvalues stay those
+   * of the last build().
+   */
+  class PMultigrid : public Preconditioner
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    void
+    build(const EffectiveOperator &A, const Vector &positions) override;
+
+    void
+    update(const EffectiveOperator &A) override;
+
+    void
+    clear() override;
+
+    void
+    vmult(Vector &dst, const Vector &src) const override;
+
+  private:
+    using FloatVector = Chebyshev::FloatVector;
+
+    /// A degree above 1.
+    struct Level
+    {
+      Level(const Nodes                      &nodes,
+            const std::vector<unsigned char> &is_prescribed,
+            const unsigned int                smoother_degree,
+            const double                      smoothing_range);
+
+      std::vector<unsigned char> is_prescribed;
+      MatrixFree<float>          A;
+      Chebyshev                  smoother;
+      CoarserNodes               coarser;
+      FloatVector                lumped_mass;
+      FloatVector                x;
+      FloatVector                b;
+      FloatVector                residual;
+    };
+
+    void
+    make_levels(const EffectiveOperator &A);
+    void
+    choose_units(const EffectiveOperator &A);
+    void
+    build_coarse_solver(const EffectiveOperator &A, const Vector &positions);
+    /// Vector is that of double or float.
+    template <typename VectorType>
+    void
+    apply_coarse_solver(VectorType &x, const VectorType &b) const;
+    void
+    cycle(const unsigned int level) const;
+    void
+    solve_coarse(FloatVector &x, FloatVector &b) const;
+
+    unsigned int smoother_degree = 4;
+    double       smoothing_range = 15;
+    std::string  coarse_type     = "automatic";
+    unsigned int direct_limit    = 30000;
+
+    /// Finest first.
+    std::vector<std::unique_ptr<Level>>            levels;
+    dealii::AlignedVector<CellCoefficients<float>> coefficients;
+    dealii::AlignedVector<CellMasses<float>>       masses;
+    /// Units of the single precision numbers: of stiffness and of mass.
+    double stiffness_unit = 1;
+    double mass_unit      = 1;
+    /// The operator's, less the unit: what vmult() divides by.
+    double scale = 1;
+
+    const Nodes                     *coarse_nodes = nullptr;
+    std::unique_ptr<AssembledMatrix> coarse_matrix;
+    std::string                      coarse_solver;
+    SparseCholesky      direct{SparseCholesky::Precision::single_precision};
+    SmoothedAggregation aggregation;
+    AMG                 amg;
+    std::vector<unsigned int> coarse_prescribed;
+    mutable Vector            coarse_x;
+    mutable Vector            coarse_b;
+    mutable FloatVector       coarse_float_x;
+    mutable FloatVector       coarse_float_b;
+  };
+} // namespace corotet
+
+#endif

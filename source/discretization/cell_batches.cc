@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/discretization/nodes.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  namespace
+  {
+    // Small enough for what a chunk touches to stay in the second-level cache,
+    // large enough for its overhead not to matter.
+    constexpr unsigned int batches_per_chunk = 8 * floats_per_batch;
+
+    constexpr unsigned int
+    divide_up(const unsigned int n, const unsigned int size)
+    {
+      return (n + size - 1) / size;
+    }
+  } // namespace
+
+  CellBatches::CellBatches(const Nodes &nodes)
+    : n_cell_nodes(nodes.n_nodes_per_cell())
+    , n_owned_cells(nodes.n_owned_cells())
+    , n_owned(divide_up(n_owned_cells, batch_size * floats_per_batch) *
+              floats_per_batch)
+    , at_end(n_owned +
+             divide_up(nodes.n_local_cells() - n_owned_cells, batch_size))
+  {
+    const std::size_t n = static_cast<std::size_t>(n_cell_nodes) * batch_size;
+    node_numbers.resize(at_end.size() * n);
+    for (unsigned int b = 0; b < at_end.size(); ++b)
+      {
+        const bool         is_owned = b < n_owned;
+        const unsigned int first    = is_owned ?
+                                        b * batch_size :
+                                        n_owned_cells + (b - n_owned) * batch_size;
+        const unsigned int last =
+          (is_owned ? n_owned_cells : nodes.n_local_cells()) - 1;
+        unsigned int *const numbers = node_numbers.data() + b * n;
+        for (unsigned int i = 0; i < n_cell_nodes; ++i)
+          for (unsigned int lane = 0; lane < batch_size; ++lane)
+            numbers[i * batch_size + lane] =
+              nodes.cell_nodes(std::min(first + lane, last))[i];
+        at_end[b] =
+          std::find(numbers, numbers + n, nodes.n_local_nodes() - 1) !=
+          numbers + n;
+      }
+    plan_chunks(nodes);
+  }
+
+  void
+  CellBatches::plan_chunks(const Nodes &nodes)
+  {
+    std::vector<unsigned int> last_chunk(nodes.n_owned_nodes(), 0);
+    for (unsigned int first = 0; first < n_owned; first += batches_per_chunk)
+      {
+        const unsigned int end = std::min(first + batches_per_chunk, n_owned);
+        for (const unsigned int *n = this->nodes(first); n < this->nodes(end);
+             ++n)
+          if (*n < nodes.n_owned_nodes())
+            last_chunk[*n] = plan.size();
+        plan.push_back({first, end, 0});
+      }
+    unsigned int n_final = 0;
+    for (unsigned int c = 0; c < plan.size(); ++c)
+      {
+        while (n_final < nodes.first_shared_node() && last_chunk[n_final] <= c)
+          ++n_final;
+        plan[c].n_final = n_final;
+      }
+    constexpr unsigned int size = batches_per_chunk * batch_size;
+    ghosted_chunks              = {nodes.cells_with_ghosts().first / size,
+                                   divide_up(nodes.cells_with_ghosts().second, size)};
+  }
+} // namespace corotet

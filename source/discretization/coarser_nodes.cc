@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/discretization/coarser_nodes.h>
+#include <corotet/discretization/tetrahedron.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace corotet
+{
+  namespace
+  {
+    constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
+
+    // Edge that joins two vertices of a cell.
+    unsigned int
+    edge_between(const int a, const int b)
+    {
+      for (unsigned int e = 0; e < 6; ++e)
+        if ((tetrahedron::edges[e][0] == a && tetrahedron::edges[e][1] == b) ||
+            (tetrahedron::edges[e][0] == b && tetrahedron::edges[e][1] == a))
+          return e;
+      return none;
+    }
+
+    // Quadratic Lagrange polynomials of a vertex and of the middle of an edge,
+    // by barycentric coordinates.
+    constexpr double
+    at_vertex(const double lambda)
+    {
+      return lambda * (2 * lambda - 1);
+    }
+
+    constexpr double
+    at_middle(const double lambda_a, const double lambda_b)
+    {
+      return 4 * lambda_a * lambda_b;
+    }
+  } // namespace
+
+  CoarserNodes::CoarserNodes(const Nodes &finer)
+    : Nodes(finer.degree() - 1)
+    , finer(finer)
+  {
+    n_owned       = finer.n_owned_cells();
+    ghosted_cells = finer.cells_with_ghosts();
+    number_nodes();
+    find_parents();
+    make_batches();
+  }
+
+  void
+  CoarserNodes::number_nodes()
+  {
+    // Keys of the nodes of all cells.
+    std::vector<unsigned int> key_of_cell_node;
+    for (unsigned int c = 0; c < finer.n_local_cells(); ++c)
+      {
+        const auto fine = finer.cell_nodes(c);
+        key_of_cell_node.insert(key_of_cell_node.end(), &fine[0], &fine[0] + 4);
+        if (degree() == 2)
+          for (unsigned int e = 0; e < 6; ++e)
+            {
+              // The same one of the two on all ranks.
+              const unsigned int a = fine[4 + 2 * e], b = fine[5 + 2 * e];
+              key_of_cell_node.push_back(
+                finer.global_node(a) < finer.global_node(b) ? a : b);
+            }
+      }
+    std::vector<unsigned char> is_key(finer.n_local_nodes(), 0);
+    for (const unsigned int key : key_of_cell_node)
+      is_key[key] = 1;
+
+    unsigned int n_owned_nodes = 0;
+    for (unsigned int n = 0; n < finer.n_owned_nodes(); ++n)
+      {
+        n_owned_nodes += is_key[n];
+        first_shared += is_key[n] && n < finer.first_shared_node();
+      }
+    const MPI_Comm comm = finer.communicator();
+    const auto [first, n_global] =
+      dealii::Utilities::MPI::partial_and_total_sum<
+        dealii::types::global_dof_index>(n_owned_nodes, comm);
+
+    // Global numbers travel in a vector of the finer nodes; doubles hold them
+    // exactly.
+    Vector global;
+    finer.initialize_vector(global);
+    auto next = first;
+    for (unsigned int n = 0; n < finer.n_owned_nodes(); ++n)
+      if (is_key[n])
+        global.local_element(3 * n) = next++;
+    global.update_ghost_values();
+
+    dealii::IndexSet owned(3 * n_global), ghosts(3 * n_global);
+    owned.add_range(3 * first, 3 * (first + n_owned_nodes));
+    for (unsigned int n = finer.n_owned_nodes(); n < finer.n_local_nodes(); ++n)
+      if (is_key[n])
+        {
+          const auto number = static_cast<dealii::types::global_dof_index>(
+            global.local_element(3 * n));
+          ghosts.add_range(3 * number, 3 * number + 3);
+        }
+    ghosts.compress();
+    vector_partitioner =
+      std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned,
+                                                                  ghosts,
+                                                                  comm);
+
+    keys.resize(n_local_nodes());
+    std::vector<unsigned int> number_of_key(finer.n_local_nodes(), none);
+    for (unsigned int n = 0; n < finer.n_local_nodes(); ++n)
+      if (is_key[n])
+        {
+          const auto number = static_cast<dealii::types::global_dof_index>(
+            global.local_element(3 * n));
+          number_of_key[n] =
+            vector_partitioner->global_to_local(3 * number) / 3;
+          keys[number_of_key[n]] = n;
+        }
+    nodes_of_cells.reserve(key_of_cell_node.size());
+    for (const unsigned int key : key_of_cell_node)
+      nodes_of_cells.push_back(number_of_key[key]);
+  }
+
+  void
+  CoarserNodes::find_parents()
+  {
+    using namespace tetrahedron;
+    std::vector<unsigned char> is_done(finer.n_owned_nodes(), 0);
+    const auto                 is_new = [&](const unsigned int fine) {
+      return fine < finer.n_owned_nodes() && !std::exchange(is_done[fine], 1);
+    };
+    for (unsigned int c = 0; c < n_owned; ++c)
+      {
+        const auto fine   = finer.cell_nodes(c);
+        const auto coarse = cell_nodes(c);
+        for (unsigned int v = 0; v < 4; ++v)
+          if (is_new(fine[v]))
+            on_vertices.push_back({fine[v], {{coarse[v]}}});
+        for (unsigned int e = 0; e < 6; ++e)
+          {
+            const unsigned int a = coarse[edges[e][0]], b = coarse[edges[e][1]];
+            if (degree() == 1)
+              {
+                if (is_new(fine[4 + e]))
+                  on_middles.push_back({fine[4 + e], {{a, b}}});
+                continue;
+              }
+            if (is_new(fine[4 + 2 * e]))
+              on_thirds.push_back({fine[4 + 2 * e], {{a, b, coarse[4 + e]}}});
+            if (is_new(fine[5 + 2 * e]))
+              on_thirds.push_back({fine[5 + 2 * e], {{b, a, coarse[4 + e]}}});
+          }
+        if (degree() == 2)
+          for (unsigned int f = 0; f < 4; ++f)
+            if (is_new(fine[16 + f]))
+              {
+                Parents<6> parents{fine[16 + f], {}};
+                for (unsigned int k = 0; k < 3; ++k)
+                  {
+                    parents.coarse[k] = coarse[faces[f][k]];
+                    parents.coarse[3 + k] =
+                      coarse[4 +
+                             edge_between(faces[f][k], faces[f][(k + 1) % 3])];
+                  }
+                on_faces.push_back(parents);
+              }
+      }
+    // Fine nodes in ascending order: the order of memory.
+    const auto sort = [](auto &list) {
+      std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) {
+        return a.fine < b.fine;
+      });
+    };
+    sort(on_vertices);
+    sort(on_thirds);
+    sort(on_middles);
+    sort(on_faces);
+  }
+
+  template <typename Number, typename Function>
+  void
+  CoarserNodes::for_each_fine_node(const Function &function) const
+  {
+    const auto apply = [&](const auto &list, const auto &weights) {
+      for (const auto &parents : list)
+        function(parents.fine, parents.coarse, weights);
+    };
+    constexpr double third = 1. / 3;
+    apply(on_vertices, std::array<Number, 1>{{1}});
+    apply(on_middles, std::array<Number, 2>{{Number(0.5), Number(0.5)}});
+    apply(on_thirds,
+          std::array<Number, 3>{{Number(at_vertex(2 * third)),
+                                 Number(at_vertex(third)),
+                                 Number(at_middle(2 * third, third))}});
+    std::array<Number, 6> on_face;
+    for (unsigned int k = 0; k < 3; ++k)
+      {
+        on_face[k]     = at_vertex(third);
+        on_face[3 + k] = at_middle(third, third);
+      }
+    apply(on_faces, on_face);
+  }
+
+  template <typename Number>
+  void
+  CoarserNodes::prolongate_add(
+    dealii::LinearAlgebra::distributed::Vector<Number>       &fine,
+    const dealii::LinearAlgebra::distributed::Vector<Number> &coarse) const
+  {
+    Number *const       to   = fine.begin();
+    const Number *const from = coarse.begin();
+    for_each_fine_node<Number>(
+      [&](const unsigned int n, const auto &parents, const auto &weights) {
+        for (unsigned int a = 0; a < 3; ++a)
+          {
+            Number sum = 0;
+            for (unsigned int k = 0; k < parents.size(); ++k)
+              sum += weights[k] * from[3 * parents[k] + a];
+            to[3 * n + a] += sum;
+          }
+      });
+  }
+
+  template <typename Number>
+  void
+  CoarserNodes::restrict_to(
+    dealii::LinearAlgebra::distributed::Vector<Number>       &coarse,
+    const dealii::LinearAlgebra::distributed::Vector<Number> &fine) const
+  {
+    coarse                   = 0;
+    Number *const       to   = coarse.begin();
+    const Number *const from = fine.begin();
+    for_each_fine_node<Number>(
+      [&](const unsigned int n, const auto &parents, const auto &weights) {
+        for (unsigned int k = 0; k < parents.size(); ++k)
+          for (unsigned int a = 0; a < 3; ++a)
+            to[3 * parents[k] + a] += weights[k] * from[3 * n + a];
+      });
+    coarse.compress(dealii::VectorOperation::add);
+  }
+
+  template void
+  CoarserNodes::prolongate_add(
+    dealii::LinearAlgebra::distributed::Vector<float> &,
+    const dealii::LinearAlgebra::distributed::Vector<float> &) const;
+  template void
+  CoarserNodes::prolongate_add(
+    dealii::LinearAlgebra::distributed::Vector<double> &,
+    const dealii::LinearAlgebra::distributed::Vector<double> &) const;
+  template void
+  CoarserNodes::restrict_to(
+    dealii::LinearAlgebra::distributed::Vector<float> &,
+    const dealii::LinearAlgebra::distributed::Vector<float> &) const;
+  template void
+  CoarserNodes::restrict_to(
+    dealii::LinearAlgebra::distributed::Vector<double> &,
+    const dealii::LinearAlgebra::distributed::Vector<double> &) const;
+} // namespace corotet

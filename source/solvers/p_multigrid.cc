@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/solvers/p_multigrid.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace corotet
+{
+  namespace
+  {
+    // The same for the nodes of the next lower degree.
+    std::vector<unsigned char>
+    coarser_marks(const CoarserNodes               &coarser,
+                  const std::vector<unsigned char> &marks)
+    {
+      std::vector<unsigned char> result(3 * coarser.n_local_nodes());
+      for (unsigned int n = 0; n < coarser.n_local_nodes(); ++n)
+        for (unsigned int a = 0; a < 3; ++a)
+          result[3 * n + a] = marks[3 * coarser.key(n) + a];
+      return result;
+    }
+
+    // target = factor source, for owned entries.
+    template <typename To, typename From>
+    void
+    copy_scaled(To &target, const From &source, const double factor)
+    {
+      const unsigned int n    = source.locally_owned_size();
+      auto *const        to   = target.begin();
+      const auto *const  from = source.begin();
+      for (unsigned int i = 0; i < n; ++i)
+        to[i] = factor * from[i];
+    }
+  } // namespace
+
+  PMultigrid::Level::Level(const Nodes                      &nodes,
+                           const std::vector<unsigned char> &is_prescribed,
+                           const unsigned int                smoother_degree,
+                           const double                      smoothing_range)
+    : is_prescribed(is_prescribed)
+    , A(nodes, marked_unknowns(is_prescribed))
+    , smoother(A, smoother_degree, smoothing_range)
+    , coarser(nodes)
+  {
+    for (FloatVector *vector : {&lumped_mass, &x, &b, &residual})
+      nodes.initialize_vector(*vector);
+  }
+
+  void
+  PMultigrid::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Smoother degree",
+                      smoother_degree,
+                      "Chebyshev steps before and after the coarser degree "
+                      "[-].",
+                      dealii::Patterns::Integer(1, 20));
+    prm.add_parameter("Smoothing range",
+                      smoothing_range,
+                      "Largest over smallest eigenvalue that the smoother is "
+                      "to damp [-].",
+                      dealii::Patterns::Double(1.1, 1e4));
+    prm.add_parameter("Coarse solver",
+                      coarse_type,
+                      "For degree 1: 'direct', a sparse factorisation; "
+                      "'aggregation', one cycle of smoothed aggregation with "
+                      "two levels; 'amg', one cycle of Trilinos ML; "
+                      "'automatic', the direct one up to the limit below, then "
+                      "aggregation.",
+                      dealii::Patterns::Selection(
+                        "automatic|direct|aggregation|amg"));
+    prm.add_parameter("Direct limit",
+                      direct_limit,
+                      "Unknowns of degree 1 up to which 'automatic' means "
+                      "'direct' [-].",
+                      dealii::Patterns::Integer(0));
+  }
+
+  void
+  PMultigrid::make_levels(const EffectiveOperator &A)
+  {
+    levels.clear();
+    coarse_matrix.reset();
+    const Nodes               *nodes         = &A.discretization();
+    std::vector<unsigned char> is_prescribed = A.is_prescribed();
+    while (nodes->degree() > 1)
+      {
+        levels.push_back(std::make_unique<Level>(
+          *nodes, is_prescribed, smoother_degree, smoothing_range));
+        const CoarserNodes &coarser = levels.back()->coarser;
+        is_prescribed               = coarser_marks(coarser, is_prescribed);
+        nodes                       = &coarser;
+      }
+    coarse_nodes      = nodes;
+    coarse_prescribed = marked_unknowns(is_prescribed);
+    if (!levels.empty())
+      {
+        coarse_matrix =
+          std::make_unique<AssembledMatrix>(*nodes, is_prescribed);
+        nodes->initialize_vector(coarse_float_x);
+        nodes->initialize_vector(coarse_float_b);
+      }
+    nodes->initialize_vector(coarse_x);
+    nodes->initialize_vector(coarse_b);
+    const CellBatches &batches = A.discretization().batches();
+    coefficients.resize(batches.n_owned_batches() / floats_per_batch);
+    masses.resize(coefficients.size());
+  }
+
+  void
+  PMultigrid::choose_units(const EffectiveOperator &A)
+  {
+    const unsigned int n_batches =
+      A.discretization().batches().n_owned_batches();
+    double stiffness = 0, mass = 0;
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
+      for (unsigned int lane = 0; lane < batch_size; ++lane)
+        {
+          const auto &cell = A.elasticity().coefficients()[batch];
+          double      sum  = 0;
+          for (const auto &component : cell.gradients)
+            sum += component[lane] * component[lane];
+          stiffness = std::max(stiffness, sum);
+          mass      = std::max(mass, A.mass().cell_masses()[batch].mass[lane]);
+        }
+    const MPI_Comm comm = A.discretization().communicator();
+    stiffness_unit      = dealii::Utilities::MPI::max(stiffness, comm);
+    mass_unit           = dealii::Utilities::MPI::max(mass, comm);
+
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
+      for (unsigned int lane = 0; lane < batch_size; ++lane)
+        masses[batch / floats_per_batch]
+          .mass[batch % floats_per_batch * batch_size + lane] =
+          A.mass().cell_masses()[batch].mass[lane] / mass_unit;
+    if (!levels.empty() && A.mass().is_lumped())
+      copy_scaled(levels[0]->lumped_mass, A.mass().diagonal(), 1 / mass_unit);
+  }
+
+  void
+  PMultigrid::build(const EffectiveOperator &A, const Vector &positions)
+  {
+    if (coarse_nodes == nullptr)
+      {
+        make_levels(A);
+        choose_units(A);
+      }
+    update(A);
+    for (const auto &level : levels)
+      level->smoother.estimate_eigenvalues();
+    build_coarse_solver(A, positions);
+  }
+
+  void
+  PMultigrid::update(const EffectiveOperator &A)
+  {
+    scale = A.stiffness_factor() * stiffness_unit;
+    if (levels.empty())
+      return;
+    const auto  &cells  = A.elasticity().coefficients();
+    const double factor = 1 / std::sqrt(stiffness_unit);
+    for (unsigned int batch = 0; batch < coefficients.size() * floats_per_batch;
+         ++batch)
+      {
+        CellCoefficients<float> &cell  = coefficients[batch / floats_per_batch];
+        const unsigned int       first = batch % floats_per_batch * batch_size;
+        for (unsigned int i = 0; i < 9; ++i)
+          for (unsigned int lane = 0; lane < batch_size; ++lane)
+            cell.gradients[i][first + lane] =
+              factor * cells[batch].gradients[i][lane];
+        for (unsigned int lane = 0; lane < batch_size; ++lane)
+          cell.lame_ratio[first + lane] = cells[batch].lame_ratio[lane];
+      }
+    for (unsigned int l = 0; l < levels.size(); ++l)
+      {
+        Level &level = *levels[l];
+        level.A.set_terms(1,
+                          coefficients.data(),
+                          A.mass_factor() * mass_unit / scale,
+                          masses.data(),
+                          // Mass is lumped on the finest level only: that comes
+                          // closer to what the coarser ones must correct.
+                          l == 0 && A.mass().is_lumped() ? &level.lumped_mass :
+                                                           nullptr);
+        if (l == 0)
+          {
+            copy_scaled(level.residual, A.diagonal(), 1 / scale);
+            level.smoother.update_diagonal(level.residual);
+          }
+        else
+          {
+            level.A.compute_diagonal();
+            level.smoother.update_diagonal(level.A.diagonal());
+          }
+      }
+  }
+
+  void
+  PMultigrid::build_coarse_solver(const EffectiveOperator &A,
+                                  const Vector            &positions)
+  {
+    if (coarse_matrix)
+      coarse_matrix->update(1 / stiffness_unit,
+                            A.elasticity().coefficients(),
+                            A.mass_factor() / scale,
+                            A.mass().cell_masses(),
+                            nullptr);
+    const auto &matrix = coarse_matrix ? coarse_matrix->matrix() : A.matrix();
+    coarse_solver      = coarse_type != "automatic" ? coarse_type :
+                         3 * coarse_nodes->n_global_nodes() <= direct_limit ?
+                                                      "direct" :
+                                                      "aggregation";
+    if (coarse_solver == "direct")
+      {
+        direct.factorize(matrix.trilinos_matrix());
+        return;
+      }
+    for (unsigned int n = 0; n < coarse_nodes->n_owned_nodes(); ++n)
+      {
+        // Down the levels: vertices are their own keys.
+        unsigned int fine = n;
+        for (unsigned int l = levels.size(); l-- > 0;)
+          fine = levels[l]->coarser.key(fine);
+        for (unsigned int a = 0; a < 3; ++a)
+          coarse_x.local_element(3 * n + a) =
+            positions.local_element(3 * fine + a);
+      }
+    if (coarse_solver == "amg")
+      amg.initialize(matrix, coarse_x);
+    else
+      aggregation.build(matrix.trilinos_matrix(), coarse_x.begin());
+  }
+
+  void
+  PMultigrid::clear()
+  {
+    direct.clear();
+    aggregation.clear();
+    amg.clear();
+    levels.clear();
+    coarse_matrix.reset();
+    coarse_nodes = nullptr;
+  }
+
+  template <typename VectorType>
+  void
+  PMultigrid::apply_coarse_solver(VectorType &x, const VectorType &b) const
+  {
+    if (coarse_solver == "direct")
+      direct.vmult(x, b);
+    else if (coarse_solver == "aggregation")
+      aggregation.vmult(x.begin(), b.begin());
+    else if constexpr (std::is_same_v<VectorType, Vector>)
+      amg.vmult(x, b);
+  }
+
+  void
+  PMultigrid::vmult(Vector &dst, const Vector &src) const
+  {
+    if (levels.empty())
+      {
+        apply_coarse_solver(dst, src);
+        return;
+      }
+    // Single precision has its limits: sources of any size become one of size
+    // one.
+    const double size = src.l2_norm();
+    if (size == 0)
+      {
+        dst = 0;
+        return;
+      }
+    copy_scaled(levels[0]->b, src, 1 / size);
+    cycle(0);
+    copy_scaled(dst, levels[0]->x, size / scale);
+  }
+
+  void
+  PMultigrid::cycle(const unsigned int l) const
+  {
+    Level     &level   = *levels[l];
+    const bool is_last = l + 1 == levels.size();
+    level.smoother.smooth_from_zero(level.x, level.b);
+    level.A.residual(level.residual, level.b, level.x);
+
+    FloatVector &coarse_b = is_last ? coarse_float_b : levels[l + 1]->b;
+    FloatVector &coarse_x = is_last ? coarse_float_x : levels[l + 1]->x;
+    level.coarser.restrict_to(coarse_b, level.residual);
+    if (is_last)
+      solve_coarse(coarse_x, coarse_b);
+    else
+      cycle(l + 1);
+    coarse_x.update_ghost_values();
+    level.coarser.prolongate_add(level.x, coarse_x);
+    coarse_x.zero_out_ghost_values();
+
+    level.smoother.smooth(level.x, level.b);
+  }
+
+  void
+  PMultigrid::solve_coarse(FloatVector &x, FloatVector &b) const
+  {
+    for (const unsigned int i : coarse_prescribed)
+      if (i < b.locally_owned_size())
+        b.local_element(i) = 0;
+    if (coarse_solver != "amg")
+      {
+        apply_coarse_solver(x, b);
+        return;
+      }
+    copy_scaled(coarse_b, b, 1.);
+    apply_coarse_solver(coarse_x, coarse_b);
+    copy_scaled(x, coarse_x, 1.);
+  }
+} // namespace corotet
