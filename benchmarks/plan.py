@@ -122,6 +122,7 @@ RATIOS = [
           at_most=600),
 ]
 
-# Largest relative difference between an operator and the assembled matrix, and largest residual of a solve.
+# Largest relative difference between an operator and the assembled matrix, and largest residual of a solve to 1e-8: that
+# which conjugate gradients update drifts from the true one.
 DIFFERENCE = {"float": 1e-5, "": 1e-12}
-RESIDUAL = 2e-8
+RESIDUAL = 5e-8
