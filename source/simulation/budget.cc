@@ -83,6 +83,7 @@ namespace corotet
     record.min_det_F        = elastic.min_det_F;
     record.inverted_cells   = elastic.inverted_cells;
     record.degenerate_cells = elastic.degenerate_cells;
+    record.robust_rotations = elastic.robust_rotations;
     record.volume           = displaced_volume(discretization,
                                      system.reference_element(),
                                      system.displacement());

@@ -126,10 +126,12 @@ namespace corotet
         record.wall_time = seconds();
         if (record.inverted_cells != inverted ||
             record.degenerate_cells != degenerate)
-          log.warning(fmt::format("step {}: {} inverted, {} degenerate cells",
+          log.warning(fmt::format("step {}: {} inverted, {} degenerate cells; "
+                                  "{} rotations took the robust way",
                                   step,
                                   record.inverted_cells,
-                                  record.degenerate_cells));
+                                  record.degenerate_cells,
+                                  record.robust_rotations));
 
         ScopedTimer timer(wall_times.output);
         for (const auto &observer : observers)

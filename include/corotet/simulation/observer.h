@@ -43,6 +43,8 @@ namespace corotet
     double       min_det_F        = 1;
     unsigned int inverted_cells   = 0;
     unsigned int degenerate_cells = 0;
+    /// Cells whose rotation the fast algorithm left to the robust one.
+    unsigned int robust_rotations = 0;
     /// Since the start of the run [s].
     double wall_time = 0;
 
