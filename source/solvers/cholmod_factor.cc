@@ -139,7 +139,7 @@ namespace corotet
     common.nmethods           = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
     L   = cholmod_analyze_p(lower, permutation.data(), nullptr, 0, &common);
-    rhs = cholmod_allocate_dense(n_rows, 1, n_rows, type(), &common);
+    rhs = cholmod_zeros(n_rows, 1, type(), &common);
     check_status();
   }
 
@@ -190,17 +190,17 @@ namespace corotet
     check_status();
     if (L->minor < L->n)
       return false;
-    return is_single() ? pivots_are_sound<float>() : pivots_are_sound<double>();
+    if (!(is_single() ? pivots_are_sound<float>() : pivots_are_sound<double>()))
+      return false;
+    if (solution == nullptr)
+      solve_rhs();
+    return true;
   }
 
-  template <typename Number>
+  /// solution = A^-1 rhs.
   void
-  CholmodFactor::solve(Number *dst, const Number *src)
+  CholmodFactor::solve_rhs()
   {
-    if (is_single())
-      std::copy_n(src, n_rows, static_cast<float *>(rhs->x));
-    else
-      std::copy_n(src, n_rows, static_cast<double *>(rhs->x));
     cholmod_solve2(CHOLMOD_A,
                    L,
                    rhs,
@@ -211,6 +211,17 @@ namespace corotet
                    &work_e,
                    &common);
     check_status();
+  }
+
+  template <typename Number>
+  void
+  CholmodFactor::solve(Number *dst, const Number *src)
+  {
+    if (is_single())
+      std::copy_n(src, n_rows, static_cast<float *>(rhs->x));
+    else
+      std::copy_n(src, n_rows, static_cast<double *>(rhs->x));
+    solve_rhs();
     if (is_single())
       std::copy_n(static_cast<const float *>(solution->x), n_rows, dst);
     else

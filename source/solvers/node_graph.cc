@@ -5,30 +5,194 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <Epetra_BlockMap.h>
+#include <Epetra_MpiComm.h>
+
 #include <algorithm>
+#include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace corotet
 {
-  NodeGraph
-  node_graph(const Epetra_CrsGraph &graph)
+  NodeRows::NodeRows(const Epetra_CrsGraph &graph)
   {
-    NodeGraph nodes;
-    for (int row = 0; row < graph.NumMyRows(); row += 3)
+    const int n_own = graph.NumMyRows();
+    for (int column = n_own; column < graph.NumMyCols(); ++column)
+      ghost_nodes.push_back(graph.GCID(column) / 3);
+    std::sort(ghost_nodes.begin(), ghost_nodes.end());
+    ghost_nodes.erase(std::unique(ghost_nodes.begin(), ghost_nodes.end()),
+                      ghost_nodes.end());
+    // Our number of a column.
+    std::vector<int> numbers(graph.NumMyCols());
+    for (int column = 0; column < graph.NumMyCols(); ++column)
+      if (column < n_own)
+        numbers[column] = column;
+      else
+        {
+          const int  id = graph.GCID(column);
+          const auto place =
+            std::lower_bound(ghost_nodes.begin(), ghost_nodes.end(), id / 3);
+          numbers[column] = n_own + 3 * (place - ghost_nodes.begin()) + id % 3;
+        }
+
+    std::vector<int> order;
+    for (int row = 0; row < n_own; row += 3)
       {
         int  length;
         int *columns;
         graph.ExtractMyRowView(row, length, columns);
+        order.resize(length);
+        std::iota(order.begin(), order.end(), 0);
+        const bool has_ghosts = length > 0 && columns[length - 1] >= n_own;
+        if (has_ghosts)
+          {
+            std::sort(order.begin(), order.end(), [&](int k, int l) {
+              return numbers[columns[k]] < numbers[columns[l]];
+            });
+            ghost_places.columns.insert(ghost_places.columns.end(),
+                                        order.begin(),
+                                        order.end());
+          }
+        ghost_places.starts.push_back(ghost_places.columns.size());
         for (int k = 0; k < length; k += 3)
           {
-            AssertThrow(columns[k] % 3 == 0 && k + 2 < length &&
-                          columns[k + 2] == columns[k] + 2,
+            const int first = numbers[columns[order[k]]];
+            AssertThrow(first % 3 == 0 && k + 2 < length &&
+                          numbers[columns[order[k + 2]]] == first + 2,
                         dealii::ExcMessage("The matrix has no full blocks."));
-            nodes.columns.push_back(columns[k] / 3);
+            nodes.columns.push_back(first / 3);
           }
         nodes.starts.push_back(nodes.columns.size());
       }
-    return nodes;
+  }
+
+  std::array<const double *, 3>
+  NodeRows::rows(const Epetra_CrsMatrix &A, const int node) const
+  {
+    const int begin = ghost_places.starts[node];
+    const int end   = ghost_places.starts[node + 1];
+    buffer.resize(3 * (end - begin));
+    std::array<const double *, 3> result;
+    for (int a = 0; a < 3; ++a)
+      {
+        int     length;
+        double *values;
+        A.ExtractMyRowView(3 * node + a, length, values);
+        result[a] = values;
+        if (begin == end)
+          continue;
+        double *target = &buffer[a * (end - begin)];
+        result[a]      = target;
+        for (int k = begin; k < end; ++k)
+          *target++ = values[ghost_places.columns[k]];
+      }
+    return result;
+  }
+
+  GhostExchange::GhostExchange(const Epetra_CrsGraph  &graph,
+                               const std::vector<int> &ghosts)
+    : comm(dynamic_cast<const Epetra_MpiComm &>(graph.Comm()).Comm())
+    , n_owned(graph.NumMyRows() / 3)
+    , n_ghosts(ghosts.size())
+  {
+    std::vector<int> unknowns(n_ghosts), owners(n_ghosts), nodes(n_ghosts);
+    for (int i = 0; i < n_ghosts; ++i)
+      unknowns[i] = 3 * ghosts[i];
+    graph.RowMap().RemoteIDList(n_ghosts,
+                                unknowns.data(),
+                                owners.data(),
+                                nodes.data());
+    for (int &node : nodes)
+      node /= 3;
+
+    const int        n_ranks = graph.Comm().NumProc();
+    std::vector<int> n_got(n_ranks), n_sent(n_ranks);
+    std::vector<int> ghost_begin(n_ranks), send_begin(n_ranks);
+    for (const int owner : owners)
+      ++n_got[owner];
+    MPI_Alltoall(n_got.data(), 1, MPI_INT, n_sent.data(), 1, MPI_INT, comm);
+    std::exclusive_scan(n_got.begin(), n_got.end(), ghost_begin.begin(), 0);
+    std::exclusive_scan(n_sent.begin(), n_sent.end(), send_begin.begin(), 0);
+    sent.resize(send_begin.back() + n_sent.back());
+    MPI_Alltoallv(nodes.data(),
+                  n_got.data(),
+                  ghost_begin.data(),
+                  MPI_INT,
+                  sent.data(),
+                  n_sent.data(),
+                  send_begin.data(),
+                  MPI_INT,
+                  comm);
+    for (int rank = 0; rank < n_ranks; ++rank)
+      if (n_sent[rank] + n_got[rank] > 0)
+        neighbours.push_back({rank,
+                              send_begin[rank],
+                              send_begin[rank] + n_sent[rank],
+                              ghost_begin[rank],
+                              ghost_begin[rank] + n_got[rank]});
+  }
+
+  GhostExchange
+  GhostExchange::append_rows(NodeGraph &graph) const
+  {
+    std::vector<int> lengths(n_items());
+    for (int i = 0; i < n_owned; ++i)
+      lengths[i] = graph.starts[i + 1] - graph.starts[i];
+    update(lengths.data());
+    for (int i = n_owned; i < n_items(); ++i)
+      graph.starts.push_back(graph.starts.back() + lengths[i]);
+
+    GhostExchange result;
+    result.comm     = comm;
+    result.n_owned  = graph.starts[n_owned];
+    result.n_ghosts = graph.starts.back() - result.n_owned;
+    for (const Neighbour &neighbour : neighbours)
+      {
+        const int send_begin = result.sent.size();
+        for (int i = neighbour.send_begin; i < neighbour.send_end; ++i)
+          for (int k = graph.starts[sent[i]]; k < graph.starts[sent[i] + 1];
+               ++k)
+            result.sent.push_back(k);
+        result.neighbours.push_back(
+          {neighbour.rank,
+           send_begin,
+           static_cast<int>(result.sent.size()),
+           graph.starts[n_owned + neighbour.ghost_begin] - result.n_owned,
+           graph.starts[n_owned + neighbour.ghost_end] - result.n_owned});
+      }
+    graph.columns.resize(graph.starts.back());
+    result.update(graph.columns.data());
+    return result;
+  }
+
+  void
+  GhostExchange::exchange(char *values, const std::size_t size) const
+  {
+    constexpr int tag = 7316;
+    buffer.resize(std::max(buffer.size(), sent.size() * size));
+    requests.resize(2 * neighbours.size());
+    MPI_Request *request = requests.data();
+    for (const Neighbour &neighbour : neighbours)
+      {
+        MPI_Irecv(values + (n_owned + neighbour.ghost_begin) * size,
+                  (neighbour.ghost_end - neighbour.ghost_begin) * size,
+                  MPI_BYTE,
+                  neighbour.rank,
+                  tag,
+                  comm,
+                  request++);
+        for (int i = neighbour.send_begin; i < neighbour.send_end; ++i)
+          std::memcpy(&buffer[i * size], values + sent[i] * size, size);
+        MPI_Isend(buffer.data() + neighbour.send_begin * size,
+                  (neighbour.send_end - neighbour.send_begin) * size,
+                  MPI_BYTE,
+                  neighbour.rank,
+                  tag,
+                  comm,
+                  request++);
+      }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
   }
 
   NodeGraph

@@ -19,20 +19,8 @@ namespace corotet
 
   namespace
   {
-    using Rows = std::array<double *, 3>;
-
     /// Of the smoother's range [-].
     constexpr double eigenvalue_ratio = 8;
-
-    Rows
-    node_rows(const Epetra_CrsMatrix &A, const int node)
-    {
-      Rows rows;
-      int  length;
-      for (int a = 0; a < 3; ++a)
-        A.ExtractMyRowView(3 * node + a, length, rows[a]);
-      return rows;
-    }
 
     Column
     load(const float *source)
@@ -81,28 +69,30 @@ namespace corotet
                                            const double       threshold)
     : degree(degree)
     , threshold(threshold)
+    , coarse_factor(SparseCholesky::Precision::single_precision)
   {}
 
   void
   SmoothedAggregation::clear()
   {
     graph.reset();
-    coarse_factor.reset();
+    coarse_factor.clear();
   }
 
   void
   SmoothedAggregation::build(const Epetra_CrsMatrix &A, const double *positions)
   {
-    AssertThrow(A.Comm().NumProc() == 1, dealii::ExcNotImplemented());
     const bool is_new = !graph || graph->DataPtr() != A.Graph().DataPtr();
     if (is_new)
       {
-        graph   = std::make_unique<Epetra_CrsGraph>(A.Graph());
-        pattern = node_graph(*graph);
-        n_nodes = pattern.n_rows();
-        coarse_factor.reset();
-        for (auto *vector : {&rhs, &solution, &residual, &product, &direction})
+        graph     = std::make_unique<Epetra_CrsGraph>(A.Graph());
+        node_rows = NodeRows(*graph);
+        ghosts    = GhostExchange(*graph, node_rows.ghosts());
+        n_nodes   = node_rows.graph().n_rows();
+        for (auto *vector : {&rhs, &residual, &product})
           vector->resize(3 * n_nodes);
+        for (auto *vector : {&solution, &direction})
+          vector->resize(3 * ghosts.n_items());
       }
     copy_matrix(A);
     if (is_new)
@@ -114,6 +104,7 @@ namespace corotet
   void
   SmoothedAggregation::copy_matrix(const Epetra_CrsMatrix &A)
   {
+    const NodeGraph &pattern = node_rows.graph();
     // Columns are loaded with four entries.
     blocks.resize(9 * pattern.columns.size() + 1);
     inverse_diagonal.resize(9 * n_nodes);
@@ -121,7 +112,7 @@ namespace corotet
     float *block = blocks.data();
     for (int node = 0; node < n_nodes; ++node)
       {
-        const Rows rows    = node_rows(A, node);
+        const auto rows    = node_rows.rows(A, node);
         const int *columns = &pattern.columns[pattern.starts[node]];
         const int  n       = pattern.starts[node + 1] - pattern.starts[node];
         dealii::Tensor<2, 3>  diagonal;
@@ -147,53 +138,6 @@ namespace corotet
       }
   }
 
-  void
-  SmoothedAggregation::set_up_pattern()
-  {
-    const auto norm_square = [&](const int k) {
-      double sum = 0;
-      for (int l = 9 * k; l < 9 * k + 9; ++l)
-        sum += static_cast<double>(blocks[l]) * blocks[l];
-      return sum;
-    };
-    std::vector<double> size(n_nodes);
-    std::vector<int>    row_of(pattern.columns.size());
-    for (int i = 0; i < n_nodes; ++i)
-      for (int k = pattern.starts[i]; k < pattern.starts[i + 1]; ++k)
-        {
-          row_of[k] = i;
-          if (pattern.columns[k] == i)
-            size[i] = std::sqrt(norm_square(k));
-        }
-    aggregates = aggregate(pattern, [&](const int k) {
-      return norm_square(k) >=
-             threshold * threshold * size[row_of[k]] * size[pattern.columns[k]];
-    });
-    const int n_aggregates =
-      *std::max_element(aggregates.begin(), aggregates.end()) + 1;
-    NodeGraph tentative;
-    tentative.columns = aggregates;
-    for (int i = 1; i <= n_nodes; ++i)
-      tentative.starts.push_back(i);
-    nodes_of_aggregates  = transpose(tentative, n_aggregates);
-    prolongation_pattern = corotet::product(pattern, tentative, n_aggregates);
-    product_pattern =
-      corotet::product(pattern, prolongation_pattern, n_aggregates);
-    const NodeGraph full =
-      corotet::product(transpose(prolongation_pattern, n_aggregates),
-                       product_pattern,
-                       n_aggregates);
-    coarse_pattern = NodeGraph();
-    for (int i = 0; i < n_aggregates; ++i)
-      {
-        for (int k = full.starts[i]; k < full.starts[i + 1]; ++k)
-          if (full.columns[k] <= i)
-            coarse_pattern.columns.push_back(full.columns[k]);
-        coarse_pattern.starts.push_back(coarse_pattern.columns.size());
-      }
-    coarse.resize(6 * n_aggregates);
-  }
-
   /// Of D^-1 A: ten steps of Lanczos' method, and a margin.
   void
   SmoothedAggregation::estimate_largest_eigenvalue()
@@ -202,8 +146,15 @@ namespace corotet
     const int           n       = 3 * n_nodes;
     std::vector<double> diagonal, off_diagonal{0.};
     std::vector<float> &r = rhs, &z = residual, &p = direction;
+    const auto          dot = [&](const auto &u, const auto &v) {
+      double own = 0, all;
+      for (int i = 0; i < n; ++i)
+        own += static_cast<double>(u[i]) * v[i];
+      graph->Comm().SumAll(&own, &all, 1);
+      return all;
+    };
     // Anything that is not smooth.
-    unsigned int seed = 1;
+    unsigned int seed = 1 + graph->Comm().MyPID();
     for (float &entry : r)
       {
         seed  = 1664525u * seed + 1013904223u;
@@ -218,18 +169,14 @@ namespace corotet
     for (int step = 0; step < n_steps; ++step)
       {
         const double last_rz = rz;
-        rz                   = 0;
         for (int i = 0; i < n_nodes; ++i)
           multiply(&z[3 * i], &inverse_diagonal[9 * i], &r[3 * i]);
-        for (int i = 0; i < n; ++i)
-          rz += static_cast<double>(r[i]) * z[i];
-        beta       = step == 0 ? 0. : rz / last_rz;
-        double pAp = 0;
+        rz   = dot(r, z);
+        beta = step == 0 ? 0. : rz / last_rz;
         for (int i = 0; i < n; ++i)
           p[i] = z[i] + static_cast<float>(beta) * p[i];
         apply(product.data(), p.data());
-        for (int i = 0; i < n; ++i)
-          pAp += static_cast<double>(p[i]) * product[i];
+        const double pAp = dot(product, p);
         if (!(pAp > 0) || !(rz > 0))
           break;
         const double last_alpha = alpha;
@@ -245,8 +192,10 @@ namespace corotet
   }
 
   void
-  SmoothedAggregation::apply(float *y, const float *x) const
+  SmoothedAggregation::apply(float *y, float *x) const
   {
+    const NodeGraph &pattern = node_rows.graph();
+    ghosts.update(x, 3);
     const float *block = blocks.data();
     for (int i = 0; i < n_nodes; ++i)
       {
@@ -312,9 +261,10 @@ namespace corotet
         for (int k = prolongation_pattern.starts[i];
              k < prolongation_pattern.starts[i + 1];
              ++k)
-          action(3 * i,
-                 &prolongation_blocks[18 * static_cast<std::size_t>(k)],
-                 &coarse[6 * prolongation_pattern.columns[k]]);
+          action(
+            3 * i,
+            &prolongation_blocks[18 * static_cast<std::size_t>(k)],
+            &coarse[6 * (prolongation_pattern.columns[k] - first_aggregate)]);
     };
     std::fill(coarse.begin(), coarse.end(), 0.f);
     for_all_blocks([&](const int i, const float *p, float *c) {
@@ -322,7 +272,7 @@ namespace corotet
         c[m] += p[m] * residual[i] + p[6 + m] * residual[i + 1] +
                 p[12 + m] * residual[i + 2];
     });
-    coarse_factor->solve(coarse.data(), coarse.data());
+    coarse_factor.vmult(coarse.data(), coarse.data());
     for_all_blocks([&](const int i, const float *p, const float *c) {
       for (int a = 0; a < 3; ++a)
         for (int m = 0; m < 6; ++m)
@@ -346,9 +296,11 @@ namespace corotet
   SmoothedAggregation::vmult(Number *dst, const Number *src) const
   {
     // Numbers near 1, which no product takes out of the range of float.
-    Number largest = 0;
+    Number own_largest = 0;
     for (int i = 0; i < 3 * n_nodes; ++i)
-      largest = std::max(largest, std::abs(src[i]));
+      own_largest = std::max(own_largest, std::abs(src[i]));
+    double own = own_largest, largest;
+    graph->Comm().MaxAll(&own, &largest, 1);
     const Number scale = largest > 0 ? largest : 1;
     for (int i = 0; i < 3 * n_nodes; ++i)
       rhs[i] = src[i] / scale;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/base/exceptions.h>
 #include <corotet/solvers/smoothed_aggregation.h>
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,18 +18,112 @@ namespace corotet
     std::array<Modes, 3> rows{};
   };
 
+  /// The coarse unknowns' motions of the nodes, and of an aggregate as if it
+  /// filled all space.
+  struct SmoothedAggregation::Motions
+  {
+    struct Aggregate
+    {
+      Block
+      at(const dealii::Tensor<1, 3> &x) const
+      {
+        const auto r = x - centre;
+        Block      block(translation);
+        for (int a = 0; a < 3; ++a)
+          {
+            const int b = (a + 1) % 3, c = (a + 2) % 3;
+            block.rows[a] += rotation.rows[b] * r[c] - rotation.rows[c] * r[b];
+          }
+        return block;
+      }
+
+      dealii::Tensor<1, 3> centre;
+      /// Of the centre, and about it.
+      Block translation, rotation;
+    };
+
+    std::vector<Block>     nodes;
+    std::vector<Aggregate> aggregates;
+  };
+
   namespace
   {
-    using Rows = std::array<double *, 3>;
+    using Rows = std::array<const double *, 3>;
 
-    Rows
-    node_rows(const Epetra_CrsMatrix &A, const int node)
+    dealii::Tensor<1, 3>
+    position(const std::vector<double> &positions, const int i)
     {
-      Rows rows;
-      int  length;
-      for (int a = 0; a < 3; ++a)
-        A.ExtractMyRowView(3 * node + a, length, rows[a]);
-      return rows;
+      return dealii::Tensor<1, 3>(
+        {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
+    }
+
+    /// Motions that an aggregate lacks get a 1 on the diagonal. A row of the
+    /// matrix has its owned columns first.
+    void
+    copy_blocks(Epetra_CrsMatrix                        &matrix,
+                const NodeGraph                         &pattern,
+                const std::vector<std::array<Modes, 6>> &blocks,
+                const int                                first)
+    {
+      for (int i = 0; i < pattern.n_rows(); ++i)
+        {
+          const int  begin = pattern.starts[i];
+          const int  end   = pattern.starts[i + 1];
+          const auto owned = std::lower_bound(pattern.columns.begin() + begin,
+                                              pattern.columns.begin() + end,
+                                              first);
+          const int  n_ghosts = owned - pattern.columns.begin() - begin;
+          for (int m = 0; m < 6; ++m)
+            {
+              int     length;
+              double *values;
+              matrix.ExtractMyRowView(6 * i + m, length, values);
+              for (int k = begin; k < end; ++k)
+                {
+                  const int place =
+                    (k - begin + end - begin - n_ghosts) % (end - begin);
+                  for (int l = 0; l < 6; ++l)
+                    values[6 * place + l] = blocks[k][m][l];
+                }
+              // The diagonal block is the last of the owned ones.
+              double &diagonal = values[6 * (end - begin - n_ghosts - 1) + m];
+              if (diagonal == 0)
+                diagonal = 1;
+            }
+        }
+    }
+
+    /// Makes the columns of the first n blocks orthonormal, in Gram and
+    /// Schmidt's way, and combines those of the others likewise; what is left
+    /// of a dependent column is zero.
+    template <typename Block>
+    void
+    make_orthonormal(std::vector<Block> &blocks, const int n)
+    {
+      const auto product = [&](const int m, const int l) {
+        double sum = 0;
+        for (int i = 0; i < n; ++i)
+          for (const Modes &row : blocks[i].rows)
+            sum += row[m] * row[l];
+        return sum;
+      };
+      for (int m = 0; m < 6; ++m)
+        {
+          const double before = product(m, m);
+          for (int l = 0; l < m; ++l)
+            {
+              const double part = product(m, l);
+              for (Block &block : blocks)
+                for (Modes &row : block.rows)
+                  row[m] -= part * row[l];
+            }
+          const double after = product(m, m);
+          const double scale =
+            after > 1e-8 * before ? 1 / std::sqrt(after) : 0.;
+          for (Block &block : blocks)
+            for (Modes &row : block.rows)
+              row[m] *= scale;
+        }
     }
 
     /// target += the block of the matrix from column k on times b.
@@ -47,111 +141,94 @@ namespace corotet
   SmoothedAggregation::build_coarse(const Epetra_CrsMatrix &A,
                                     const double           *positions)
   {
-    std::vector<Block> motions(n_nodes);
+    std::vector<double> all_positions(positions, positions + 3 * n_nodes);
+    all_positions.resize(3 * ghosts.n_items());
+    ghosts.update(all_positions.data(), 3);
     std::vector<Block> prolongation(prolongation_pattern.columns.size());
-    rigid_motions(motions, positions);
-    smooth_motions(prolongation, A, motions);
-    factorize(coarse_matrix(A, prolongation));
+    smooth_motions(prolongation,
+                   A,
+                   rigid_motions(all_positions),
+                   all_positions);
+    prolongation_ghosts.update(prolongation.data());
+    Epetra_CrsMatrix coarse_matrix(Copy, *coarse_graph);
+    fill_coarse(coarse_matrix, A, prolongation);
+    coarse_factor.factorize(coarse_matrix);
   }
 
-  /// Those of each aggregate about its centre, orthonormal; zero where A has a
-  /// prescribed unknown, or where an aggregate is too small to have six.
-  void
-  SmoothedAggregation::rigid_motions(std::vector<Block> &motions,
-                                     const double       *positions) const
+  /// Those of each aggregate, orthonormal; zero where A has a prescribed
+  /// unknown, or where an aggregate is too small to have six.
+  SmoothedAggregation::Motions
+  SmoothedAggregation::rigid_motions(const std::vector<double> &positions) const
   {
-    for (int g = 0; g < n_aggregates(); ++g)
+    const int n_own = nodes_of_aggregates.n_rows();
+    Motions   motions;
+    motions.nodes.resize(n_nodes);
+    motions.aggregates.resize(n_own);
+    std::vector<Block> blocks;
+    for (int g = 0; g < n_own; ++g)
       {
         const int *begin =
           &nodes_of_aggregates.columns[nodes_of_aggregates.starts[g]];
         const int n =
           nodes_of_aggregates.starts[g + 1] - nodes_of_aggregates.starts[g];
-        const auto position = [&](const int i) {
-          const double *x = positions + 3 * begin[i];
-          return dealii::Tensor<1, 3>({x[0], x[1], x[2]});
-        };
-        dealii::Tensor<1, 3> centre;
+        // Translations along the axes, and rotations about them.
+        Motions::Aggregate &rigid = motions.aggregates[g];
         for (int i = 0; i < n; ++i)
-          centre += position(i) / n;
+          rigid.centre += position(positions, begin[i]) / n;
+        for (int a = 0; a < 3; ++a)
+          {
+            rigid.translation.rows[a][a]  = 1;
+            rigid.rotation.rows[a][3 + a] = 1;
+          }
+        blocks.clear();
         for (int i = 0; i < n; ++i)
           {
-            Block     &block = motions[begin[i]];
-            const auto r     = position(i) - centre;
-            for (int a = 0; a < 3; ++a)
-              {
-                // Translation along axis a, rotation about it: e_a x r.
-                const int b          = (a + 1) % 3;
-                const int c          = (a + 2) % 3;
-                block.rows[a][a]     = 1;
-                block.rows[b][3 + a] = -r[c];
-                block.rows[c][3 + a] = r[b];
-              }
+            blocks.push_back(rigid.at(position(positions, begin[i])));
             for (int a = 0; a < 3; ++a)
               if (is_prescribed[3 * begin[i] + a])
-                block.rows[a] = Modes{};
+                blocks.back().rows[a] = Modes{};
           }
-        make_orthonormal(motions, g);
-      }
-  }
-
-  /// Gram and Schmidt's way; what is left of a dependent motion is zero.
-  void
-  SmoothedAggregation::make_orthonormal(std::vector<Block> &motions,
-                                        const int           aggregate) const
-  {
-    const int *begin =
-      &nodes_of_aggregates.columns[nodes_of_aggregates.starts[aggregate]];
-    const int n = nodes_of_aggregates.starts[aggregate + 1] -
-                  nodes_of_aggregates.starts[aggregate];
-    const auto product = [&](const int m, const int l) {
-      double sum = 0;
-      for (int i = 0; i < n; ++i)
-        for (const Modes &row : motions[begin[i]].rows)
-          sum += row[m] * row[l];
-      return sum;
-    };
-    for (int m = 0; m < 6; ++m)
-      {
-        const double before = product(m, m);
-        for (int l = 0; l < m; ++l)
-          {
-            const double part = product(m, l);
-            for (int i = 0; i < n; ++i)
-              for (Modes &row : motions[begin[i]].rows)
-                row[m] -= part * row[l];
-          }
-        const double after = product(m, m);
-        const double scale = after > 1e-8 * before ? 1 / std::sqrt(after) : 0.;
+        blocks.push_back(rigid.translation);
+        blocks.push_back(rigid.rotation);
+        make_orthonormal(blocks, n);
         for (int i = 0; i < n; ++i)
-          for (Modes &row : motions[begin[i]].rows)
-            row[m] *= scale;
+          motions.nodes[begin[i]] = blocks[i];
+        rigid.translation = blocks[n];
+        rigid.rotation    = blocks[n + 1];
       }
+    return motions;
   }
 
   /// (I - omega D^-1 A) times the motions, omega = 4/3 over the largest
-  /// eigenvalue.
+  /// eigenvalue. A ghost moves with the aggregate of the row.
   void
-  SmoothedAggregation::smooth_motions(std::vector<Block>       &prolongation,
-                                      const Epetra_CrsMatrix   &A,
-                                      const std::vector<Block> &motions)
+  SmoothedAggregation::smooth_motions(std::vector<Block>        &prolongation,
+                                      const Epetra_CrsMatrix    &A,
+                                      const Motions             &motions,
+                                      const std::vector<double> &positions)
   {
-    const double     omega = 4. / 3 / largest_eigenvalue;
+    const double     omega   = 4. / 3 / largest_eigenvalue;
+    const NodeGraph &pattern = node_rows.graph();
     std::vector<int> place(n_aggregates());
-    prolongation_blocks.resize(18 * prolongation.size());
+    prolongation_blocks.resize(18 * prolongation_pattern.starts[n_nodes]);
     for (int i = 0; i < n_nodes; ++i)
       {
         const int begin = prolongation_pattern.starts[i];
         const int end   = prolongation_pattern.starts[i + 1];
         for (int k = begin; k < end; ++k)
           place[prolongation_pattern.columns[k]] = k;
-        const Rows rows = node_rows(A, i);
+        const Rows rows = node_rows.rows(A, i);
         for (int k = pattern.starts[i]; k < pattern.starts[i + 1]; ++k)
           {
-            const int j = pattern.columns[k];
-            add_product(prolongation[place[aggregates[j]]],
+            const int  j        = pattern.columns[k];
+            const bool is_ghost = j >= n_nodes;
+            const int  g        = aggregates[is_ghost ? i : j];
+            add_product(prolongation[place[g]],
                         rows,
                         3 * (k - pattern.starts[i]),
-                        motions[j]);
+                        is_ghost ? motions.aggregates[g - first_aggregate].at(
+                                     position(positions, j)) :
+                                   motions.nodes[j]);
           }
         const float *inverse = &inverse_diagonal[9 * i];
         for (int k = begin; k < end; ++k)
@@ -164,7 +241,7 @@ namespace corotet
                                           inverse[3 + a] * product.rows[1] +
                                           inverse[6 + a] * product.rows[2]);
                 if (prolongation_pattern.columns[k] == aggregates[i])
-                  block.rows[a] += motions[i].rows[a];
+                  block.rows[a] += motions.nodes[i].rows[a];
                 for (int m = 0; m < 6; ++m)
                   prolongation_blocks[18 * k + 6 * a + m] = block.rows[a][m];
               }
@@ -172,12 +249,13 @@ namespace corotet
       }
   }
 
-  /// P^T A P: 6 x 6 blocks by rows, in the order of the coarse pattern.
-  std::vector<double>
-  SmoothedAggregation::coarse_matrix(
-    const Epetra_CrsMatrix   &A,
-    const std::vector<Block> &prolongation) const
+  /// P^T A P, lower triangle.
+  void
+  SmoothedAggregation::fill_coarse(Epetra_CrsMatrix         &coarse_matrix,
+                                   const Epetra_CrsMatrix   &A,
+                                   const std::vector<Block> &prolongation) const
   {
+    const NodeGraph                  &pattern = node_rows.graph();
     std::vector<std::array<Modes, 6>> matrix(coarse_pattern.columns.size());
     std::vector<int>                  place(n_aggregates());
     std::vector<Block>                row_blocks;
@@ -189,7 +267,7 @@ namespace corotet
         row_blocks.assign(n, Block());
         for (int k = 0; k < n; ++k)
           place[columns[k]] = k;
-        const Rows rows = node_rows(A, i);
+        const Rows rows = node_rows.rows(A, i);
         for (int k = pattern.starts[i]; k < pattern.starts[i + 1]; ++k)
           {
             const int j = pattern.columns[k];
@@ -207,7 +285,7 @@ namespace corotet
           {
             const int    I     = prolongation_pattern.columns[l];
             const Block &p     = prolongation[l];
-            int          entry = coarse_pattern.starts[I];
+            int          entry = coarse_pattern.starts[I - first_aggregate];
             for (int k = 0; k < n && columns[k] <= I; ++k)
               {
                 while (coarse_pattern.columns[entry] != columns[k])
@@ -220,76 +298,6 @@ namespace corotet
               }
           }
       }
-    std::vector<double> values;
-    values.reserve(36 * matrix.size());
-    for (const auto &block : matrix)
-      for (const Modes &row : block)
-        for (int m = 0; m < 6; ++m)
-          values.push_back(row[m]);
-    return values;
-  }
-
-  /// Hands the lower triangle to the factor; motions that an aggregate lacks
-  /// get a 1 on the diagonal.
-  void
-  SmoothedAggregation::fill_coarse(const std::vector<double> &matrix)
-  {
-    int    *starts  = coarse_factor->row_starts();
-    int    *columns = coarse_factor->columns();
-    int     entry   = 0;
-    float  *singles = static_cast<float *>(coarse_factor->values());
-    double *doubles = static_cast<double *>(coarse_factor->values());
-    for (int i = 0; i < n_aggregates(); ++i)
-      for (int m = 0; m < 6; ++m)
-        {
-          starts[6 * i + m] = entry;
-          for (int k = coarse_pattern.starts[i];
-               k < coarse_pattern.starts[i + 1];
-               ++k)
-            {
-              const int j = coarse_pattern.columns[k];
-              for (int l = 0; l < (i == j ? m + 1 : 6); ++l, ++entry)
-                {
-                  double value =
-                    matrix[36 * static_cast<std::size_t>(k) + 6 * m + l];
-                  if (i == j && l == m && value == 0)
-                    value = 1;
-                  columns[entry] = 6 * j + l;
-                  if (coarse_factor->is_single())
-                    singles[entry] = value;
-                  else
-                    doubles[entry] = value;
-                }
-            }
-        }
-    starts[6 * n_aggregates()] = entry;
-  }
-
-  void
-  SmoothedAggregation::factorize(const std::vector<double> &matrix)
-  {
-    const bool is_new = !coarse_factor;
-    if (is_new)
-      coarse_factor =
-        std::make_unique<CholmodFactor>(6 * n_aggregates(),
-                                        36 * coarse_pattern.columns.size() -
-                                          15 * n_aggregates(),
-                                        true);
-    fill_coarse(matrix);
-    if (is_new)
-      coarse_factor->analyze();
-    if (coarse_factor->factorize())
-      return;
-    if (coarse_factor->is_single())
-      {
-        coarse_factor->convert_to_double();
-        fill_coarse(matrix);
-        if (coarse_factor->factorize())
-          return;
-      }
-    clear();
-    throw ComputationError(
-      "the stiffness matrix is singular: the body or a part of it can move "
-      "without resistance, because not enough is prescribed");
+    copy_blocks(coarse_matrix, coarse_pattern, matrix, first_aggregate);
   }
 } // namespace corotet

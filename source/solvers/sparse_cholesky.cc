@@ -131,11 +131,12 @@ namespace corotet
         int  length;
         int *local_columns;
         graph.ExtractMyRowView(row, length, local_columns);
+        const int         id     = graph.GRID(row);
         const std::size_t before = columns.size();
         for (int k = 0; k < length; ++k)
           {
             const int column = graph.GCID(local_columns[k]);
-            if (column <= graph.GRID(row))
+            if (column <= id)
               {
                 columns.push_back(column);
                 positions.push_back(k);
@@ -240,7 +241,8 @@ namespace corotet
     if (is_root)
       all.resize(graph.NumGlobalRows());
     row_shares.gather(src, row_counts.size(), all.data(), comm);
-    on_root(comm, [&] { factor->solve(all.data(), all.data()); });
+    if (is_root)
+      factor->solve(all.data(), all.data());
     MPI_Scatterv(all.data(),
                  row_shares.counts.data(),
                  row_shares.offsets.data(),
@@ -282,12 +284,19 @@ namespace corotet
 
   template <typename Number>
   void
+  SparseCholesky::vmult(Number *dst, const Number *src) const
+  {
+    Assert(factors, dealii::ExcNotInitialized());
+    factors->solve(dst, src);
+  }
+
+  template <typename Number>
+  void
   SparseCholesky::vmult(
     dealii::LinearAlgebra::distributed::Vector<Number>       &dst,
     const dealii::LinearAlgebra::distributed::Vector<Number> &src) const
   {
-    Assert(factors, dealii::ExcNotInitialized());
-    factors->solve(dst.begin(), src.begin());
+    vmult(dst.begin(), src.begin());
   }
 
   std::size_t
@@ -302,6 +311,10 @@ namespace corotet
     return factors ? factors->precision : wanted;
   }
 
+  template void
+  SparseCholesky::vmult(double *, const double *) const;
+  template void
+  SparseCholesky::vmult(float *, const float *) const;
   template void
   SparseCholesky::vmult(
     dealii::LinearAlgebra::distributed::Vector<double> &,

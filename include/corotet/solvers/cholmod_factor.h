@@ -69,7 +69,8 @@ namespace corotet
     void
     convert_to_double();
 
-    /// Computes L. False if A is not positive definite up to round-off.
+    /// Computes L. False if A is not positive definite up to round-off. The
+    /// first call allocates what solve() needs.
     bool
     factorize();
 
@@ -80,7 +81,7 @@ namespace corotet
       return L->xsize;
     }
 
-    /// dst = A^-1 src; they may be the same. Only the first call allocates.
+    /// dst = A^-1 src; they may be the same. Allocates nothing.
     template <typename Number>
     void
     solve(Number *dst, const Number *src);
@@ -92,6 +93,8 @@ namespace corotet
       return CHOLMOD_REAL + lower->dtype;
     }
 
+    void
+    solve_rhs();
     void
     order();
     void

@@ -4,8 +4,8 @@
 #ifndef corotet_solvers_smoothed_aggregation_h
 #define corotet_solvers_smoothed_aggregation_h
 
-#include <corotet/solvers/cholmod_factor.h>
 #include <corotet/solvers/node_graph.h>
+#include <corotet/solvers/sparse_cholesky.h>
 
 #include <Epetra_CrsMatrix.h>
 
@@ -16,14 +16,19 @@ namespace corotet
 {
   /**
    * One cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996) with two
-   * levels for a stiffness matrix A of 3 x 3 blocks on one rank, in single
-   * precision: symmetric and positive definite.
+   * levels for a stiffness matrix A of 3 x 3 blocks, in single precision:
+   * symmetric and positive definite. The ranks own contiguous ranges of rows,
+   * three per node, in ascending order; a rank may own none.
    *
    * The coarse unknowns are the six rigid body motions of every aggregate of
    * nodes, smoothed by one step of damped block Jacobi; they are found by a
-   * sparse factorisation. The smoother is Chebyshev's polynomial of D^-1 A, D
-   * the diagonal blocks. What the coarse level is made of is computed in double
-   * precision; patterns are kept while the graph of A is the same.
+   * sparse factorisation on rank 0. The smoother is Chebyshev's polynomial of
+   * D^-1 A, D the diagonal blocks. What the coarse level is made of is computed
+   * in double precision; patterns are kept while the graph of A is the same.
+   *
+   * Aggregates stay within a rank, and so do their smoothed motions: the step
+   * of damped Jacobi takes a neighbour on another rank to move with the
+   * aggregate, so that rigid motions of the body remain what they are.
    */
   class SmoothedAggregation
   {
@@ -33,29 +38,34 @@ namespace corotet
     explicit SmoothedAggregation(const unsigned int degree    = 3,
                                  const double       threshold = 0);
 
-    /// @p positions: three coordinates per node [m]. Throws ComputationError if
-    /// A is singular.
+    /// @p positions: three coordinates per owned node [m]. Throws
+    /// ComputationError if A is singular. Collective.
     void
     build(const Epetra_CrsMatrix &A, const double *positions);
 
     void
     clear();
 
-    /// dst = P src, for float or double.
+    /// dst = P src, owned entries, for float or double. Only the first call
+    /// allocates memory. Collective.
     template <typename Number>
     void
     vmult(Number *dst, const Number *src) const;
 
+    /// Of all ranks.
     int
     n_aggregates() const
     {
-      return coarse_pattern.n_rows();
+      return coarse_graph->NumGlobalRows() / 6;
     }
 
   private:
     /// Three rows of a block with a column per rigid motion, and two of zeros.
     struct Block;
+    struct Motions;
 
+    void
+    aggregate_nodes();
     void
     set_up_pattern();
     void
@@ -64,24 +74,20 @@ namespace corotet
     estimate_largest_eigenvalue();
     void
     build_coarse(const Epetra_CrsMatrix &A, const double *positions);
+    Motions
+    rigid_motions(const std::vector<double> &positions) const;
     void
-    rigid_motions(std::vector<Block> &motions, const double *positions) const;
+    smooth_motions(std::vector<Block>        &prolongation,
+                   const Epetra_CrsMatrix    &A,
+                   const Motions             &motions,
+                   const std::vector<double> &positions);
     void
-    make_orthonormal(std::vector<Block> &motions, const int aggregate) const;
-    void
-    smooth_motions(std::vector<Block>       &prolongation,
-                   const Epetra_CrsMatrix   &A,
-                   const std::vector<Block> &motions);
-    std::vector<double>
-    coarse_matrix(const Epetra_CrsMatrix   &A,
-                  const std::vector<Block> &prolongation) const;
-    void
-    factorize(const std::vector<double> &matrix);
-    void
-    fill_coarse(const std::vector<double> &matrix);
+    fill_coarse(Epetra_CrsMatrix         &coarse_matrix,
+                const Epetra_CrsMatrix   &A,
+                const std::vector<Block> &prolongation) const;
 
     void
-    apply(float *y, const float *x) const;
+    apply(float *y, float *x) const;
     void
     smooth(float *x, const float *b, const bool x_is_zero) const;
     void
@@ -95,13 +101,20 @@ namespace corotet
     /// Keeps the graph's memory from being used by another graph.
     std::unique_ptr<Epetra_CrsGraph> graph;
     int                              n_nodes = 0;
-    NodeGraph                        pattern;
-    std::vector<int>                 aggregates;
-    NodeGraph                        nodes_of_aggregates;
-    NodeGraph                        prolongation_pattern;
-    NodeGraph                        product_pattern;
+    NodeRows                         node_rows;
+    GhostExchange                    ghosts;
+
+    /// Aggregates are numbered through all ranks, rows are owned ones.
+    int              first_aggregate = 0;
+    std::vector<int> aggregates;
+    NodeGraph        nodes_of_aggregates;
+    /// With rows of ghosts.
+    NodeGraph     prolongation_pattern;
+    GhostExchange prolongation_ghosts;
+    NodeGraph     product_pattern;
     /// Lower triangle only.
-    NodeGraph coarse_pattern;
+    NodeGraph                        coarse_pattern;
+    std::unique_ptr<Epetra_CrsGraph> coarse_graph;
 
     /// Blocks of A and inverses of its diagonal blocks, by columns.
     std::vector<float>         blocks;
@@ -109,11 +122,12 @@ namespace corotet
     std::vector<unsigned char> is_prescribed;
     double                     largest_eigenvalue = 0;
     /// 3 x 6, by rows.
-    std::vector<float>             prolongation_blocks;
-    std::unique_ptr<CholmodFactor> coarse_factor;
+    std::vector<float> prolongation_blocks;
+    SparseCholesky     coarse_factor;
 
-    mutable std::vector<float> rhs, solution, residual, product, direction;
-    mutable std::vector<float> coarse;
+    /// With entries of ghosts.
+    mutable std::vector<float> solution, direction;
+    mutable std::vector<float> rhs, residual, product, coarse;
   };
 } // namespace corotet
 

@@ -58,10 +58,14 @@ namespace corotet
     clear();
 
     /**
-     * dst = A^-1 src, owned entries only. The vectors, of float or double, are
-     * distributed as the rows of A. Only the first call allocates memory.
-     * Collective.
+     * dst = A^-1 src, owned entries only; they may be the same. Of float or
+     * double, distributed as the rows of A. Only the first call allocates
+     * memory. Collective.
      */
+    template <typename Number>
+    void
+    vmult(Number *dst, const Number *src) const;
+
     template <typename Number>
     void
     vmult(dealii::LinearAlgebra::distributed::Vector<Number>       &dst,
