@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Benchmarks of one beam: operators, updates, solvers, dynamics and memory. Its
-// arguments say which beam, and those of Google Benchmark which benchmarks.
+// Benchmarks of one body: operators, updates, solvers, dynamics and memory. Its
+// arguments say which body, and those of Google Benchmark which benchmarks.
 // Runs on any number of ranks.
 
 #include <deal.II/base/mpi.h>
@@ -17,11 +17,16 @@ main(int argc, char **argv)
   using namespace corotet::benchmarks;
   const Session session(argv);
   Case          which;
-  CLI::App      application("Benchmarks of a beam");
+  CLI::App      application("Benchmarks of a body");
   application.add_option("--label", which.label, "First part of all names");
   application.add_option("--degree", which.degree)->check(CLI::Range(1, 3));
   application.add_option("--cells", which.cells, "Cuboids in x, y and z")
     ->delimiter(',');
+  application.add_option("--mesh", which.mesh, "Mesh instead of the beam");
+  application.add_option("--element-size", which.element_size);
+  application.add_option("--poissons-ratio", which.poissons_ratio);
+  application.add_option("--jump", which.jump, "Ratio of stiffnesses");
+  application.add_option("--bend", which.bend, "Angle [rad]");
   application.allow_extras();
   CLI11_PARSE(application, argc, argv);
 

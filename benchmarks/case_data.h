@@ -20,7 +20,7 @@ namespace corotet::benchmarks
 {
   /**
    * What the benchmarks of one case share, made when the first of them needs
-   * it: the problem at rest and its assembled stiffness matrix.
+   * it: the problem and its stiffness, matrix-free and assembled.
    */
   class CaseData
   {
@@ -44,9 +44,14 @@ namespace corotet::benchmarks
     Problem &
     problem();
 
-    /// K at rest, clamped: c_K = 1, c_M = 0.
+    /// K, clamped: c_K = 1, c_M = 0, with the rotations of the state of
+    /// solves.
     EffectiveOperator &
-    assembled();
+    effective();
+
+    /// The same, assembled.
+    const dealii::TrilinosWrappers::SparseMatrix &
+    matrix();
 
     /// The same matrix in blocks. On one rank only.
     const BlockMatrix &
@@ -56,14 +61,14 @@ namespace corotet::benchmarks
     const Counters &
     assembly_figures()
     {
-      assembled();
+      matrix();
       return figures;
     }
 
   private:
     Case                               description;
     std::unique_ptr<Problem>           the_problem;
-    std::unique_ptr<EffectiveOperator> the_matrix;
+    std::unique_ptr<EffectiveOperator> the_operator;
     std::optional<BlockMatrix>         the_blocks;
     Counters                           figures;
   };
@@ -95,7 +100,7 @@ namespace corotet::benchmarks
   void
   add_operators(CaseData &data);
 
-  /// Rotations and matrices of a bent beam.
+  /// Rotations, matrices, set-up and explicit steps of a deformed beam.
   void
   add_updates(CaseData &data);
 

@@ -3,14 +3,19 @@
 
 // What is done per cell, on data that stay in the first-level cache.
 
-#include <corotet/material/polar_decomposition.h>
+#include <corotet/material/polar_decomposition_simd.h>
+#include <corotet/operators/quadrature_kernel.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <memory>
 #include <vector>
 
+#include "flops.h"
 #include "measure.h"
 #include "svd_rotation.h"
 
@@ -41,6 +46,229 @@ namespace corotet::benchmarks
           result[n] = R * S;
         }
       return result;
+    }
+
+    /// Cells whose data stay in the first-level cache, n registers of them.
+    template <typename Kernel>
+    struct Cells
+    {
+      static constexpr unsigned int n = 48 / Kernel::n_nodes;
+
+      Cells()
+        : u(n)
+        , v(n)
+      {
+        for (unsigned int cell = 0; cell < n; ++cell)
+          for (int i = 0; i < Kernel::n_nodes; ++i)
+            for (int a = 0; a < 3; ++a)
+              u[cell].values[i][a] =
+                typename Kernel::V{} + std::sin(3.f * i + a + cell);
+      }
+
+      struct alignas(64) Values
+      {
+        typename Kernel::NodalValues values;
+      };
+
+      dealii::AlignedVector<Values> u;
+      dealii::AlignedVector<Values> v;
+    };
+
+    template <int p, typename T, bool with_mass>
+    struct FactoredCells : Cells<FactoredKernel<p, T>>
+    {
+      using Kernel = FactoredKernel<p, T>;
+
+      FactoredCells()
+        : coefficients(this->n)
+      {
+        for (auto &cell : coefficients)
+          for (int lane = 0; lane < n_lanes<T>; ++lane)
+            {
+              for (int i = 0; i < 9; ++i)
+                cell.gradients[i][lane] = std::cos(i + lane);
+              cell.lame_ratio[lane] = 1.5;
+            }
+      }
+
+      __attribute__((flatten, noinline)) void
+      apply()
+      {
+        for (unsigned int cell = 0; cell < this->n; ++cell)
+          {
+            typename Kernel::NodalValues u, v;
+            static_for<Kernel::n_nodes>([&](auto i) {
+              static_for<3>(
+                [&](auto a) { u[i][a] = this->u[cell].values[i][a]; });
+            });
+            Kernel::template apply<true, with_mass>(
+              &coefficients[cell], broadcast(T(2)), nullptr, u, v);
+            static_for<Kernel::n_nodes>([&](auto i) {
+              static_for<3>(
+                [&](auto a) { this->v[cell].values[i][a] = v[i][a]; });
+            });
+          }
+      }
+
+      dealii::AlignedVector<CellCoefficients<T>> coefficients;
+    };
+
+    template <int p>
+    struct QuadratureCells : Cells<QuadratureKernel<p>>
+    {
+      using Kernel = QuadratureKernel<p>;
+      using V      = typename Kernel::V;
+
+      QuadratureCells()
+        : reference(p)
+        , shapes(this->n)
+        , rotations(this->n)
+      {
+        for (unsigned int cell = 0; cell < this->n; ++cell)
+          for (unsigned int lane = 0; lane < batch_size; ++lane)
+            {
+              for (unsigned int i = 0; i < 9; ++i)
+                {
+                  shapes[cell].inverse_jacobian[i][lane] = std::cos(i + lane);
+                  rotations[cell].rotation[i][lane]      = i % 4 == 0;
+                }
+              shapes[cell].volume[lane] = 1;
+              shapes[cell].lambda[lane] = 1.5;
+              shapes[cell].mu[lane]     = 1;
+            }
+      }
+
+      /// P = R sigma(sym(R^T grad u)), as the operator has it.
+      static COROTET_ALWAYS_INLINE void
+      stress(const V (&R)[3][3],
+             const V lambda,
+             const V mu,
+             const V (&grad_u)[3][3],
+             V (&P)[3][3])
+      {
+        V A[3][3], sigma[3][3];
+        static_for<9>([&](auto ab) {
+          constexpr int a = ab / 3, b = ab % 3;
+          A[a][b] = R[0][a] * grad_u[0][b] + R[1][a] * grad_u[1][b] +
+                    R[2][a] * grad_u[2][b];
+        });
+        const V pressure = lambda * (A[0][0] + A[1][1] + A[2][2]);
+        static_for<9>([&](auto ab) {
+          constexpr int a = ab / 3, b = ab % 3;
+          sigma[a][b] = mu * (A[a][b] + A[b][a]);
+          if constexpr (a == b)
+            sigma[a][b] += pressure;
+        });
+        static_for<9>([&](auto ab) {
+          constexpr int a = ab / 3, b = ab % 3;
+          P[a][b] = R[a][0] * sigma[0][b] + R[a][1] * sigma[1][b] +
+                    R[a][2] * sigma[2][b];
+        });
+      }
+
+      __attribute__((flatten, noinline)) void
+      apply()
+      {
+        for (unsigned int cell = 0; cell < this->n; ++cell)
+          {
+            typename Kernel::NodalValues u, f{};
+            static_for<Kernel::n_nodes>([&](auto i) {
+              static_for<3>(
+                [&](auto a) { u[i][a] = this->u[cell].values[i][a]; });
+            });
+            V R[3][3];
+            static_for<9>([&](auto i) {
+              R[i / 3][i % 3] =
+                load_aligned<batch_size>(rotations[cell].rotation[i]);
+            });
+            const V lambda = load_aligned<batch_size>(shapes[cell].lambda);
+            const V mu     = load_aligned<batch_size>(shapes[cell].mu);
+            Kernel::integrate(reference.stiffness_rule,
+                              shapes[cell],
+                              u,
+                              f,
+                              [&](const unsigned int,
+                                  const V(&grad_u)[3][3],
+                                  V(&P)[3][3]) {
+                                stress(R, lambda, mu, grad_u, P);
+                              });
+            static_for<Kernel::n_nodes>([&](auto i) {
+              static_for<3>(
+                [&](auto a) { this->v[cell].values[i][a] = f[i][a]; });
+            });
+          }
+      }
+
+      const ReferenceElement               reference;
+      dealii::AlignedVector<CellShapes>    shapes;
+      dealii::AlignedVector<CellRotations> rotations;
+    };
+
+    template <typename CellsType>
+    void
+    add_kernel(const std::string &name, const double flops, const int lanes)
+    {
+      add_short("kernels/" + name, [=] {
+        const auto   cells = std::make_shared<CellsType>();
+        const double n     = lanes * CellsType::n;
+        return Measured{[cells] {
+                          cells->apply();
+                          benchmark::ClobberMemory();
+                        },
+                        {{"cells", n}, {"flops", n * flops}}};
+      });
+    }
+
+    template <int p>
+    void
+    add_kernels_of_degree()
+    {
+      const std::string name = fmt::format("P{}_", p);
+      const double      K    = factored_flops<p, true, false>();
+      const double      both = factored_flops<p, true, true>();
+      add_kernel<FactoredCells<p, double, false>>(name + "double",
+                                                  K,
+                                                  n_lanes<double>);
+      add_kernel<FactoredCells<p, double, true>>(name + "double_mass",
+                                                 both,
+                                                 n_lanes<double>);
+      add_kernel<FactoredCells<p, float, false>>(name + "float",
+                                                 K,
+                                                 n_lanes<float>);
+      add_kernel<FactoredCells<p, float, true>>(name + "float_mass",
+                                                both,
+                                                n_lanes<float>);
+      add_kernel<QuadratureCells<p>>(
+        name + "quadrature",
+        quadrature_flops(bernstein::size<p>,
+                         ReferenceElement(p).stiffness_rule.weights.size()),
+        n_lanes<double>);
+    }
+
+    /// The rotations of all lanes at once.
+    void
+    add_polar_decomposition_simd()
+    {
+      struct alignas(64) Matrix
+      {
+        Simd<double> F[3][3];
+      };
+      add_short("kernels/polar_decomposition_simd", [] {
+        constexpr unsigned int n = n_cells / n_lanes<double>;
+        const auto      F = std::make_shared<dealii::AlignedVector<Matrix>>(n);
+        const auto      R = std::make_shared<dealii::AlignedVector<Matrix>>(n);
+        const Gradients gradients = deformation_gradients();
+        for (unsigned int c = 0; c < n * n_lanes<double>; ++c)
+          for (unsigned int i = 0; i < 9; ++i)
+            (*F)[c / n_lanes<double>].F[i / 3][i % 3][c % n_lanes<double>] =
+              gradients[c][i / 3][i % 3];
+        return Measured{[F, R] {
+                          for (unsigned int i = 0; i < F->size(); ++i)
+                            polar_decomposition((*F)[i].F, (*R)[i].F);
+                          benchmark::ClobberMemory();
+                        },
+                        {{"cells", n_cells}}};
+      });
     }
 
     void
@@ -85,6 +313,10 @@ main(int argc, char **argv)
 {
   using namespace corotet::benchmarks;
   const Session session(argv);
+  add_kernels_of_degree<1>();
+  add_kernels_of_degree<2>();
+  add_kernels_of_degree<3>();
+  add_polar_decomposition_simd();
   add_polar_decomposition();
   add_jacobi_svd();
   return run(argc, argv);

@@ -96,7 +96,8 @@ namespace corotet::benchmarks
       add_short(name, [] {
         constexpr int steps = 100000;
         return Measured{[] { multiply_add<T>(steps); },
-                        {{"flops", 2. * 16 * steps * n_lanes<T> * n_ranks()}}};
+                        {{"flops", 2. * 16 * steps * n_lanes<T> * n_ranks()},
+                         {"simd_bits", 8. * sizeof(Simd<T>)}}};
       });
     }
   } // namespace

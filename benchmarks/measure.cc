@@ -5,7 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -81,20 +80,56 @@ namespace corotet::benchmarks
   }
 
   void
+  add_interleaved(const std::string               &name,
+                  const std::function<Measured()> &prepare,
+                  const unsigned int               repetitions,
+                  const double                     duration)
+  {
+    benchmark::RegisterBenchmark(
+      name,
+      [=](benchmark::State &state) {
+        const Measured measured = prepare();
+        const double   once     = seconds(measured.action);
+        const int n = std::clamp(static_cast<int>(duration / once), 5, 1000);
+        for (auto _ : state)
+          {
+            std::vector<double> times(n);
+            for (double &time : times)
+              {
+                measured.between();
+                time = seconds(measured.action);
+              }
+            std::nth_element(times.begin(), times.begin() + n / 2, times.end());
+            state.SetIterationTime(times[n / 2]);
+          }
+        report(state, measured.counters);
+      })
+      ->Iterations(1)
+      ->Repetitions(repetitions)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+  }
+
+  void
   add_long(const std::string               &name,
            const std::function<Counters()> &action,
            const unsigned int               repetitions)
   {
-    benchmark::RegisterBenchmark(name,
-                                 [=](benchmark::State &state) {
-                                   for (auto _ : state)
-                                     {
-                                       const Counters counters = action();
-                                       state.SetIterationTime(
-                                         counters.at("seconds"));
-                                       report(state, counters);
-                                     }
-                                 })
+    const auto measure = [=](benchmark::State &state) {
+      for (auto _ : state)
+        try
+          {
+            const Counters counters = action();
+            state.SetIterationTime(counters.at("seconds"));
+            report(state, counters);
+          }
+        catch (const std::exception &error)
+          {
+            state.SkipWithError(error.what());
+            return;
+          }
+    };
+    benchmark::RegisterBenchmark(name, measure)
       ->Iterations(1)
       ->Repetitions(repetitions)
       ->UseManualTime()
@@ -124,9 +159,13 @@ namespace corotet::benchmarks
   double
   peak_memory()
   {
-    rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss * 1024.;
+    std::ifstream status("/proc/self/status");
+    std::string   word;
+    double        kilobytes = 0;
+    while (status >> word)
+      if (word == "VmHWM:")
+        status >> kilobytes;
+    return 1024 * kilobytes;
   }
 
   double

@@ -47,6 +47,7 @@ namespace corotet::benchmarks
   {
     std::function<void()> action;
     Counters              counters;
+    std::function<void()> between = {};
   };
 
   void
@@ -55,8 +56,20 @@ namespace corotet::benchmarks
             const unsigned int               repetitions = 7,
             const double                     duration    = 0.1);
 
+  /**
+   * Registers a benchmark of an action as a Krylov method sees it: before every
+   * call @p between() is called, which is not timed and uses the vectors as
+   * such a method does. The time of a repetition is the median over its calls.
+   */
+  void
+  add_interleaved(const std::string               &name,
+                  const std::function<Measured()> &prepare,
+                  const unsigned int               repetitions = 3,
+                  const double                     duration    = 0.3);
+
   /// Registers a benchmark of something long, which is done @p repetitions
-  /// times. It returns its figures; "seconds" is the time that is reported.
+  /// times. It returns its figures; "seconds" is the time that is reported. An
+  /// exception, which all ranks must throw, is reported instead.
   void
   add_long(const std::string               &name,
            const std::function<Counters()> &action,
@@ -67,7 +80,8 @@ namespace corotet::benchmarks
   int
   run(int argc, char **argv);
 
-  /// Largest resident memory of this process so far [bytes].
+  /// Largest resident memory of this process so far [bytes]; not that of the
+  /// program that started it.
   double
   peak_memory();
 

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/with_degree.h>
+
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
+
 #include "case_data.h"
+#include "flops.h"
+#include "single_precision.h"
 
 namespace corotet::benchmarks
 {
@@ -20,31 +26,61 @@ namespace corotet::benchmarks
       return 8 * values + 4 * indices + 4 * rows + 16 * unknowns;
     }
 
+    /// The same without a matrix: the cells, both vectors once. Indices are
+    /// those of nodes.
+    double
+    matrix_free_traffic(const Problem &problem, const double bytes_per_cell)
+    {
+      const auto &disc = problem.discretization;
+      return disc.n_global_cells() *
+               (bytes_per_cell + 4. * disc.n_nodes_per_cell()) +
+             16 * problem.n_unknowns();
+    }
+
     /**
      * Input and output of an application, and how far the output is from that
-     * of the assembled matrix, relative to its largest entry.
+     * of quadrature, which shares nothing with the others, relative to its
+     * largest entry. (Quadrature itself is compared with the factored kernel.)
      */
     struct Application
     {
       explicit Application(CaseData &data)
         : x(data.problem().random_vector())
-        , y(data.problem().vector())
-        , expected(y)
+        , y(x)
+        , expected(x)
+        , solution(x)
+        , residual(x)
       {
-        data.assembled().vmult(expected, x);
+        data.problem().elasticity.apply_tangent_by_quadrature(expected, x);
+        data.problem().clamp(expected);
       }
 
+      /// Where the beam is clamped, only some have the rows of a diagonal
+      /// matrix.
       double
-      difference() const
+      difference(const Problem &problem) const
       {
         Vector error(y);
         error -= expected;
+        problem.clamp(error);
         return error.linfty_norm() / expected.linfty_norm();
+      }
+
+      /// What conjugate gradients do with their vectors between applications.
+      void
+      update_vectors()
+      {
+        const double size = x * y;
+        solution.add(std::isfinite(size) ? 1e-9 : 1., x);
+        residual.add(-1e-9, y);
+        x.add(residual.l2_norm() > 0 ? 0. : 1., residual);
       }
 
       Vector x;
       Vector y;
       Vector expected;
+      Vector solution;
+      Vector residual;
     };
 
     /// One row of the table: @p make returns a function of an Application.
@@ -52,14 +88,16 @@ namespace corotet::benchmarks
     void
     add_application(CaseData &data, const std::string &name, const Make &make)
     {
-      add_short(data.name(name), [&data, make] {
+      add_interleaved(data.name(name), [&data, make] {
         const auto     application = std::make_shared<Application>(data);
         const Measured made        = make(*application);
         made.action();
         Counters counters      = made.counters;
         counters["unknowns"]   = data.problem().n_unknowns();
-        counters["difference"] = application->difference();
-        return Measured{[application, made] { made.action(); }, counters};
+        counters["difference"] = application->difference(data.problem());
+        return Measured{[application, made] { made.action(); },
+                        counters,
+                        [application] { application->update_vectors(); }};
       });
     }
 
@@ -70,7 +108,7 @@ namespace corotet::benchmarks
         return 2. * data.assembly_figures().at("nonzeros");
       };
       add_application(data, "epetra", [&data, flops](Application &a) {
-        const auto  &matrix = data.assembled().matrix();
+        const auto  &matrix = data.matrix();
         const double n      = data.problem().n_unknowns();
         return Measured{[&] { matrix.vmult(a.y, a.x); },
                         {{"flops", flops()},
@@ -80,7 +118,7 @@ namespace corotet::benchmarks
       if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
         return;
       add_application(data, "eigen", [&data, flops](Application &a) {
-        const CsrView view = csr_view(data.assembled().matrix());
+        const CsrView view = csr_view(data.matrix());
         const double  n    = view.rows();
         return Measured{
           [&a, view] {
@@ -101,6 +139,98 @@ namespace corotet::benchmarks
             matrix_traffic(flops() / 2, blocks.n_blocks(), 2 * n / 3, n)}}};
       });
     }
+    /// Operations per cell of the factored kernel and of the quadrature.
+    struct Flops
+    {
+      double stiffness  = 0;
+      double with_mass  = 0;
+      double quadrature = 0;
+    };
+
+    Flops
+    flops_per_cell(const Problem &problem)
+    {
+      Flops result;
+      with_degree(problem.discretization.degree(), [&](const auto p) {
+        constexpr int degree = decltype(p)::value;
+        result.stiffness     = factored_flops<degree, true, false>();
+        result.with_mass     = factored_flops<degree, true, true>();
+      });
+      result.quadrature =
+        quadrature_flops(problem.reference.n_nodes,
+                         problem.reference.stiffness_rule.weights.size());
+      return result;
+    }
+
+    Counters
+    matrix_free_counters(CaseData    &data,
+                         const double flops,
+                         const double bytes_per_cell)
+    {
+      const Problem &problem = data.problem();
+      return {{"flops", flops * problem.discretization.n_global_cells()},
+              {"bytes", matrix_free_traffic(problem, bytes_per_cell)}};
+    }
+
+    void
+    add_matrix_free(CaseData &data)
+    {
+      add_application(data, "matrix_free", [&data](Application &a) {
+        const EffectiveOperator &A = data.effective();
+        return Measured{[&A, &a] { A.vmult(a.y, a.x); },
+                        matrix_free_counters(
+                          data, flops_per_cell(data.problem()).stiffness, 80)};
+      });
+      add_application(data, "matrix_free_mass", [&data](Application &a) {
+        const Problem &p  = data.problem();
+        const double   dt = first_period() / 100;
+        const auto     A = std::make_shared<EffectiveOperator>(p.discretization,
+                                                           p.elasticity,
+                                                           p.mass,
+                                                           p.is_prescribed);
+        A->update(1., 4 / (dt * dt));
+        Vector inertia(a.x);
+        p.mass.apply(inertia, a.x);
+        p.clamp(inertia);
+        a.expected.add(4 / (dt * dt), inertia);
+        return Measured{[A, &a] { A->vmult(a.y, a.x); },
+                        matrix_free_counters(data,
+                                             flops_per_cell(p).with_mass,
+                                             88)};
+      });
+      add_application(data, "quadrature", [&data](Application &a) {
+        const Problem &p = data.problem();
+        data.effective().vmult(a.expected, a.x);
+        return Measured{
+          [&p, &a] { p.elasticity.apply_tangent_by_quadrature(a.y, a.x); },
+          matrix_free_counters(data, flops_per_cell(p).quadrature, 168)};
+      });
+    }
+
+    /// Its vectors are its own, so the row is made by hand.
+    void
+    add_single_precision(CaseData &data)
+    {
+      add_interleaved(data.name("matrix_free_float"), [&data] {
+        const auto a = std::make_shared<Application>(data);
+        const auto K = std::make_shared<SinglePrecision>(data.effective());
+        K->x.copy_locally_owned_data_from(a->x);
+        K->apply();
+        a->y.copy_locally_owned_data_from(K->y);
+        Counters counters =
+          matrix_free_counters(data,
+                               flops_per_cell(data.problem()).stiffness,
+                               40);
+        counters["bytes"] -= 8 * data.problem().n_unknowns();
+        counters["unknowns"]   = data.problem().n_unknowns();
+        counters["difference"] = a->difference(data.problem());
+        return Measured{[K] { K->apply(); },
+                        counters,
+                        [K] {
+                          K->x.add(K->y.l2_norm() > 0 ? 0.f : 1.f, K->y);
+                        }};
+      });
+    }
   } // namespace
 
   void
@@ -109,5 +239,7 @@ namespace corotet::benchmarks
     add_long(data.name("assembly"),
              [&data] { return data.assembly_figures(); });
     add_matrix_formats(data);
+    add_matrix_free(data);
+    add_single_precision(data);
   }
 } // namespace corotet::benchmarks

@@ -4,13 +4,17 @@
 #include "problem.h"
 
 #include <corotet/mesh/box_mesh.h>
+#include <corotet/mesh/gmsh_mesh.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "measure.h"
 
 namespace corotet::benchmarks
 {
@@ -50,23 +54,110 @@ namespace corotet::benchmarks
            std::sqrt(12 * density / youngs_modulus);
   }
 
+  SerialMesh
+  serial_mesh(const Case &c)
+  {
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return {};
+    SerialMesh mesh;
+    if (c.mesh.empty())
+      mesh = beam(c.cells);
+    else
+      {
+        GmshMesh                 source;
+        dealii::ParameterHandler prm;
+        source.declare_parameters(prm);
+        prm.set("File", c.mesh);
+        if (c.element_size > 0)
+          prm.set("Element size", c.element_size);
+        mesh = source.create("");
+      }
+    double end = 0;
+    for (const Point<3> &x : mesh.vertices)
+      end = std::max(end, x[0]);
+    for (SerialMesh::Cell &cell : mesh.cells)
+      {
+        double x = 0;
+        for (const unsigned int vertex : cell.vertices)
+          x += mesh.vertices[vertex][0] / 4;
+        cell.region = x > end / 2;
+      }
+    mesh.region_names = {{0, "clamped"}, {1, "free"}};
+    return mesh;
+  }
+
+  namespace
+  {
+    std::map<unsigned int, IsotropicMaterial>
+    materials(const Case &c)
+    {
+      return {{0,
+               isotropic_material(youngs_modulus, c.poissons_ratio, density)},
+              {1,
+               isotropic_material(youngs_modulus * c.jump,
+                                  c.poissons_ratio,
+                                  density)}};
+    }
+
+    SerialMesh
+    mesh_and_memory(const Case &c, double &memory)
+    {
+      SerialMesh mesh = serial_mesh(c);
+      memory = dealii::Utilities::MPI::sum(present_memory(), MPI_COMM_WORLD);
+      return mesh;
+    }
+
+    // Where the point x of the straight beam is when it is bent to an arc.
+    Point<3>
+    bend(const Point<3> &x, const double angle)
+    {
+      if (angle == 0)
+        return x;
+      const double radius = length / angle;
+      const double phi    = x[0] / radius;
+      const double offset = radius - x[2] + height / 2;
+      return {offset * std::sin(phi),
+              x[1],
+              x[2] + offset * (1 - std::cos(phi))};
+    }
+
+    // The displacement that a map of positions means.
+    template <typename Map>
+    Vector
+    displacement(const Discretization &discretization, const Map &map)
+    {
+      Vector u;
+      discretization.initialize_vector(u);
+      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+        {
+          const Point<3>     x = discretization.node_position(n);
+          const Tensor<1, 3> d = map(x) - x;
+          for (unsigned int a = 0; a < 3; ++a)
+            u.local_element(3 * n + a) = d[a];
+        }
+      u.update_ghost_values();
+      return u;
+    }
+  } // namespace
+
   Problem::Problem(const Case &c)
     : log(MPI_COMM_WORLD, true)
-    , mesh(beam(c.cells), 0, 1., MPI_COMM_WORLD, log)
+    , mesh(mesh_and_memory(c, memory_at_start), 0, 1., MPI_COMM_WORLD, log)
     , discretization(mesh, c.degree)
     , reference(c.degree)
-    , mass(discretization, reference, {{0, density}}, MassType::consistent)
-    , elasticity(
-        discretization,
-        reference,
-        {{0, isotropic_material(youngs_modulus, poissons_ratio, density)}},
-        true)
+    , mass(discretization,
+           reference,
+           {{0, density}, {1, density}},
+           MassType::consistent)
+    , elasticity(discretization, reference, materials(c), true)
     , is_prescribed(3 * discretization.n_local_nodes(), 0)
+    , state(bent(c.bend))
   {
     for (unsigned int n = 0; n < discretization.n_local_nodes(); ++n)
       if (discretization.node_position(n)[0] < 1e-10)
         for (unsigned int a = 0; a < 3; ++a)
           is_prescribed[3 * n + a] = 1;
+    reset_rotations();
   }
 
   Vector
@@ -88,19 +179,38 @@ namespace corotet::benchmarks
   Vector
   Problem::bent(const double angle) const
   {
-    const double radius = length / angle;
-    Vector       u      = vector();
-    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-      {
-        const Point<3> x   = discretization.node_position(n);
-        const double   phi = x[0] / radius;
-        u.local_element(3 * n) =
-          (radius - x[2] + height / 2) * std::sin(phi) - x[0];
-        u.local_element(3 * n + 2) =
-          (radius - x[2] + height / 2) * (1 - std::cos(phi));
-      }
-    u.update_ghost_values();
-    return u;
+    return displacement(discretization,
+                        [angle](const Point<3> &x) { return bend(x, angle); });
+  }
+
+  Vector
+  Problem::deformed() const
+  {
+    return displacement(discretization, [](const Point<3> &x) {
+      const double twist = 2 * x[0] / length;
+      const double y     = 1.08 * (x[1] - height / 2);
+      const double z     = 0.91 * (x[2] - height / 2);
+      const double wave  = 0.01 * length * std::sin(10 * x[0] / length);
+      return bend({1.05 * x[0] + wave,
+                   height / 2 + std::cos(twist) * y - std::sin(twist) * z,
+                   height / 2 + std::sin(twist) * y + std::cos(twist) * z},
+                  1.5);
+    });
+  }
+
+  Vector
+  Problem::positions() const
+  {
+    Vector result(state);
+    result.zero_out_ghost_values();
+    result += discretization.node_positions();
+    return result;
+  }
+
+  void
+  Problem::reset_rotations()
+  {
+    elasticity.update_rotations(state);
   }
 
   Vector
@@ -128,7 +238,6 @@ namespace corotet::benchmarks
             std::sin(1e5 * (x[0] + 1.7 * x[1] + 2.3 * x[2]) + a);
       }
     clamp(v);
-    v.update_ghost_values();
     return v;
   }
 } // namespace corotet::benchmarks

@@ -15,23 +15,31 @@
 namespace corotet::benchmarks
 {
   /// Length, width and height of the beam [m], and its material.
-  constexpr double length          = 1;
-  constexpr double height          = 0.1;
-  constexpr double youngs_modulus  = 4e6;
-  constexpr double poissons_ratio  = 0.3;
-  constexpr double density         = 1000;
-  constexpr double standard_fall   = 9.81;
-  constexpr double bent_beam_angle = 1.5;
+  constexpr double length         = 1;
+  constexpr double height         = 0.1;
+  constexpr double youngs_modulus = 4e6;
+  constexpr double poissons_ratio = 0.3;
+  constexpr double density        = 1000;
+  constexpr double standard_fall  = 9.81;
 
   /**
-   * Which beam: polynomial degree, cuboids in each direction (five tetrahedra
-   * each), and the label that its benchmarks are known by.
+   * Which body, and the label that its benchmarks are known by.
    */
   struct Case
   {
-    std::string                 label  = "P3/small";
-    unsigned int                degree = 3;
-    std::array<unsigned int, 3> cells  = {{24, 3, 3}};
+    std::string  label  = "P3/small";
+    unsigned int degree = 3;
+    /// Cuboids in each direction of the beam, five tetrahedra each.
+    std::array<unsigned int, 3> cells = {{24, 3, 3}};
+    /// Not empty: a mesh that gmsh reads or makes, instead of the beam, with
+    /// elements of that size [m] if it is not 0.
+    std::string mesh;
+    double      element_size   = 0;
+    double      poissons_ratio = 0.3;
+    /// Stiffness of the half that is not clamped, over that of the other.
+    double jump = 1;
+    /// The state of solves: bent to an arc of that angle [rad].
+    double bend = 0;
   };
 
   /// The mesh of the beam, with vertices inside it and in its sides moved by up
@@ -39,13 +47,18 @@ namespace corotet::benchmarks
   SerialMesh
   beam(const std::array<unsigned int, 3> &cells);
 
+  /// The mesh of a case on rank 0. Region 1 is the half that is not clamped.
+  SerialMesh
+  serial_mesh(const Case &c);
+
   /// Period of the first bending mode [s], by Euler and Bernoulli.
   double
   first_period();
 
   /**
-   * A cantilever of 10 : 1 : 1, clamped where x = 0, with everything that
-   * linear and corotational operators are made of but no matrix.
+   * A cantilever, clamped where x = 0, with everything that linear and
+   * corotational operators are made of but no matrix. Rotations are those of
+   * the state of solves.
    */
   struct Problem
   {
@@ -59,12 +72,26 @@ namespace corotet::benchmarks
     Vector
     bent(const double angle) const;
 
+    /// A state in general position, ghosts included: the beam is stretched by
+    /// some ten percent, differently in each direction and from place to place,
+    /// twisted by two radians and bent to an arc of 1.5.
+    Vector
+    deformed() const;
+
+    /// Positions of the nodes in the state of solves.
+    Vector
+    positions() const;
+
+    /// Takes the rotations of the state of solves.
+    void
+    reset_rotations();
+
     /// The weight of the beam [N]; zero where it is clamped.
     Vector
     weight() const;
 
     /// Pseudo-random numbers of size 1, the same on any number of ranks; zero
-    /// where the beam is clamped. Ghosts included.
+    /// where the beam is clamped.
     Vector
     random_vector() const;
 
@@ -77,13 +104,18 @@ namespace corotet::benchmarks
       return 3. * discretization.n_global_nodes();
     }
 
-    Log                        log;
+    Log log;
+    /// Resident memory when the serial mesh had been made, and nothing else
+    /// [bytes, of all ranks].
+    double                     memory_at_start = 0;
     Mesh                       mesh;
     Discretization             discretization;
     ReferenceElement           reference;
     Mass                       mass;
     Elasticity                 elasticity;
     std::vector<unsigned char> is_prescribed;
+    /// The displacement of solves, ghosts included.
+    Vector state;
   };
 } // namespace corotet::benchmarks
 

@@ -37,7 +37,11 @@ def command(run, options, output):
     words = [str(options.build / "benchmarks" / f"bench_{executable}")]
     if executable == "case":
         case = plan.CASES[run.what]
-        words += ["--label", run.what, "--degree", str(case.degree), "--cells", ",".join(map(str, case.cells))]
+        words += ["--label", run.what, "--degree", str(case.degree), *case.arguments]
+        if case.cells:
+            words += ["--cells", ",".join(map(str, case.cells))]
+        else:
+            words += ["--mesh", plan.BRACKET, "--element-size", str(case.element_size)]
     words += [f"--benchmark_filter=^{re.escape(run.what)}/({pattern})(/iterations:|$)", f"--benchmark_out={output}",
               "--benchmark_out_format=json"]
     if run.ranks > 1:
@@ -45,12 +49,15 @@ def command(run, options, output):
     return words
 
 
-def merge(document, ranks, results):
-    """Adds the fastest repetition of each benchmark of a process."""
+def merge(document, ranks, results, failures):
+    """Adds the fastest repetition of each benchmark of a process, and to `failures` what failed."""
     for entry in document["benchmarks"]:
         if entry.get("run_type") != "iteration":
             continue
         name = SUFFIX.sub("", entry["name"]) + (f"@{ranks}" if ranks > 1 else "")
+        if entry.get("error_occurred"):
+            failures.append(f"{name}: {entry['error_message'].strip()[:300]}")
+            continue
         seconds = entry["real_time"] * UNITS[entry["time_unit"]]
         if name not in results or seconds < results[name]["seconds"]:
             counters = {key: value for key, value in entry.items() if key not in FIELDS}
@@ -77,7 +84,7 @@ def execute(options):
         elif text.strip():
             document = json.loads(text)
             context = context or document["context"]
-            merge(document, run.ranks, results)
+            merge(document, run.ranks, results, failures)
         print(f"{time.monotonic() - start:.0f} s", flush=True)
     return results, context, failures
 
@@ -105,7 +112,10 @@ def judge(results, quick):
     for ratio in plan.RATIOS:
         above = value(ratio.numerator, results, quick)
         below = 1.0 if ratio.denominator is None else value(ratio.denominator, results, quick)
-        measured = above / below if above is not None and below else None
+        if above is None or not below:
+            measured = None
+        else:
+            measured = above - below if ratio.difference else above / below
         required = f">= {ratio.at_least:g}" if ratio.at_least is not None else f"<= {ratio.at_most:g}"
         if quick:
             verdict = "-"

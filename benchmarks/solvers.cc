@@ -14,12 +14,13 @@ namespace corotet::benchmarks
   {
     constexpr double static_tolerance = 1e-8;
 
-    /// |b - A x| / |b|, by the assembled matrix.
+    /// |b - A x| / |b|, by the matrix-free operator, which is checked
+    /// elsewhere.
     double
     residual(CaseData &data, const Vector &x, const Vector &b)
     {
       Vector r(b);
-      data.assembled().vmult(r, x);
+      data.effective().vmult(r, x);
       r -= b;
       return r.l2_norm() / b.l2_norm();
     }
@@ -34,10 +35,8 @@ namespace corotet::benchmarks
       Vector       x(b);
       Counters     result;
       result["unknowns"] = data.problem().n_unknowns();
-      result["setup_s"]  = seconds([&] {
-        P.build(data.assembled(),
-                data.problem().discretization.node_positions());
-      });
+      result["setup_s"] =
+        seconds([&] { P.build(data.effective(), data.problem().positions()); });
       result["solve_s"]  = seconds([&] {
         result["cg_iterations"] =
           conjugate_gradients(A, x, b, P, static_tolerance);
@@ -51,7 +50,7 @@ namespace corotet::benchmarks
     solve_by_cholmod(CaseData &data)
     {
       const Vector  b    = data.problem().weight();
-      const CsrView view = csr_view(data.assembled().matrix());
+      const CsrView view = csr_view(data.matrix());
       // A symmetric matrix in compressed rows is one in compressed columns.
       using Columns = Eigen::SparseMatrix<double>;
       const Eigen::Map<const Columns>                    matrix(view.rows(),
@@ -94,16 +93,31 @@ namespace corotet::benchmarks
   void
   add_solvers(CaseData &data)
   {
-    for (const auto &candidate : preconditioners())
+    const auto add = [&data](const std::string &name,
+                             const std::string &type,
+                             const std::string &parameters) {
+      // Each has the assembled matrix before, if it needs one at all.
+      const bool assemble = type != "p-multigrid" && type != "jacobi";
       add_long(
-        data.name("solve/" + candidate.name), [&data, type = candidate.name] {
-          return solve(data, data.assembled(), *make_preconditioner(type));
-        });
-    // The usual way, whatever the effective operator does.
+        data.name("solve/" + name),
+        [&data, type, parameters, assemble] {
+          if (assemble || data.which().degree == 1)
+            data.matrix();
+          return solve(data,
+                       data.effective(),
+                       *make_preconditioner(type, parameters));
+        },
+        type == "p-multigrid" ? 3 : 1);
+    };
+    for (const auto &candidate : preconditioners())
+      add(candidate.name, candidate.name, "");
+    for (const std::string coarse : {"direct", "aggregation", "amg"})
+      add("p-multigrid-" + coarse,
+          "p-multigrid",
+          "set Coarse solver = " + coarse);
+    // The usual way.
     add_long(data.name("solve/cg_ml"), [&data] {
-      return solve(data,
-                   data.assembled().matrix(),
-                   *make_preconditioner("amg"));
+      return solve(data, data.matrix(), *make_preconditioner("amg"));
     });
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
       add_long(data.name("solve/cholmod"),
@@ -116,22 +130,21 @@ namespace corotet::benchmarks
     const auto sum = [](const double value) {
       return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD);
     };
-    const double at_start = sum(present_memory());
     for (const auto &candidate : preconditioners())
       if (candidate.name != "direct")
         add_long(data.name("memory/" + candidate.name),
-                 [&data, sum, at_start, type = candidate.name] {
-                   Counters result;
+                 [&data, sum, type = candidate.name] {
+                   Counters     result;
+                   const double at_start = data.problem().memory_at_start;
                    result["discretization_bytes"] =
-                     (data.problem(), sum(present_memory()) - at_start);
+                     sum(present_memory()) - at_start;
                    const Vector b = data.problem().weight();
                    Vector       x(b);
                    const auto   P = make_preconditioner(type);
-                   P->build(data.assembled(),
-                            data.problem().discretization.node_positions());
+                   P->build(data.effective(), data.problem().positions());
                    // Some iterations touch all that a solve needs.
                    result["seconds"]    = seconds([&] {
-                     conjugate_gradients(data.assembled(), x, b, *P, 0.1);
+                     conjugate_gradients(data.effective(), x, b, *P, 0.1);
                    });
                    result["unknowns"]   = data.problem().n_unknowns();
                    result["peak_bytes"] = sum(peak_memory()) - at_start;

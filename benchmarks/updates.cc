@@ -25,7 +25,7 @@ namespace corotet::benchmarks
             for (unsigned int a = 0; a < 3; ++a)
               for (unsigned int k = 0; k < 3; ++k)
                 by_xi[a][k] +=
-                  u.local_element(3 * nodes[i] + a) * gradients[0][i][k];
+                  u.local_element(3 * nodes[i] + a) * gradients(0, i, k);
           const auto grad_u =
             by_xi * discretization.geometry(c).inverse_jacobian;
           for (unsigned int a = 0; a < 3; ++a)
@@ -39,7 +39,7 @@ namespace corotet::benchmarks
     make_svd_rotations(CaseData &data)
     {
       Problem     &problem = data.problem();
-      const Vector u       = problem.bent(bent_beam_angle);
+      const Vector u       = problem.deformed();
       const auto   F       = std::make_shared<std::vector<Matrix>>(
         deformation_gradients(problem, u));
       const auto R      = std::make_shared<std::vector<Matrix>>(F->size());
@@ -57,7 +57,7 @@ namespace corotet::benchmarks
               std::max(difference,
                        std::abs((*R)[c](a, b) -
                                 problem.elasticity.rotation(c)[a][b]));
-      problem.elasticity.update_rotations(problem.vector());
+      problem.reset_rotations();
       return {action,
               {{"cells", static_cast<double>(F->size())},
                {"difference", difference}}};
@@ -71,26 +71,96 @@ namespace corotet::benchmarks
          static_cast<double>(data.problem().discretization.n_local_cells())}};
     }
 
-    /// While it lives the rotations and the matrix may be those of the bent
-    /// beam; afterwards they are those of the beam at rest.
-    struct BentBeam
+    /// While it lives the rotations and the operator may be those of the
+    /// deformed beam; afterwards they are those of the state of solves.
+    struct DeformedBeam
     {
-      explicit BentBeam(CaseData &data)
+      explicit DeformedBeam(CaseData &data)
         : data(data)
-        , u(data.problem().bent(bent_beam_angle))
-      {
-        data.assembled();
-      }
+        , u(data.problem().deformed())
+        , f(data.problem().vector())
+      {}
 
-      ~BentBeam()
+      ~DeformedBeam()
       {
-        data.problem().elasticity.update_rotations(data.problem().vector());
-        data.assembled().update(1., 0.);
+        data.problem().reset_rotations();
+        data.effective().update(1., 0.);
       }
 
       CaseData    &data;
       const Vector u;
+      Vector       f;
     };
+
+    /// What a Newton iteration does before its solve, when the preconditioner
+    /// is that of an iteration before.
+    Measured
+    make_setup_after_rotation(CaseData &data)
+    {
+      const double dt   = first_period() / 100;
+      const double c_M  = 4 / (dt * dt);
+      const auto   beam = std::make_shared<DeformedBeam>(data);
+      const std::shared_ptr<Preconditioner> P =
+        make_preconditioner("p-multigrid");
+      data.effective().update(1., c_M);
+      P->build(data.effective(), data.problem().positions());
+      return {[beam, P, c_M] {
+                EffectiveOperator &A = beam->data.effective();
+                beam->data.problem().elasticity.update_rotations_and_force(
+                  beam->f, beam->u);
+                A.update(1., c_M);
+                P->update(A);
+              },
+              cells(data)};
+    }
+
+    /// Vectors of explicit dynamics, and what a step must make of them.
+    struct Explicit
+    {
+      explicit Explicit(const Problem &p)
+        : u(p.deformed())
+        , v(p.vector())
+        , g(p.weight())
+        , inverse_mass(p.vector())
+      {
+        u.zero_out_ghost_values();
+        const Mass lumped(p.discretization,
+                          p.reference,
+                          {{0, density}, {1, density}},
+                          MassType::diagonal_scaling);
+        for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+          inverse_mass.local_element(i) =
+            p.is_prescribed[i] ? 0 : 1 / lumped.diagonal().local_element(i);
+      }
+
+      Vector u, v, g, inverse_mass;
+    };
+
+    Measured
+    make_explicit_step(CaseData &data)
+    {
+      // Far below the limit of stability.
+      constexpr double dt   = 1e-8;
+      Problem         &p    = data.problem();
+      const auto       beam = std::make_shared<DeformedBeam>(data);
+      const auto       s    = std::make_shared<Explicit>(p);
+      Vector           v(s->v);
+      p.elasticity.update_rotations_and_force(v, beam->u);
+      v.sadd(-1., s->g);
+      v.scale(s->inverse_mass);
+      v *= dt;
+      p.elasticity.explicit_step(s->u, s->v, s->g, s->inverse_mass, dt);
+      const double size = v.linfty_norm();
+      v -= s->v;
+      Counters counters      = cells(data);
+      counters["unknowns"]   = p.n_unknowns();
+      counters["difference"] = v.linfty_norm() / size;
+      return {[beam, s, &p] {
+                p.elasticity.explicit_step(
+                  s->u, s->v, s->g, s->inverse_mass, dt);
+              },
+              counters};
+    }
   } // namespace
 
   void
@@ -99,19 +169,25 @@ namespace corotet::benchmarks
     add_short(data.name("rotations_svd"),
               [&data] { return make_svd_rotations(data); });
     add_short(data.name("rotations"), [&data] {
-      const auto beam = std::make_shared<BentBeam>(data);
+      const auto beam = std::make_shared<DeformedBeam>(data);
       return Measured{
         [beam] { beam->data.problem().elasticity.update_rotations(beam->u); },
         cells(data)};
     });
     add_short(data.name("rotations_and_matrix"), [&data] {
-      const auto beam = std::make_shared<BentBeam>(data);
+      data.matrix();
+      const auto beam = std::make_shared<DeformedBeam>(data);
       return Measured{[beam] {
                         beam->data.problem().elasticity.update_rotations(
                           beam->u);
-                        beam->data.assembled().update(1., 0.);
+                        beam->data.effective().update(1., 0.);
+                        beam->data.effective().matrix();
                       },
                       cells(data)};
     });
+    add_short(data.name("setup_after_rotation"),
+              [&data] { return make_setup_after_rotation(data); });
+    add_short(data.name("explicit_step"),
+              [&data] { return make_explicit_step(data); });
   }
 } // namespace corotet::benchmarks
