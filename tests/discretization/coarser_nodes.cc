@@ -94,7 +94,7 @@ TEST_P(CoarserNodesTest, EmbeddingIsExact)
   for (unsigned int n = 0; n < fine.n_owned_nodes(); ++n)
     for (unsigned int a = 0; a < 3; ++a)
       {
-        u.local_element(3 * n + a)        = 1;
+        u.local_element(3 * n + a) = 1;
         expected.local_element(3 * n + a) =
           1 + function(fine.node_position(n))[a];
       }

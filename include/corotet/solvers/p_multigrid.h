@@ -87,7 +87,7 @@ namespace corotet
     unsigned int smoother_degree = 4;
     double       smoothing_range = 15;
     std::string  coarse_type     = "automatic";
-    unsigned int direct_limit    = 30000;
+    unsigned int direct_limit    = 15000;
 
     /// Finest first.
     std::vector<std::unique_ptr<Level>>            levels;
