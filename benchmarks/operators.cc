@@ -139,6 +139,7 @@ namespace corotet::benchmarks
             matrix_traffic(flops() / 2, blocks.n_blocks(), 2 * n / 3, n)}}};
       });
     }
+
     /// Operations per cell of the factored kernel and of the quadrature.
     struct Flops
     {

@@ -159,7 +159,8 @@ RATIOS = [
     Ratio("Stiffness jump of 1000: most iterations", hard("jump-1000"), None, "-", at_most=39),
     Ratio("P3 840k solve in operator applications", "P3/840k/solve/p-multigrid:solve_s", "P3/840k/matrix_free", "250",
           at_most=300),
-    Ratio("JacobiSVD per cell over rotations of all cells (twisted, bent, stretched)", "P3/840k/rotations_svd", "P3/840k/rotations", "24", at_least=20),
+    Ratio("JacobiSVD per cell over rotations of all cells (twisted, bent, stretched)", "P3/840k/rotations_svd",
+          "P3/840k/rotations", "24", at_least=20),
     Ratio("P1 bent backward Euler step in Epetra SpMVs", "P1/110k/backward_euler/p-multigrid", "P1/110k/epetra",
           "VegaFEM 1000", at_most=200),
     Ratio("P1 rotations and matrix in Epetra SpMVs", "P1/110k/rotations_and_matrix", "P1/110k/epetra", "VegaFEM 61",
@@ -174,7 +175,8 @@ RATIOS = [
           at_most=600),
 ]
 
-# Largest relative difference between an operator and the same by quadrature, and largest residual of a solve to 1e-8: that
-# which conjugate gradients update drifts from the true one.
+# Largest relative difference between an operator and the same by quadrature.
 DIFFERENCE = {"float": 1e-5, "": 1e-11}
-RESIDUAL = 5e-8
+# Largest residual of a solve to 1e-8: that which conjugate gradients update drifts from the true one, by round-off of the
+# stiff part's forces where it hangs on a soft one.
+RESIDUAL = {"jump": 5e-6, "": 5e-8}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""Results of benchmarks as pictures: throughput over size, and the roofline."""
+"""Results of benchmarks as pictures: throughput over size, the roofline, and times of solves."""
 
 import matplotlib
 
@@ -15,6 +15,9 @@ COLOURS = {name: f"C{i}" for i, name in enumerate(tables.OPERATORS)}
 MARKERS = {1: "^", 2: "s", 3: "o"}
 TITLES = {"matrix_free": "matrix-free", "matrix_free_mass": "matrix-free with mass", "matrix_free_float": "matrix-free, float",
           "quadrature": "quadrature", "block_csr": "3 x 3 block CSR", "eigen": "Eigen CSR", "epetra": "Trilinos Epetra CSR"}
+
+SOLVERS = {"p-multigrid": "CG + p-multigrid", "cg_ml": "CG + ML, assembled", "jacobi": "CG + Jacobi, matrix-free",
+           "cholmod": "CHOLMOD, assembled"}
 
 
 def applications(results):
@@ -30,6 +33,16 @@ def save(figure, path):
     plt.close(figure)
 
 
+def show_legend(axes):
+    """Beside the last of the axes, of all of them."""
+    entries = {}
+    for axis in axes:
+        for handle, label in zip(*axis.get_legend_handles_labels()):
+            entries.setdefault(label, handle)
+    if entries:
+        axes[-1].legend(entries.values(), entries.keys(), loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
+
+
 def draw_throughput(results, path):
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.6), sharey=True)
     for degree, axis in zip((1, 2, 3), axes):
@@ -42,7 +55,7 @@ def draw_throughput(results, path):
         axis.set_xlabel("unknowns")
         axis.grid(True, which="both", alpha=0.2)
     axes[0].set_ylabel("million unknowns per second, one core")
-    axes[-1].legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
+    show_legend(axes)
     save(figure, path)
 
 
@@ -78,6 +91,24 @@ def draw_roofline(results, path):
     save(figure, path)
 
 
+def draw_solves(results, path):
+    ways = ["p-multigrid", "cg_ml", "jacobi", "cholmod"]
+    figure, axes = plt.subplots(1, 2, figsize=(8.5, 3.6), sharey=True)
+    for degree, axis in zip((2, 3), axes):
+        for i, way in enumerate(ways):
+            points = sorted((r["unknowns"], r["seconds"]) for name, r in tables.of_beam(results).items()
+                            if name.startswith(f"P{degree}/") and name.endswith(f"/solve/{way}"))
+            if points:
+                axis.loglog(*zip(*points), marker=MARKERS[degree], color=f"C{i}", label=SOLVERS[way])
+        axis.set_title(f"degree {degree}")
+        axis.set_xlabel("unknowns")
+        axis.grid(True, which="both", alpha=0.2)
+    axes[0].set_ylabel("seconds to 1e-8, set-up included, one core")
+    show_legend(axes)
+    save(figure, path)
+
+
 def draw(results, folder, stem):
+    draw_solves(results, folder / f"{stem}-solves.svg")
     draw_throughput(results, folder / f"{stem}-throughput.svg")
     draw_roofline(results, folder / f"{stem}-roofline.svg")

@@ -5,7 +5,8 @@
 """Runs the benchmarks of plan.py, checks the required ratios, and writes tables, plots and one JSON file.
 
 Times are minima over repetitions. Exit status: 0, or 1 if a ratio is not reached, could not be measured, or a benchmark
-failed or computed something wrong. With --quick smaller cases stand for the large ones, and ratios get no verdict.
+failed or computed something wrong. With --quick smaller cases stand for the large ones, and ratios get no verdict. With
+--document it measures nothing but writes doc/measurements.md from the results of the last run.
 """
 
 import argparse
@@ -42,7 +43,7 @@ def command(run, options, output):
             words += ["--cells", ",".join(map(str, case.cells))]
         else:
             words += ["--mesh", plan.BRACKET, "--element-size", str(case.element_size)]
-    words += [f"--benchmark_filter=^{re.escape(run.what)}/({pattern})(/iterations:|$)", f"--benchmark_out={output}",
+    words += [f"--benchmark_filter=^{run.what.replace('.', '[.]')}/({pattern})(/iterations:|$)", f"--benchmark_out={output}",
               "--benchmark_out_format=json"]
     if run.ranks > 1:
         words = options.mpirun.split() + ["-n", str(run.ranks)] + words
@@ -85,6 +86,8 @@ def execute(options):
             document = json.loads(text)
             context = context or document["context"]
             merge(document, run.ranks, results, failures)
+        else:
+            failures.append(f"{what}: no benchmark of that name")
         print(f"{time.monotonic() - start:.0f} s", flush=True)
     return results, context, failures
 
@@ -106,16 +109,27 @@ def split(name):
     return "/".join(words[:2]), "/".join(words[2:])
 
 
+def explain(term, amount):
+    """A term of a ratio with its unit."""
+    counter = (term[0] if isinstance(term, list) else term).partition(":")[2]
+    if counter and not counter.endswith("_s"):
+        return f"{amount:.4g}"
+    return f"{amount:.3g} s" if amount >= 1 else f"{amount * 1e3:.3g} ms" if amount >= 1e-3 else f"{amount * 1e6:.3g} us"
+
+
 def judge(results, quick):
-    """Rows of the table of ratios: name, measured, prototype, required, verdict."""
+    """Rows of the table of ratios: name, measured, of what, prototype, required, verdict."""
     rows = []
     for ratio in plan.RATIOS:
         above = value(ratio.numerator, results, quick)
         below = 1.0 if ratio.denominator is None else value(ratio.denominator, results, quick)
         if above is None or not below:
-            measured = None
+            measured, terms = None, "-"
         else:
             measured = above - below if ratio.difference else above / below
+            terms = explain(ratio.numerator, above)
+            if ratio.denominator is not None:
+                terms += (" - " if ratio.difference else " / ") + explain(ratio.denominator, below)
         required = f">= {ratio.at_least:g}" if ratio.at_least is not None else f"<= {ratio.at_most:g}"
         if quick:
             verdict = "-"
@@ -124,7 +138,7 @@ def judge(results, quick):
         else:
             reached = measured >= ratio.at_least if ratio.at_least is not None else measured <= ratio.at_most
             verdict = "pass" if reached else "FAIL"
-        rows.append([ratio.name, "-" if measured is None else f"{measured:.3g}", ratio.prototype, required, verdict])
+        rows.append([ratio.name, "-" if measured is None else f"{measured:.3g}", terms, ratio.prototype, required, verdict])
     return rows
 
 
@@ -132,12 +146,32 @@ def wrong_results(results):
     """What the benchmarks computed wrongly: a fast wrong answer is none."""
     found = []
     for name, result in results.items():
-        limit = plan.DIFFERENCE["float" if "float" in name else ""]
-        if not result.get("difference", 0) <= limit:
-            found.append(f"{name}: differs by {result['difference']:.2g}; allowed is {limit:g}")
-        if not result.get("residual", 0) <= plan.RESIDUAL:
-            found.append(f"{name}: relative residual {result['residual']:.2g}; allowed is {plan.RESIDUAL:g}")
+        for what, limits in (("difference", plan.DIFFERENCE), ("residual", plan.RESIDUAL)):
+            limit = next(limits[word] for word in limits if word in name)
+            if not result.get(what, 0) <= limit:
+                found.append(f"{name}: {what} {result[what]:.2g}; allowed is {limit:g}")
     return found
+
+
+def measure(options, path):
+    """Runs everything, writes the JSON file and returns its contents."""
+    start = time.monotonic()
+    load = os.getloadavg()[0]
+    results, context, failures = execute(options)
+    machine = {key: context.get(key) for key in ("num_cpus", "mhz_per_cpu", "caches")}
+    document = {"date": context.get("date"), "machine": machine, "load": load, "seconds": time.monotonic() - start,
+                "failures": failures, "results": results}
+    options.output.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    return document
+
+
+def draw(results, output, stem):
+    try:
+        import plots
+        plots.draw(results, output, stem)
+    except ImportError as error:
+        print(f"no plots: {error}")
 
 
 def main():
@@ -147,32 +181,29 @@ def main():
     parser.add_argument("--quick", action="store_true", help="small cases only")
     parser.add_argument("--only", help="only runs whose case matches this regular expression")
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe", help="how to start several ranks")
+    parser.add_argument("--document", action="store_true",
+                        help="measure nothing; write doc/measurements.md from the last results")
     options = parser.parse_args()
 
-    start = time.monotonic()
-    load = os.getloadavg()[0]
-    results, context, failures = execute(options)
-    failures += wrong_results(results)
-    ratios = judge(results, options.quick)
-
-    options.output.mkdir(parents=True, exist_ok=True)
     stem = "quick" if options.quick else "benchmarks"
-    machine = {key: context.get(key) for key in ("num_cpus", "mhz_per_cpu", "caches")}
-    (options.output / f"{stem}.json").write_text(
-        json.dumps({"date": context.get("date"), "machine": machine, "load": load, "results": results}, indent=1) + "\n")
-    text = tables.ratios(ratios) + "\n" + tables.details(results)
-    (options.output / f"{stem}.txt").write_text(text)
-    print("\n" + text)
-    try:
-        import plots
-        plots.draw(results, options.output, stem)
-    except ImportError as error:
-        print(f"no plots: {error}")
-    if load > 0.5:
-        print(f"warning: others were using this machine at the start (load {load:.1f}): times may be too long")
+    path = options.output / f"{stem}.json"
+    document = json.loads(path.read_text(encoding="utf-8")) if options.document else measure(options, path)
+    results = document["results"]
+    failures = document["failures"] + wrong_results(results)
+    ratios = judge(results, options.quick)
+    text = "\n".join(table.as_text() for table in [tables.ratios(ratios)] + tables.details(results))
+    (options.output / f"{stem}.txt").write_text(text, encoding="utf-8")
+    draw(results, options.output, stem)
+    if options.document:
+        import document as writer
+        writer.write(document, ratios, options.output, stem, Path("doc"))
+    else:
+        print("\n" + text)
+    if document["load"] > 0.5:
+        print(f"warning: others were using this machine at the start (load {document['load']:.1f}): times may be too long")
     for failure in failures:
         print("FAIL:", failure)
-    print(f"{time.monotonic() - start:.0f} s; results: {options.output / stem}.json")
+    print(f"{document['seconds']:.0f} s; results: {path}")
     return 1 if failures or any(row[-1].startswith("FAIL") for row in ratios) else 0
 
 

@@ -1,26 +1,49 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""Results of benchmarks as text."""
+"""Results of benchmarks as tables: what is in them, and how they look as text and on a page."""
+
+from dataclasses import dataclass
 
 OPERATORS = ["matrix_free", "matrix_free_mass", "matrix_free_float", "quadrature", "block_csr", "eigen", "epetra"]
+COARSE = ["direct", "aggregation", "amg"]
 
 
-def table(title, head, rows):
-    """Columns as wide as needed, the first to the left."""
-    rows = [[str(cell) for cell in row] for row in rows]
-    if not rows:
-        return ""
-    widths = [max(len(row[i]) for row in [head] + rows) for i in range(len(head))]
+@dataclass
+class Table:
+    """Rows of text under a head, and a sentence on how they were measured."""
 
-    def line(row):
-        return "  ".join(c.ljust(w) if i == 0 else c.rjust(w) for i, (c, w) in enumerate(zip(row, widths))).rstrip()
+    title: str
+    head: list
+    rows: list
+    note: str = ""
 
-    return "\n".join([title, line(head), "  ".join("-" * w for w in widths)] + [line(row) for row in rows]) + "\n"
+    def as_text(self):
+        """Columns as wide as needed, the first to the left."""
+        rows = [[str(cell) for cell in row] for row in self.rows]
+        widths = [max(len(row[i]) for row in [self.head] + rows) for i in range(len(self.head))]
+
+        def line(row):
+            return "  ".join(c.ljust(w) if i == 0 else c.rjust(w) for i, (c, w) in enumerate(zip(row, widths))).rstrip()
+
+        lines = [self.title, line(self.head), "  ".join("-" * w for w in widths)] + [line(row) for row in rows]
+        return "\n".join(lines) + "\n"
+
+    def as_markdown(self):
+        lines = [self.head, ["---"] + ["---:"] * (len(self.head) - 1)] + self.rows
+        return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
+
+
+def show(value, scale=1.0, form=".3g"):
+    """A number with three digits, without an exponent as long as that is readable."""
+    if value is None:
+        return "-"
+    value *= scale
+    return f"{value:.0f}" if form == ".3g" and 1e3 <= abs(value) < 1e7 else format(value, form)
 
 
 def number(result, key, scale=1.0, form=".3g"):
-    return format(result[key] * scale, form) if key in result else "-"
+    return show(result.get(key), scale, form)
 
 
 def rate(result, key):
@@ -28,12 +51,8 @@ def rate(result, key):
     return result[key] / result["seconds"] / 1e9 if key in result else None
 
 
-def show(value, form=".3g"):
-    return "-" if value is None else format(value, form)
-
-
-def ratios(rows):
-    return table("Required ratios", ["ratio", "measured", "prototype", "required", "verdict"], rows)
+def percent(value, whole):
+    return show(100 * value / whole, form=".0f") if value and whole else "-"
 
 
 def operator_of(name):
@@ -42,63 +61,146 @@ def operator_of(name):
     return word if word in OPERATORS else None
 
 
-def operators(results):
-    memory = results.get("machine/triad_memory", {})
-    peak = results.get("machine/multiply_add_double", {})
-    triad = rate(memory, "bytes")
-    flops = rate(peak, "flops")
-    rows = []
-    for name, r in results.items():
-        if operator_of(name) is None:
-            continue
-        bandwidth, arithmetic = rate(r, "bytes"), rate(r, "flops")
-        single = r["ranks"] == 1
-        rows.append([name, number(r, "unknowns", form=".0f"), number(r, "seconds", 1e3),
-                     show(r["unknowns"] / r["seconds"] / 1e6), show(bandwidth),
-                     show(100 * bandwidth / triad if bandwidth and triad and single else None, ".0f"), show(arithmetic),
-                     show(100 * arithmetic / flops if arithmetic and flops and single else None, ".0f"),
-                     number(r, "difference", form=".1e")])
-    return table("y = K x", ["benchmark", "unknowns", "ms", "MDoF/s", "GB/s", "% triad", "GFLOP/s", "% peak", "difference"],
-                 rows)
-
-
 def select(results, word):
     return {name: r for name, r in results.items() if f"/{word}" in name}
 
 
+def of_beam(results):
+    """Those of the beam: labels of other bodies have a dash."""
+    return {name: r for name, r in results.items() if "-" not in name.split("/")[1]}
+
+
+def ratios(rows):
+    return Table("Required ratios", ["ratio", "measured", "of", "prototype", "required", "verdict"], rows)
+
+
+def machine(results):
+    return Table("Machine", ["benchmark", "GB/s", "GFLOP/s", "bits of a register"],
+                 [[name, show(rate(r, "bytes")), show(rate(r, "flops")), number(r, "simd_bits")]
+                  for name, r in results.items() if name.startswith("machine/")],
+                 "STREAM's triad (two reads and a write counted) in main memory and in the second-level cache, and chains of "
+                 "independent multiply-adds in registers; all ranks together, `@2` on two.")
+
+
+def operators(results):
+    triad = rate(results.get("machine/triad_memory", {}), "bytes")
+    peak = {word: rate(results.get(f"machine/multiply_add_{word}", {}), "flops") for word in ("double", "float")}
+    rows = []
+    for name, r in results.items():
+        operator = operator_of(name)
+        if operator is None:
+            continue
+        bandwidth, arithmetic = rate(r, "bytes"), rate(r, "flops")
+        single = r["ranks"] == 1
+        rows.append([name, number(r, "unknowns", form=".0f"), number(r, "seconds", 1e3),
+                     show(r["unknowns"] / r["seconds"] / 1e6), show(bandwidth), percent(bandwidth, triad) if single else "-",
+                     show(arithmetic),
+                     percent(arithmetic, peak["float" if "float" in operator else "double"]) if single else "-",
+                     number(r, "difference", form=".1e")])
+    return Table("Operators", ["y = K x", "unknowns", "ms", "MDoF/s", "GB/s", "% triad", "GFLOP/s", "% peak", "difference"],
+                 rows,
+                 "One application as conjugate gradients see it: before each the vectors are used as that method uses them, "
+                 "which is not timed; medians over the applications of a repetition, the least of three repetitions. Bytes are "
+                 "those that must move if each number moves once, so cached matrices exceed the triad: that of P1/110k fits a "
+                 "large third-level cache. Operations of the factored kernel are counted by running it with a number type that "
+                 "counts, those of quadrature by formula. Matrix-free is what the solver calls, with distributed vectors and "
+                 "constraints; `difference` is that to quadrature (of quadrature, to the factored kernel), relative to the "
+                 "largest entry.")
+
+
+def kernels(results):
+    peak = {word: rate(results.get(f"machine/multiply_add_{word}", {}), "flops") for word in ("double", "float")}
+    rows = []
+    for name, r in select(results, "").items():
+        if name.startswith("kernels/") and "flops" in r:
+            rows.append([name.removeprefix("kernels/"), show(r["flops"] / r["cells"], form=".0f"),
+                         show(1e9 * r["seconds"] / r["cells"]), show(rate(r, "flops")),
+                         percent(rate(r, "flops"), peak["float" if "float" in name else "double"])])
+    return Table("Kernels in the cache", ["kernel", "operations per cell", "ns per cell", "GFLOP/s", "% peak"], rows,
+                 "Nodal values come from and go to the first-level cache, without gather and scatter.")
+
+
+def rotations(results):
+    return Table("Rotations", ["kernel", "ns per cell"],
+                 [[name.removeprefix("kernels/"), show(1e9 * r["seconds"] / r["cells"])]
+                  for name, r in results.items() if name.startswith("kernels/") and "flops" not in r],
+                 "Of deformation gradients in the cache, with stretches of some ten percent.")
+
+
+def solves(results):
+    return Table("Linear static solves to 1e-8",
+                 ["solve", "unknowns", "iterations", "set-up s", "solve s", "sum s", "residual"],
+                 [[n.replace("/solve/", " "), number(r, "unknowns", form=".0f"), number(r, "cg_iterations"), number(r, "setup_s"),
+                   number(r, "solve_s"), number(r, "seconds"), number(r, "residual", form=".1e")]
+                  for n, r in select(of_beam(results), "solve/").items()],
+                 "Conjugate gradients for the beam under its weight; the operator is matrix-free but for `cg_ml`, the usual way "
+                 "(assembled matrix, Trilinos ML with rigid body modes), and `cholmod`, which factorises that matrix. Its "
+                 "assembly is not in their times; that of degree 1 is in those of p-multigrid. `p-multigrid` chooses its solver "
+                 "for degree 1, others name it.")
+
+
+def iterations(results):
+    rows = []
+    for label in dict.fromkeys("/".join(name.split("/")[:2]) for name in select(results, "solve/")):
+        found = [results.get(f"{label}/solve/p-multigrid-{coarse}") for coarse in COARSE]
+        if any(found):
+            unknowns = next(r for r in found if r)["unknowns"]
+            rows.append([label, show(unknowns, form=".0f")] + [number(r or {}, "cg_iterations") for r in found])
+    return Table("Iterations of p-multigrid", ["body", "unknowns"] + COARSE, rows,
+                 "To a relative residual of 1e-8, by the solver for degree 1. Bodies: the beam of 10 : 1 : 1, also bent by 90 "
+                 "degrees, with Poisson's ratio 0.45, with halves whose stiffness differs by 1000, and with cells of aspect "
+                 "ratio 10; and the bracket of `meshes/bracket.geo`, whose coarse meshes have the worse cells.")
+
+
+def updates(results):
+    return Table("Rotation updates and explicit steps", ["benchmark", "cells", "ns per cell", "ms", "difference"],
+                 [[n, number(r, "cells", form=".0f"), show(1e9 * r["seconds"] / r["cells"]), number(r, "seconds", 1e3),
+                   number(r, "difference", form=".1e")] for n, r in results.items() if "cells" in r and n[0] == "P"],
+                 "In a beam that is twisted by two radians, bent by 1.5 and stretched by some ten percent. `rotations` gathers, "
+                 "computes and stores the rotation of every cell; `rotations_svd` takes Eigen's JacobiSVD of deformation "
+                 "gradients that are there already. `rotations_and_matrix` also fills the existing sparsity. "
+                 "`setup_after_rotation` is what a Newton iteration does but its solve: rotations with internal force, operator "
+                 "and preconditioner. `explicit_step` is one sweep with rotations, external force and inverse mass as vectors.")
+
+
+def newton(results):
+    return Table("Dynamics",
+                 ["Newton iteration", "unknowns", "s", "steps per s", "Newton iterations", "linear iterations each"],
+                 [[n, number(r, "unknowns", form=".0f"), number(r, "seconds"), show(1 / r["step_s"]),
+                   number(r, "newton_iterations"), number(r, "linear_iterations")]
+                  for n, r in select(results, "newton").items()],
+                 "Generalised alpha to 1e-6, the beam released from rest: steps of a hundredth of the first period, or a "
+                 "thousandth (`newton_short_step`). All that an iteration does is in its time.")
+
+
+def backward_euler(results):
+    return Table("One backward Euler step from a bent state",
+                 ["step", "unknowns", "iterations", "set-up s", "solve s", "all s"],
+                 [[n, number(r, "unknowns", form=".0f"), number(r, "cg_iterations"), number(r, "setup_s"),
+                   number(r, "solve_s"), number(r, "seconds")] for n, r in select(results, "backward_euler").items()],
+                 "With one Newton iteration: rotations, forces, matrix, preconditioner (its patterns included) and solve to 1e-6; "
+                 "the step is a tenth of the first period.")
+
+
+def assembly(results):
+    return Table("Assembled matrix", ["matrix", "unknowns", "nonzeros", "sparsity s", "assembly s", "GB", "peak GB"],
+                 [[n, number(r, "unknowns", form=".0f"), number(r, "nonzeros", form=".0f"), number(r, "sparsity_s"),
+                   number(r, "seconds"), number(r, "bytes", 1e-9), number(r, "peak_bytes", 1e-9)]
+                  for n, r in select(results, "assembly").items()],
+                 "Sparsity and places of cells in it are found once.")
+
+
+def memory(results):
+    return Table("Memory", ["process", "unknowns", "GB", "bytes per unknown", "of these, mesh and operator data"],
+                 [[n, number(r, "unknowns", form=".0f"), number(r, "peak_bytes", 1e-9),
+                   number(r, "bytes_per_unknown", form=".0f"), show(r["discretization_bytes"] / r["unknowns"], form=".0f")]
+                  for n, r in select(results, "memory/").items()],
+                 "Peak of a process that sets up one solve and iterates, less what it had when the serial mesh was there.")
+
+
+ALL = [machine, operators, kernels, rotations, solves, iterations, updates, newton, backward_euler, assembly, memory]
+
+
 def details(results):
-    """All tables but that of ratios."""
-    parts = []
-    parts.append(table("Machine (all ranks together)", ["benchmark", "GB/s", "GFLOP/s"],
-                       [[n, show(rate(r, "bytes")), show(rate(r, "flops"))]
-                        for n, r in results.items() if n.startswith("machine/")]))
-    parts.append(operators(results))
-    parts.append(table("Linear static solves to 1e-8",
-                       ["benchmark", "unknowns", "iterations", "set-up s", "solve s", "sum s", "residual"],
-                       [[n, number(r, "unknowns", form=".0f"), number(r, "cg_iterations"), number(r, "setup_s"),
-                         number(r, "solve_s"), number(r, "seconds"), number(r, "residual", form=".1e")]
-                        for n, r in select(results, "solve/").items()]))
-    parts.append(table("Per cell", ["benchmark", "cells", "ns per cell", "ms", "difference"],
-                       [[n, number(r, "cells", form=".0f"), show(1e9 * r["seconds"] / r["cells"]), number(r, "seconds", 1e3),
-                         number(r, "difference", form=".1e")] for n, r in results.items() if "cells" in r]))
-    parts.append(table("Dynamics: a Newton iteration, everything included",
-                       ["benchmark", "unknowns", "s", "steps per s", "Newton iterations", "linear iterations each"],
-                       [[n, number(r, "unknowns", form=".0f"), number(r, "seconds"), show(1 / r["step_s"]),
-                         number(r, "newton_iterations"), number(r, "linear_iterations")]
-                        for n, r in select(results, "newton").items()]))
-    parts.append(table("Backward Euler: a step with one Newton iteration, from a bent state",
-                       ["benchmark", "unknowns", "iterations", "set-up s", "solve s", "all s"],
-                       [[n, number(r, "unknowns", form=".0f"), number(r, "cg_iterations"), number(r, "setup_s"),
-                         number(r, "solve_s"), number(r, "seconds")] for n, r in select(results, "backward_euler").items()]))
-    parts.append(table("Assembled matrix",
-                       ["benchmark", "unknowns", "nonzeros", "sparsity s", "assembly s", "GB", "peak GB"],
-                       [[n, number(r, "unknowns", form=".0f"), number(r, "nonzeros", form=".0f"), number(r, "sparsity_s"),
-                         number(r, "seconds"), number(r, "bytes", 1e-9), number(r, "peak_bytes", 1e-9)]
-                        for n, r in select(results, "assembly").items()]))
-    parts.append(table("Peak memory of a process", ["benchmark", "unknowns", "GB", "bytes per unknown",
-                                                    "before operators"],
-                       [[n, number(r, "unknowns", form=".0f"), number(r, "peak_bytes", 1e-9),
-                         number(r, "bytes_per_unknown", form=".0f"),
-                         show(r["discretization_bytes"] / r["unknowns"], ".0f")]
-                        for n, r in select(results, "memory/").items()]))
-    return "\n".join(part for part in parts if part)
+    """All tables but that of ratios, without those that have no rows."""
+    return [table for table in (make(results) for make in ALL) if table.rows]
