@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/with_degree.h>
 #include <corotet/operators/assembled_matrix.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -13,7 +12,6 @@
 
 namespace corotet
 {
-  using dealii::Tensor;
   using dealii::types::global_dof_index;
 
   AssembledMatrix::AssembledMatrix(
@@ -29,30 +27,36 @@ namespace corotet
 
   namespace
   {
+    using V     = Simd<double>;
+    using Block = V[3][3];
+
     // The block of nodes i, j of mu (lambda / mu D + D^T + tr D I), with D the
     // integral of grad N_i (x) grad N_j, from the means of products of
     // derivatives of N_i and N_j and from the gradients of the kernel.
-    Tensor<2, 3>
-    stiffness_block(const double       *products,
-                    const Tensor<2, 3> &gradients,
-                    const double        lame_ratio)
+    COROTET_ALWAYS_INLINE void
+    stiffness_block(const double *products,
+                    const V (&g)[9],
+                    const V lame_ratio,
+                    Block  &K)
     {
-      Tensor<2, 3> half;
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int l = 0; l < 3; ++l)
-          for (unsigned int b = 0; b < 3; ++b)
-            half[k][b] += products[3 * k + l] * gradients[l][b];
-      Tensor<2, 3> D;
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int a = 0; a < 3; ++a)
-          for (unsigned int b = 0; b < 3; ++b)
-            D[a][b] += gradients[k][a] * half[k][b];
-      const double trace_D = trace(D);
-      Tensor<2, 3> K;
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int b = 0; b < 3; ++b)
-          K[a][b] = lame_ratio * D[a][b] + D[b][a] + (a == b) * trace_D;
-      return K;
+      Block half, D;
+      static_for<9>([&](auto kb) {
+        constexpr int k = kb / 3, b = kb % 3;
+        half[k][b] = products[3 * k] * g[b] + products[3 * k + 1] * g[3 + b] +
+                     products[3 * k + 2] * g[6 + b];
+      });
+      static_for<9>([&](auto ab) {
+        constexpr int a = ab / 3, b = ab % 3;
+        D[a][b] =
+          g[a] * half[0][b] + g[3 + a] * half[1][b] + g[6 + a] * half[2][b];
+      });
+      const V trace = D[0][0] + D[1][1] + D[2][2];
+      static_for<9>([&](auto ab) {
+        constexpr int a = ab / 3, b = ab % 3;
+        K[a][b] = lame_ratio * D[a][b] + D[b][a];
+        if constexpr (a == b)
+          K[a][b] += trace;
+      });
     }
   } // namespace
 
@@ -136,59 +140,69 @@ namespace corotet
       }
   }
 
-  template <int p>
   void
-  AssembledMatrix::add_cell(const unsigned int              cell,
-                            const CellCoefficients<double> &coefficients,
-                            const unsigned int              lane,
-                            const double                    c_K,
-                            const double                    cell_mass)
+  AssembledMatrix::add_block(const unsigned int cell,
+                             const unsigned int i,
+                             const unsigned int j,
+                             double (&block)[3][3])
   {
-    constexpr unsigned int n = bernstein::size<p>;
-    // Rows: sqrt(mu volume) R grad xi_k.
-    Tensor<2, 3> gradients;
-    for (unsigned int k = 0; k < 3; ++k)
+    const unsigned int n     = reference.n_nodes;
+    const auto         nodes = this->nodes.cell_nodes(cell);
+    if (touches_prescribed[cell])
       for (unsigned int a = 0; a < 3; ++a)
-        gradients[k][a] = coefficients.gradients[3 * k + a][lane];
-    const double         lame_ratio = coefficients.lame_ratio[lane];
-    const auto           cell_nodes = nodes.cell_nodes(cell);
-    const bool           has_fixed  = touches_prescribed[cell];
-    const std::uint16_t *positions =
+        for (unsigned int b = 0; b < 3; ++b)
+          if ((prescribed[3 * nodes[i] + a] || prescribed[3 * nodes[j] + b]) &&
+              !(i == j && a == b))
+            block[a][b] = 0;
+    const std::uint16_t *const positions =
       block_positions.data() + 3 * static_cast<std::size_t>(n) * n * cell;
-
-    const auto add = [&](const unsigned int  i,
-                         const unsigned int  j,
-                         const Tensor<2, 3> &block) {
-      if (cell_nodes[i] >= nodes.n_owned_nodes())
-        return;
-      const std::uint16_t *position = positions + 3 * (n * i + j);
-      for (unsigned int a = 0; a < 3; ++a)
-        {
-          double *values = row_values[3 * cell_nodes[i] + a];
+    if (nodes[i] < this->nodes.n_owned_nodes())
+      {
+        const std::uint16_t *const position = positions + 3 * (n * i + j);
+        for (unsigned int a = 0; a < 3; ++a)
           for (unsigned int b = 0; b < 3; ++b)
-            values[position[b]] += block[a][b];
-        }
-    };
+            row_values[3 * nodes[i] + a][position[b]] += block[a][b];
+      }
+    if (i != j && nodes[j] < this->nodes.n_owned_nodes())
+      {
+        const std::uint16_t *const position = positions + 3 * (n * j + i);
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            row_values[3 * nodes[j] + a][position[b]] += block[b][a];
+      }
+  }
 
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i; j < n; ++j)
+  void
+  AssembledMatrix::add_batch(const unsigned int              first,
+                             const unsigned int              n_cells,
+                             const CellCoefficients<double> &coefficients,
+                             const double                    c_K,
+                             const V                         masses)
+  {
+    V g[9];
+    for (unsigned int i = 0; i < 9; ++i)
+      g[i] = load_aligned<batch_size>(coefficients.gradients[i]);
+    const V ratio = load_aligned<batch_size>(coefficients.lame_ratio);
+    for (unsigned int i = 0; i < reference.n_nodes; ++i)
+      for (unsigned int j = i; j < reference.n_nodes; ++j)
         {
-          Tensor<2, 3> block =
-            c_K * stiffness_block(&reference.gradient_products(i, j, 0),
-                                  gradients,
-                                  lame_ratio);
-          for (unsigned int a = 0; a < 3; ++a)
-            block[a][a] += cell_mass * reference.mass[i][j];
-          if (has_fixed)
-            for (unsigned int a = 0; a < 3; ++a)
-              for (unsigned int b = 0; b < 3; ++b)
-                if ((prescribed[3 * cell_nodes[i] + a] ||
-                     prescribed[3 * cell_nodes[j] + b]) &&
-                    !(i == j && a == b))
-                  block[a][b] = 0;
-          add(i, j, block);
-          if (i != j)
-            add(j, i, transpose(block));
+          Block K;
+          stiffness_block(&reference.gradient_products(i, j, 0), g, ratio, K);
+          alignas(sizeof(V)) double lanes[9][batch_size];
+          for (unsigned int ab = 0; ab < 9; ++ab)
+            {
+              V value = c_K * K[ab / 3][ab % 3];
+              if (ab % 4 == 0)
+                value += masses * reference.mass(i, j);
+              store_aligned(value, lanes[ab]);
+            }
+          for (unsigned int lane = 0; lane < n_cells; ++lane)
+            {
+              double block[3][3];
+              for (unsigned int ab = 0; ab < 9; ++ab)
+                block[ab / 3][ab % 3] = lanes[ab][lane];
+              add_block(first + lane, i, j, block);
+            }
         }
   }
 
@@ -203,17 +217,19 @@ namespace corotet
     for (unsigned int row = 0; row < row_values.size(); ++row)
       std::fill_n(row_values[row], row_lengths[row], 0.);
     const double consistent = lumped_mass == nullptr ? c_M : 0.;
-    with_degree(nodes.degree(), [&](const auto p) {
-      for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
+    const auto   add = [&](const unsigned int begin, const unsigned int end) {
+      for (unsigned int first = begin; first < end; first += batch_size)
         {
-          const auto [batch, lane] = nodes.batches().place(c);
-          add_cell<decltype(p)::value>(c,
-                                       coefficients[batch],
-                                       lane,
-                                       c_K,
-                                       consistent * masses[batch].mass[lane]);
+          const unsigned int batch = nodes.batches().place(first).first;
+          add_batch(first,
+                    std::min(batch_size, end - first),
+                    coefficients[batch],
+                    c_K,
+                    consistent * load_aligned<batch_size>(masses[batch].mass));
         }
-    });
+    };
+    add(0, nodes.n_owned_cells());
+    add(nodes.n_owned_cells(), nodes.n_local_cells());
     if (lumped_mass != nullptr)
       for (unsigned int row = 0; row < row_values.size(); ++row)
         row_values[row][diagonal_positions[row]] +=

@@ -116,8 +116,18 @@ namespace corotet
     return {discretization.batches(),
             shapes.data(),
             rotations.data(),
+            cell_coefficients.data()};
+  }
+
+  ElasticData
+  Elasticity::elastic_data()
+  {
+    return {discretization.batches(),
+            shapes.data(),
+            rotations.data(),
             cell_coefficients.data(),
-            {}};
+            rotations.data(),
+            cell_coefficients.data()};
   }
 
   Tensor<2, 3>

@@ -193,8 +193,8 @@ namespace corotet
                 count(lanes, valid_lanes(shapes), data.counts);
               store_rotations(R,
                               shapes,
-                              data.rotations[batch],
-                              data.coefficients[batch]);
+                              data.new_rotations[batch],
+                              data.new_coefficients[batch]);
             }
           else
             static_for<9>([&](auto i) {

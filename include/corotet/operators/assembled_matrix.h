@@ -55,13 +55,20 @@ namespace corotet
     make_sparsity();
     void
     locate_blocks();
-    template <int p>
+    /// Adds the blocks of cells first, .., first + n_cells - 1, those of one
+    /// batch.
     void
-    add_cell(const unsigned int              cell,
-             const CellCoefficients<double> &coefficients,
-             const unsigned int              lane,
-             const double                    c_K,
-             const double                    cell_mass);
+    add_batch(const unsigned int              first,
+              const unsigned int              n_cells,
+              const CellCoefficients<double> &coefficients,
+              const double                    c_K,
+              const Simd<double>              masses);
+    /// Adds block i, j of a cell and its transpose; @p block is overwritten.
+    void
+    add_block(const unsigned int cell,
+              const unsigned int i,
+              const unsigned int j,
+              double (&block)[3][3]);
 
     const Nodes                     &nodes;
     const ReferenceElement           reference;

@@ -159,6 +159,9 @@ namespace corotet
     estimate_round_off();
     ElasticData
     elastic_data() const;
+    /// The same, for sweeps that rotate.
+    ElasticData
+    elastic_data();
     /// grad u at the centre of a cell.
     dealii::Tensor<2, 3>
     centre_gradient(const unsigned int cell, const Vector &u) const;
@@ -178,9 +181,9 @@ namespace corotet
 
     // In the batches of the discretization. Rotations, and coefficients with
     // them, are what update_rotations() writes.
-    dealii::AlignedVector<CellShapes>                       shapes;
-    mutable dealii::AlignedVector<CellRotations>            rotations;
-    mutable dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
+    dealii::AlignedVector<CellShapes>               shapes;
+    dealii::AlignedVector<CellRotations>            rotations;
+    dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
 
     RotationCounts counts;
     double         round_off_norm = 0;

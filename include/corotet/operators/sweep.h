@@ -97,11 +97,14 @@ namespace corotet
   /// What the sweeps of corotational elasticity read and write.
   struct ElasticData
   {
-    const CellBatches        &batches;
-    const CellShapes         *shapes;
-    CellRotations            *rotations;
-    CellCoefficients<double> *coefficients;
-    RotationCounts            counts;
+    const CellBatches              &batches;
+    const CellShapes               *shapes;
+    const CellRotations            *rotations;
+    const CellCoefficients<double> *coefficients;
+    /// The same, for sweeps that rotate; null for others.
+    CellRotations            *new_rotations    = nullptr;
+    CellCoefficients<double> *new_coefficients = nullptr;
+    RotationCounts            counts           = {};
   };
 
   using ElasticSweep = void (*)(ElasticData       &data,

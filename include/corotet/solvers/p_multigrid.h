@@ -85,7 +85,7 @@ namespace corotet
     solve_coarse(FloatVector &x, FloatVector &b) const;
 
     unsigned int smoother_degree = 4;
-    double       smoothing_range = 15;
+    double       smoothing_range = 20;
     std::string  coarse_type     = "automatic";
     unsigned int direct_limit    = 15000;
 
