@@ -3,13 +3,44 @@
 
 #include <corotet/solvers/chebyshev.h>
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 namespace corotet
 {
+  namespace
+  {
+    // Largest eigenvalue of the symmetric matrix with this diagonal and these
+    // numbers beside it.
+    double
+    largest_of_tridiagonal(const std::vector<double> &diagonal,
+                           const std::vector<double> &beside)
+    {
+      const unsigned int               n = diagonal.size();
+      dealii::LAPACKFullMatrix<double> T(n);
+      double                           norm = 0;
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          T(k, k) = diagonal[k];
+          norm += std::abs(diagonal[k]);
+          if (k + 1 < n)
+            {
+              T(k, k + 1) = T(k + 1, k) = beside[k];
+              norm += 2 * beside[k];
+            }
+        }
+      dealii::Vector<double>     eigenvalues;
+      dealii::FullMatrix<double> eigenvectors;
+      T.compute_eigenvalues_symmetric(
+        -norm, norm, 1e-6 * norm, eigenvalues, eigenvectors);
+      return eigenvalues.linfty_norm();
+    }
+  } // namespace
+
   Chebyshev::Chebyshev(const MatrixFree<float> &A,
                        const unsigned int       degree,
                        const double             range)
@@ -86,18 +117,7 @@ namespace corotet
         previous.swap(v);
         v.swap(w);
       }
-    const unsigned int m = alphas.size();
-    Eigen::MatrixXd    T = Eigen::MatrixXd::Zero(m, m);
-    for (unsigned int k = 0; k < m; ++k)
-      {
-        T(k, k) = alphas[k];
-        if (k + 1 < m)
-          T(k, k + 1) = T(k + 1, k) = betas[k];
-      }
-    max_eigenvalue =
-      safety *
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(T, Eigen::EigenvaluesOnly)
-        .eigenvalues()[m - 1];
+    max_eigenvalue = safety * largest_of_tridiagonal(alphas, betas);
   }
 
   void

@@ -223,7 +223,7 @@ TEST_P(ElasticityTest, DegenerateCellsAreCounted)
 // the round-off of sums in another order.
 TEST_P(ElasticityTest, ExplicitStep)
 {
-  Body body(box("1, 2, 1", "2, 3, 2", 0.2),
+  Body   body(box("1, 2, 1", "2, 3, 2", 0.2),
             case_text(GetParam(),
                       "corotational",
                       GetParam() == 1 ? "row sum" : "diagonal scaling"));
@@ -237,7 +237,7 @@ TEST_P(ElasticityTest, ExplicitStep)
       inverse_mass.local_element(i) =
         1 / body.system.mass().diagonal().local_element(i);
     }
-  body.state.u = u;
+  body.state.u  = u;
   const auto &f = body.system.evaluate(body.state, 0., 1.).internal;
   Vector      expected_v(v), expected_u(u);
   for (unsigned int i = 0; i < v.locally_owned_size(); ++i)

@@ -43,12 +43,6 @@ namespace corotet
     void
     smooth(FloatVector &x, const FloatVector &b) const;
 
-    double
-    largest_eigenvalue() const
-    {
-      return max_eigenvalue;
-    }
-
   private:
     void
     remaining_steps(FloatVector &x, const FloatVector &b) const;
