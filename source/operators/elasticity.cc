@@ -36,7 +36,6 @@ namespace corotet
     , corotational(corotational)
     , cell_loop(discretization)
     , shapes(discretization.batches().n_batches())
-    , rotations(discretization.batches().n_batches())
     , cell_coefficients(discretization.batches().n_batches())
   {
     std::map<unsigned int, unsigned int> index;
@@ -68,16 +67,13 @@ namespace corotet
         cell_coefficients[batch].lame_ratio[lane] =
           material(c).lambda / material(c).mu;
         for (unsigned int k = 0; k < 3; ++k)
-          {
-            rotations[batch].rotation[4 * k][lane] = 1;
-            for (unsigned int a = 0; a < 3; ++a)
-              {
-                shape.inverse_jacobian[3 * k + a][lane] =
-                  geometry.inverse_jacobian[k][a];
-                cell_coefficients[batch].gradients[3 * k + a][lane] =
-                  shape.scale[lane] * geometry.inverse_jacobian[k][a];
-              }
-          }
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              shape.inverse_jacobian[3 * k + a][lane] =
+                geometry.inverse_jacobian[k][a];
+              cell_coefficients[batch].gradients[3 * k + a][lane] =
+                shape.scale[lane] * geometry.inverse_jacobian[k][a];
+            }
       }
   }
 
@@ -115,8 +111,8 @@ namespace corotet
   {
     return {discretization.batches(),
             shapes.data(),
-            rotations.data(),
-            cell_coefficients.data()};
+            cell_coefficients.data(),
+            corotational};
   }
 
   ElasticData
@@ -124,19 +120,26 @@ namespace corotet
   {
     return {discretization.batches(),
             shapes.data(),
-            rotations.data(),
             cell_coefficients.data(),
-            rotations.data(),
+            corotational,
             cell_coefficients.data()};
   }
 
   Tensor<2, 3>
   Elasticity::rotation(const unsigned int cell) const
   {
+    Tensor<2, 3> R(dealii::unit_symmetric_tensor<3>());
+    if (!corotational)
+      return R;
     const auto [batch, lane] = discretization.batches().place(cell);
-    Tensor<2, 3> R;
-    for (unsigned int i = 0; i < 9; ++i)
-      R[i / 3][i % 3] = rotations[batch].rotation[i][lane];
+    // Rows: R grad xi_k.
+    Tensor<2, 3> rotated;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int a = 0; a < 3; ++a)
+        rotated[k][a] = cell_coefficients[batch].gradients[3 * k + a][lane] /
+                        shapes[batch].scale[lane];
+    R = transpose(rotated) *
+        transpose(invert(discretization.geometry(cell).inverse_jacobian));
     return R;
   }
 

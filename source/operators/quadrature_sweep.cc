@@ -45,13 +45,6 @@ namespace corotet
              grad_u[0][2] * (grad_u[1][0] * grad_u[2][1] - b * grad_u[2][0]);
     }
 
-    COROTET_ALWAYS_INLINE void
-    load_rotation(const CellRotations &rotations, V (&R)[3][3])
-    {
-      static_for<9>(
-        [&](auto i) { R[i / 3][i % 3] = lanes(rotations.rotation[i]); });
-    }
-
     template <int p>
     __attribute__((flatten)) void
     sweep_state(const ReferenceElement &reference,
@@ -72,7 +65,7 @@ namespace corotet
                                               displacement,
                                               u);
           V R[3][3], grad_u[3][3];
-          load_rotation(data.rotations[batch], R);
+          rotations_of(data, batch, R);
           Kernel::gradient(reference.centre, 0, shapes, u, grad_u);
           V       det_F       = determinant_of_F(grad_u), energy{};
           const V mu          = lanes(shapes.mu),
@@ -116,7 +109,7 @@ namespace corotet
           typename Kernel::NodalValues u, f{};
           gather_batch<Kernel::n_nodes>(data.batches, batch, source, u);
           V R[3][3];
-          load_rotation(data.rotations[batch], R);
+          rotations_of(data, batch, R);
           const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
           // P = R (2 mu sym(A) + lambda tr(A) I) with A = R^T grad u.
           const auto stress =

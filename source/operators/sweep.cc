@@ -106,19 +106,13 @@ namespace corotet
       });
     }
 
-    // Stores the rotations, and the gradients that they rotate.
+    // Rotates the gradients of the cells.
     COROTET_ALWAYS_INLINE void
-    store_rotations(const Simd<double> (&R)[3][3],
-                    const CellShapes         &shapes,
-                    CellRotations            &rotations,
-                    CellCoefficients<double> &coefficients)
+    store_rotated(const Simd<double> (&R)[3][3],
+                  const CellShapes         &shapes,
+                  CellCoefficients<double> &coefficients)
     {
       const Simd<double> scale = load_aligned<batch_size>(shapes.scale);
-      static_for<3>([&](auto a) {
-        static_for<3>([&](auto b) {
-          store_aligned(R[a][b], rotations.rotation[3 * a + b]);
-        });
-      });
       static_for<3>([&](auto k) {
         Simd<double> g[3];
         static_for<3>([&](auto b) {
@@ -191,16 +185,10 @@ namespace corotet
               const PolarLanes lanes = polar_decomposition(F, R);
               if (__builtin_expect(lanes.irregular != 0, 0))
                 count(lanes, valid_lanes(shapes), data.counts);
-              store_rotations(R,
-                              shapes,
-                              data.new_rotations[batch],
-                              data.new_coefficients[batch]);
+              store_rotated(R, shapes, data.new_coefficients[batch]);
             }
           else
-            static_for<9>([&](auto i) {
-              R[i / 3][i % 3] =
-                load_aligned<batch_size>(data.rotations[batch].rotation[i]);
-            });
+            rotations_of(data, batch, R);
           if constexpr (with_force)
             {
               typename Kernel::Strain offset;

@@ -179,10 +179,9 @@ namespace corotet
     std::vector<unsigned int>      material_of_cell;
     CellLoop<double>               cell_loop;
 
-    // In the batches of the discretization. Rotations, and coefficients with
-    // them, are what update_rotations() writes.
+    // In the batches of the discretization. Gradients among the coefficients
+    // are rotated: that is how rotations are stored.
     dealii::AlignedVector<CellShapes>               shapes;
-    dealii::AlignedVector<CellRotations>            rotations;
     dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
 
     RotationCounts counts;

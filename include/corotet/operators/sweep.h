@@ -28,12 +28,6 @@ namespace corotet
     double mu[batch_size];
   };
 
-  /// Rotations of the cells of a batch, [3 row + column].
-  struct alignas(sizeof(Simd<double>)) CellRotations
-  {
-    double rotation[9][batch_size];
-  };
-
   /// The terms of a linear form.
   enum class Terms
   {
@@ -99,13 +93,59 @@ namespace corotet
   {
     const CellBatches              &batches;
     const CellShapes               *shapes;
-    const CellRotations            *rotations;
     const CellCoefficients<double> *coefficients;
-    /// The same, for sweeps that rotate; null for others.
-    CellRotations            *new_rotations    = nullptr;
+    /// If not, all rotations are I.
+    bool corotational;
+    /// The coefficients, for sweeps that rotate; null for others.
     CellCoefficients<double> *new_coefficients = nullptr;
     RotationCounts            counts           = {};
   };
+
+  /**
+   * The rotations of a batch, from the gradients before and after: R = sum_k
+   * (R grad xi_k) (x) dx / dxi_k. So they need not be stored, which a rotation
+   * update, bound by memory, is grateful for.
+   */
+  COROTET_ALWAYS_INLINE void
+  rotations_of(const ElasticData &data,
+               const unsigned int batch,
+               Simd<double> (&R)[3][3])
+  {
+    using V = Simd<double>;
+    if (!data.corotational)
+      {
+        static_for<9>(
+          [&](auto i) { R[i / 3][i % 3] = broadcast(i % 4 == 0 ? 1. : 0.); });
+        return;
+      }
+    const CellShapes &shapes = data.shapes[batch];
+    V                 G[3][3], C[3][3];
+    static_for<9>([&](auto i) {
+      G[i / 3][i % 3] = load_aligned<batch_size>(shapes.inverse_jacobian[i]);
+    });
+    // dx / dxi_k is row k of the cofactors of G over det G.
+    static_for<9>([&](auto i) {
+      constexpr int k = i / 3, a = i % 3;
+      constexpr int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      constexpr int a1 = (a + 1) % 3, a2 = (a + 2) % 3;
+      C[k][a] = G[k1][a1] * G[k2][a2] - G[k1][a2] * G[k2][a1];
+    });
+    const V det   = G[0][0] * C[0][0] + G[0][1] * C[0][1] + G[0][2] * C[0][2];
+    const V scale = load_aligned<batch_size>(shapes.scale) * det;
+    // Lanes without a cell have zeros throughout.
+    const V factor = 1. / (scale > 0. ? scale : broadcast(1.));
+    static_for<9>([&](auto i) {
+      constexpr int a = i / 3, b = i % 3;
+      V             sum{};
+      static_for<3>([&](auto k) {
+        sum += load_aligned<batch_size>(
+                 data.coefficients[batch].gradients[3 * k + a]) *
+               C[k][b];
+      });
+      R[a][b] = factor * sum;
+    });
+  }
+
 
   using ElasticSweep = void (*)(ElasticData       &data,
                                 const unsigned int first,
