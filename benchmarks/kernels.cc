@@ -119,6 +119,12 @@ namespace corotet::benchmarks
       using Kernel = QuadratureKernel<p>;
       using V      = typename Kernel::V;
 
+      /// [3 row + column]
+      struct alignas(sizeof(V)) Rotations
+      {
+        double rotation[9][batch_size];
+      };
+
       QuadratureCells()
         : reference(p)
         , shapes(this->n)
@@ -199,9 +205,9 @@ namespace corotet::benchmarks
           }
       }
 
-      const ReferenceElement               reference;
-      dealii::AlignedVector<CellShapes>    shapes;
-      dealii::AlignedVector<CellRotations> rotations;
+      const ReferenceElement            reference;
+      dealii::AlignedVector<CellShapes> shapes;
+      dealii::AlignedVector<Rotations>  rotations;
     };
 
     template <typename CellsType>

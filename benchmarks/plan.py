@@ -161,7 +161,7 @@ RATIOS = [
           at_most=300),
     Ratio("JacobiSVD per cell over rotations of all cells (twisted, bent, stretched)", "P3/840k/rotations_svd",
           "P3/840k/rotations", "24", at_least=20),
-    Ratio("P1 bent backward Euler step in Epetra SpMVs", "P1/110k/backward_euler/p-multigrid", "P1/110k/epetra",
+    Ratio("P1 bent backward Euler step, patterns known, in Epetra SpMVs", "P1/110k/backward_euler/p-multigrid", "P1/110k/epetra",
           "VegaFEM 1000", at_most=200),
     Ratio("P1 rotations and matrix in Epetra SpMVs", "P1/110k/rotations_and_matrix", "P1/110k/epetra", "VegaFEM 61",
           at_most=25),
