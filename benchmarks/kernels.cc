@@ -144,34 +144,6 @@ namespace corotet::benchmarks
             }
       }
 
-      /// P = R sigma(sym(R^T grad u)), as the operator has it.
-      static COROTET_ALWAYS_INLINE void
-      stress(const V (&R)[3][3],
-             const V lambda,
-             const V mu,
-             const V (&grad_u)[3][3],
-             V (&P)[3][3])
-      {
-        V A[3][3], sigma[3][3];
-        static_for<9>([&](auto ab) {
-          constexpr int a = ab / 3, b = ab % 3;
-          A[a][b] = R[0][a] * grad_u[0][b] + R[1][a] * grad_u[1][b] +
-                    R[2][a] * grad_u[2][b];
-        });
-        const V pressure = lambda * (A[0][0] + A[1][1] + A[2][2]);
-        static_for<9>([&](auto ab) {
-          constexpr int a = ab / 3, b = ab % 3;
-          sigma[a][b] = mu * (A[a][b] + A[b][a]);
-          if constexpr (a == b)
-            sigma[a][b] += pressure;
-        });
-        static_for<9>([&](auto ab) {
-          constexpr int a = ab / 3, b = ab % 3;
-          P[a][b] = R[a][0] * sigma[0][b] + R[a][1] * sigma[1][b] +
-                    R[a][2] * sigma[2][b];
-        });
-      }
-
       __attribute__((flatten, noinline)) void
       apply()
       {
@@ -196,7 +168,7 @@ namespace corotet::benchmarks
                               [&](const unsigned int,
                                   const V(&grad_u)[3][3],
                                   V(&P)[3][3]) {
-                                stress(R, lambda, mu, grad_u, P);
+                                corotational_tangent(R, lambda, mu, grad_u, P);
                               });
             static_for<Kernel::n_nodes>([&](auto i) {
               static_for<3>(

@@ -39,6 +39,24 @@ namespace corotet::benchmarks
     }
   } // namespace
 
+  namespace
+  {
+    // One iteration each, which @p measure times itself.
+    template <typename Measure>
+    void
+    add(const std::string        &name,
+        const Measure            &measure,
+        const unsigned int        repetitions,
+        const benchmark::TimeUnit unit)
+    {
+      benchmark::RegisterBenchmark(name, measure)
+        ->Iterations(1)
+        ->Repetitions(repetitions)
+        ->UseManualTime()
+        ->Unit(unit);
+    }
+  } // namespace
+
   double
   seconds(const std::function<void()> &action)
   {
@@ -57,7 +75,7 @@ namespace corotet::benchmarks
             const unsigned int               repetitions,
             const double                     duration)
   {
-    benchmark::RegisterBenchmark(
+    add(
       name,
       [=](benchmark::State &state) {
         const Measured measured = prepare();
@@ -72,11 +90,9 @@ namespace corotet::benchmarks
                                  }) /
                                  n);
         report(state, measured.counters);
-      })
-      ->Iterations(1)
-      ->Repetitions(repetitions)
-      ->UseManualTime()
-      ->Unit(benchmark::kMicrosecond);
+      },
+      repetitions,
+      benchmark::kMicrosecond);
   }
 
   void
@@ -85,7 +101,7 @@ namespace corotet::benchmarks
                   const unsigned int               repetitions,
                   const double                     duration)
   {
-    benchmark::RegisterBenchmark(
+    add(
       name,
       [=](benchmark::State &state) {
         const Measured measured = prepare();
@@ -103,11 +119,9 @@ namespace corotet::benchmarks
             state.SetIterationTime(times[n / 2]);
           }
         report(state, measured.counters);
-      })
-      ->Iterations(1)
-      ->Repetitions(repetitions)
-      ->UseManualTime()
-      ->Unit(benchmark::kMicrosecond);
+      },
+      repetitions,
+      benchmark::kMicrosecond);
   }
 
   void
@@ -129,11 +143,7 @@ namespace corotet::benchmarks
             return;
           }
     };
-    benchmark::RegisterBenchmark(name, measure)
-      ->Iterations(1)
-      ->Repetitions(repetitions)
-      ->UseManualTime()
-      ->Unit(benchmark::kSecond);
+    add(name, measure, repetitions, benchmark::kSecond);
   }
 
   int

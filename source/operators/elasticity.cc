@@ -144,45 +144,52 @@ namespace corotet
   }
 
   void
+  Elasticity::rotate(ElasticData       &data,
+                     const unsigned int first,
+                     const unsigned int end,
+                     const Vector      &u) const
+  {
+    rotation_sweep(
+      discretization.degree())(data, first, end, u.begin(), nullptr);
+  }
+
+  void
   Elasticity::update_rotations(const Vector &u)
   {
     if (!corotational)
       return;
-    const ElasticSweep sweep   = rotation_sweep(discretization.degree());
     const CellBatches &batches = discretization.batches();
     ElasticData        data    = elastic_data();
-    sweep(data, 0, batches.n_owned_batches(), u.begin(), nullptr);
+    rotate(data, 0, batches.n_owned_batches(), u);
     counts = data.counts;
-    sweep(
-      data, batches.n_owned_batches(), batches.n_batches(), u.begin(), nullptr);
+    rotate(data, batches.n_owned_batches(), batches.n_batches(), u);
   }
 
-  template <typename Add>
+  template <typename Sweep, typename Data>
   void
   Elasticity::cell_sweep(Vector       &f,
                          const Vector &u,
-                         const Add    &add,
+                         const Sweep  &sweep,
+                         Data         &data,
                          const double  scale) const
   {
-    cell_loop.run(u, add, [&](const unsigned int i, const auto y) {
-      store_to(y * scale, f.begin() + i);
-    });
+    cell_loop.run(
+      u,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      [&](const unsigned int i, const auto y) {
+        store_to(y * scale, f.begin() + i);
+      });
   }
 
   void
   Elasticity::internal_force(Vector &f, const Vector &u) const
   {
     const unsigned int degree = discretization.degree();
-    const ElasticSweep sweep  = force_sweep(degree);
     ElasticData        data   = elastic_data();
-    cell_sweep(
-      f,
-      u,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double       *sums) { sweep(data, first, end, source, sums); },
-      stiffness_scale(degree));
+    cell_sweep(f, u, force_sweep(degree), data, stiffness_scale(degree));
   }
 
   void
@@ -191,20 +198,12 @@ namespace corotet
     if (!corotational)
       return internal_force(f, u);
     const unsigned int degree  = discretization.degree();
-    const ElasticSweep sweep   = rotation_and_force_sweep(degree);
     const CellBatches &batches = discretization.batches();
     ElasticData        data    = elastic_data();
     cell_sweep(
-      f,
-      u,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double       *sums) { sweep(data, first, end, source, sums); },
-      stiffness_scale(degree));
+      f, u, rotation_and_force_sweep(degree), data, stiffness_scale(degree));
     counts = data.counts;
-    rotation_sweep(degree)(
-      data, batches.n_owned_batches(), batches.n_batches(), u.begin(), nullptr);
+    rotate(data, batches.n_owned_batches(), batches.n_batches(), u);
   }
 
   void
@@ -240,37 +239,32 @@ namespace corotet
   void
   Elasticity::apply_tangent(Vector &f, const Vector &v) const
   {
-    const unsigned int      degree = discretization.degree();
-    const FormSweep<double> sweep =
-      form_sweep<double>(degree, Terms::stiffness);
+    const unsigned int     degree = discretization.degree();
     const FormData<double> data{discretization.batches(),
                                 cell_coefficients.data(),
                                 nullptr,
                                 0};
-    cell_sweep(
-      f,
-      v,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double       *sums) { sweep(data, first, end, source, sums); },
-      stiffness_scale(degree));
+    cell_sweep(f,
+               v,
+               form_sweep<double>(degree, Terms::stiffness),
+               data,
+               stiffness_scale(degree));
   }
 
   void
   Elasticity::apply_tangent_by_quadrature(Vector &f, const Vector &v) const
   {
+    const ElasticData     data = elastic_data();
     const QuadratureSweep sweep =
       tangent_by_quadrature_sweep(discretization.degree());
-    const ElasticData data = elastic_data();
-    cell_sweep(
-      f,
-      v,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double *sums) { sweep(reference, data, first, end, source, sums); },
-      1.);
+    const auto by_quadrature = [&](const ElasticData &data,
+                                   const unsigned int first,
+                                   const unsigned int end,
+                                   const double      *source,
+                                   double            *sums) {
+      sweep(reference, data, first, end, source, sums);
+    };
+    cell_sweep(f, v, by_quadrature, data, 1.);
   }
 
   ElasticState

@@ -110,29 +110,10 @@ namespace corotet
           gather_batch<Kernel::n_nodes>(data.batches, batch, source, u);
           V R[3][3];
           rotations_of(data, batch, R);
-          const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
-          // P = R (2 mu sym(A) + lambda tr(A) I) with A = R^T grad u.
+          const V    mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
           const auto stress =
             [&](const unsigned int, const V(&grad_u)[3][3], V(&P)[3][3]) {
-              V A[3][3];
-              static_for<9>([&](auto ab) {
-                constexpr int a = ab / 3, b = ab % 3;
-                A[a][b] = R[0][a] * grad_u[0][b] + R[1][a] * grad_u[1][b] +
-                          R[2][a] * grad_u[2][b];
-              });
-              const V pressure = lambda * (A[0][0] + A[1][1] + A[2][2]);
-              V       sigma[3][3];
-              static_for<9>([&](auto ab) {
-                constexpr int a = ab / 3, b = ab % 3;
-                sigma[a][b] = mu * (A[a][b] + A[b][a]);
-                if constexpr (a == b)
-                  sigma[a][b] += pressure;
-              });
-              static_for<9>([&](auto ab) {
-                constexpr int a = ab / 3, b = ab % 3;
-                P[a][b] = R[a][0] * sigma[0][b] + R[a][1] * sigma[1][b] +
-                          R[a][2] * sigma[2][b];
-              });
+              corotational_tangent(R, lambda, mu, grad_u, P);
             };
           Kernel::integrate(reference.stiffness_rule, shapes, u, f, stress);
           scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);

@@ -165,12 +165,21 @@ namespace corotet
     /// grad u at the centre of a cell.
     dealii::Tensor<2, 3>
     centre_gradient(const unsigned int cell, const Vector &u) const;
-    template <typename Add>
+    /// f = scale times what @p sweep, one of sweep.h, makes of @p u and
+    /// @p data.
+    template <typename Sweep, typename Data>
     void
     cell_sweep(Vector       &f,
                const Vector &u,
-               const Add    &add,
+               const Sweep  &sweep,
+               Data         &data,
                const double  scale) const;
+    /// New rotations of batches [first, end).
+    void
+    rotate(ElasticData       &data,
+           const unsigned int first,
+           const unsigned int end,
+           const Vector      &u) const;
 
     const Discretization          &discretization;
     const ReferenceElement        &reference;

@@ -11,6 +11,38 @@
 namespace corotet
 {
   /**
+   * Derivative of the first Piola-Kirchhoff stress of corotational elasticity
+   * [Pa] in the direction @p grad_v with the rotation @p R frozen, a cell per
+   * lane: P = R (2 mu sym(A) + lambda tr(A) I) with A = R^T grad v.
+   */
+  COROTET_ALWAYS_INLINE void
+  corotational_tangent(const Simd<double> (&R)[3][3],
+                       const Simd<double> lambda,
+                       const Simd<double> mu,
+                       const Simd<double> (&grad_v)[3][3],
+                       Simd<double> (&P)[3][3])
+  {
+    Simd<double> A[3][3], sigma[3][3];
+    static_for<9>([&](auto ab) {
+      constexpr int a = ab / 3, b = ab % 3;
+      A[a][b] = R[0][a] * grad_v[0][b] + R[1][a] * grad_v[1][b] +
+                R[2][a] * grad_v[2][b];
+    });
+    const Simd<double> pressure = lambda * (A[0][0] + A[1][1] + A[2][2]);
+    static_for<9>([&](auto ab) {
+      constexpr int a = ab / 3, b = ab % 3;
+      sigma[a][b] = mu * (A[a][b] + A[b][a]);
+      if constexpr (a == b)
+        sigma[a][b] += pressure;
+    });
+    static_for<9>([&](auto ab) {
+      constexpr int a = ab / 3, b = ab % 3;
+      P[a][b] =
+        R[a][0] * sigma[0][b] + R[a][1] * sigma[1][b] + R[a][2] * sigma[2][b];
+    });
+  }
+
+  /**
    * Integrals over batch_size straight-sided cells of degree p by quadrature,
    * for laws that the factored kernel does not know: whatever varies inside a
    * cell. Nodal values are arrays [node][component], one cell per lane.
