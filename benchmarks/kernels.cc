@@ -161,8 +161,11 @@ namespace corotet::benchmarks
             });
             const V lambda = load_aligned<batch_size>(shapes[cell].lambda);
             const V mu     = load_aligned<batch_size>(shapes[cell].mu);
+            typename Kernel::Geometry g;
+            Kernel::load(shapes[cell], g);
             Kernel::integrate(reference.stiffness_rule,
-                              shapes[cell],
+                              g,
+                              load_aligned<batch_size>(shapes[cell].volume),
                               u,
                               f,
                               [&](const unsigned int,

@@ -149,7 +149,7 @@ namespace corotet::benchmarks
            reference,
            {{0, density}, {1, density}},
            MassType::consistent)
-    , elasticity(discretization, reference, materials(c), true)
+    , elasticity(discretization, reference, materials(c), Rotation::cell_centre)
     , is_prescribed(3 * discretization.n_local_nodes(), 0)
     , state(bent(c.bend))
   {

@@ -104,8 +104,14 @@ namespace corotet
     prm.add_parameter("Rotation",
                       rotation,
                       "Where the rotation of corotational elasticity is taken: "
-                      "at the centre of each cell.",
-                      dealii::Patterns::Selection("cell centre"));
+                      "'cell centre', one per cell; 'quadrature points', which "
+                      "conserves energy and angular momentum and keeps the "
+                      "full order at large rotations; 'cell centre, "
+                      "variational', one per cell with the true gradient of "
+                      "the energy. For degree 1 all are the same.",
+                      dealii::Patterns::Selection(
+                        "cell centre|quadrature points|cell centre, "
+                        "variational"));
     const std::string by_region =
       " One number, or 'region: number, ...' with every region.";
     prm.add_parameter("Young's modulus",
@@ -117,6 +123,15 @@ namespace corotet
     prm.add_parameter("Density",
                       density,
                       "Mass per volume [kg/m^3], positive." + by_region);
+  }
+
+  Rotation
+  MaterialParameters::rotation_placement() const
+  {
+    return type == "linear"                ? Rotation::none :
+           rotation == "cell centre"       ? Rotation::cell_centre :
+           rotation == "quadrature points" ? Rotation::quadrature_points :
+                                             Rotation::cell_centre_variational;
   }
 
   std::map<unsigned int, IsotropicMaterial>

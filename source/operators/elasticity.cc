@@ -30,10 +30,10 @@ namespace corotet
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
     const std::map<unsigned int, IsotropicMaterial> &materials,
-    const bool                                       corotational)
+    const Rotation                                   rotation)
     : discretization(discretization)
     , reference(reference)
-    , corotational(corotational)
+    , placement(rotation)
     , cell_loop(discretization)
     , shapes(discretization.batches().n_batches())
     , cell_coefficients(discretization.batches().n_batches())
@@ -48,7 +48,7 @@ namespace corotet
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       material_of_cell[c] = index.at(discretization.geometry(c).region);
     set_up_cells();
-    if (corotational)
+    if (placement != Rotation::none)
       estimate_round_off();
   }
 
@@ -112,7 +112,7 @@ namespace corotet
     return {discretization.batches(),
             shapes.data(),
             cell_coefficients.data(),
-            corotational};
+            placement};
   }
 
   ElasticData
@@ -121,7 +121,7 @@ namespace corotet
     return {discretization.batches(),
             shapes.data(),
             cell_coefficients.data(),
-            corotational,
+            placement,
             cell_coefficients.data()};
   }
 
@@ -129,7 +129,7 @@ namespace corotet
   Elasticity::rotation(const unsigned int cell) const
   {
     Tensor<2, 3> R(dealii::unit_symmetric_tensor<3>());
-    if (!corotational)
+    if (placement == Rotation::none)
       return R;
     const auto [batch, lane] = discretization.batches().place(cell);
     // Rows: R grad xi_k.
@@ -156,7 +156,7 @@ namespace corotet
   void
   Elasticity::update_rotations(const Vector &u)
   {
-    if (!corotational)
+    if (placement == Rotation::none)
       return;
     const CellBatches &batches = discretization.batches();
     ElasticData        data    = elastic_data();
@@ -184,6 +184,28 @@ namespace corotet
       });
   }
 
+  Elasticity::Force
+  Elasticity::moving_force() const
+  {
+    const unsigned int degree = discretization.degree();
+    if (placement == Rotation::quadrature_points ||
+        placement == Rotation::cell_centre_variational)
+      {
+        const PointForceSweep sweep = point_force_sweep(degree, placement);
+        return {[this, sweep](ElasticData       &data,
+                              const unsigned int first,
+                              const unsigned int end,
+                              const double      *source,
+                              double            *sums) {
+                  sweep(reference, data, first, end, source, sums);
+                },
+                1.};
+      }
+    return {placement == Rotation::none ? force_sweep(degree) :
+                                          rotation_and_force_sweep(degree),
+            stiffness_scale(degree)};
+  }
+
   void
   Elasticity::internal_force(Vector &f, const Vector &u) const
   {
@@ -195,15 +217,13 @@ namespace corotet
   void
   Elasticity::update_rotations_and_force(Vector &f, const Vector &u)
   {
-    if (!corotational)
-      return internal_force(f, u);
-    const unsigned int degree  = discretization.degree();
     const CellBatches &batches = discretization.batches();
+    const Force        force   = moving_force();
     ElasticData        data    = elastic_data();
-    cell_sweep(
-      f, u, rotation_and_force_sweep(degree), data, stiffness_scale(degree));
+    cell_sweep(f, u, force.sweep, data, force.scale);
     counts = data.counts;
-    rotate(data, batches.n_owned_batches(), batches.n_batches(), u);
+    if (placement != Rotation::none)
+      rotate(data, batches.n_owned_batches(), batches.n_batches(), u);
   }
 
   void
@@ -213,23 +233,20 @@ namespace corotet
                             const Vector &inverse_mass,
                             const double  dt)
   {
-    const unsigned int degree = discretization.degree();
-    const ElasticSweep sweep =
-      corotational ? rotation_and_force_sweep(degree) : force_sweep(degree);
-    const double scale = stiffness_scale(degree);
-    ElasticData  data  = elastic_data();
+    const Force force = moving_force();
+    ElasticData data  = elastic_data();
     cell_loop.run(
       u,
       [&](const auto    first,
           const auto    end,
           const double *source,
-          double       *sums) { sweep(data, first, end, source, sums); },
+          double       *sums) { force.sweep(data, first, end, source, sums); },
       // No cell of this rank will need these nodes again in this sweep.
       [&](const unsigned int i, const auto y) {
         using V          = decltype(y + y);
         const V velocity = load_as<V>(v.begin() + i) +
                            dt * load_as<V>(inverse_mass.begin() + i) *
-                             (load_as<V>(external.begin() + i) - scale * y);
+                             (load_as<V>(external.begin() + i) - force.scale * y);
         store_to(velocity, v.begin() + i);
         store_to(load_as<V>(u.begin() + i) + dt * velocity, u.begin() + i);
       });
@@ -267,17 +284,73 @@ namespace corotet
     cell_sweep(f, v, by_quadrature, data, 1.);
   }
 
+  unsigned int
+  Elasticity::linearize(const Vector &u, const Tangent tangent)
+  {
+    if (is_by_cell(tangent))
+      return 0;
+    const unsigned int n_batches = discretization.batches().n_owned_batches();
+    linearized_tangent           = tangent;
+    linearization.resize_fast(
+      static_cast<std::size_t>(n_batches) * batch_size *
+      linearization_size(reference, placement, tangent));
+    unsigned int n_clamped = 0;
+    linearization_sweep(discretization.degree(), placement, tangent)(
+      reference,
+      elastic_data(),
+      0,
+      n_batches,
+      u.begin(),
+      linearization.data(),
+      n_clamped);
+    return dealii::Utilities::MPI::sum(n_clamped,
+                                       discretization.communicator());
+  }
+
+  void
+  Elasticity::apply_linearization(Vector                   &f,
+                                  const Vector             &v,
+                                  const double              frozen_factor,
+                                  const double              c_M,
+                                  const CellMasses<double> *masses,
+                                  const Vector             *lumped_mass) const
+  {
+    const ElasticData  elastic = elastic_data();
+    const TangentData  data{reference,
+                           elastic,
+                           linearization.data(),
+                           frozen_factor,
+                           masses,
+                           c_M};
+    const TangentSweep sweep =
+      tangent_sweep(discretization.degree(), placement, linearized_tangent);
+    cell_loop.run(
+      v,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      [&](const unsigned int i, const auto y) {
+        using V  = decltype(y + y);
+        V result = y;
+        if (lumped_mass != nullptr)
+          result += c_M * load_as<V>(lumped_mass->begin() + i) *
+                    load_as<V>(v.begin() + i);
+        store_to(result, f.begin() + i);
+      });
+  }
+
   ElasticState
   Elasticity::state(const Vector &u) const
   {
     PointResults local;
-    state_sweep(
-      discretization.degree())(reference,
-                               elastic_data(),
-                               0,
-                               discretization.batches().n_owned_batches(),
-                               u.begin(),
-                               local);
+    state_sweep(discretization.degree(),
+                placement)(reference,
+                           elastic_data(),
+                           0,
+                           discretization.batches().n_owned_batches(),
+                           u.begin(),
+                           local);
     using namespace dealii::Utilities::MPI;
     const MPI_Comm comm = discretization.communicator();
     ElasticState   result;
@@ -304,7 +377,9 @@ namespace corotet
         // Also linear elasticity shows how far its cells rotate: that is what
         // it neglects.
         result.rotation_angle[c] =
-          rotation_angle(corotational ? R : polar_decomposition(F).rotation);
+          rotation_angle(placement != Rotation::none ?
+                           R :
+                           polar_decomposition(F).rotation);
         result.det_F[c] = determinant(F);
         result.von_mises[c] =
           von_mises(stress(material(c), corotational_strain(grad_u, R)));

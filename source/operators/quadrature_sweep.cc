@@ -22,10 +22,9 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     corotational_strain(const V (&grad_u)[3][3], const V (&R)[3][3], V (&e)[6])
     {
-      constexpr int pairs[6][2] = {
-        {0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
       static_for<6>([&](auto s) {
-        constexpr int a = pairs[s][0], b = pairs[s][1];
+        constexpr int a = internal::symmetric_pairs[s][0],
+                      b = internal::symmetric_pairs[s][1];
         e[s] = a == b ? R[a][a] - 1. : 0.5 * (R[a][b] + R[b][a]);
         static_for<3>([&](auto c) {
           e[s] += a == b ?
@@ -45,7 +44,17 @@ namespace corotet
              grad_u[0][2] * (grad_u[1][0] * grad_u[2][1] - b * grad_u[2][0]);
     }
 
-    template <int p>
+    // The rotations of F = I + grad u.
+    COROTET_ALWAYS_INLINE PolarLanes
+    rotations_at(const V (&grad_u)[3][3], V (&R)[3][3])
+    {
+      V F[3][3];
+      internal::copy(grad_u, F);
+      add_identity(F);
+      return polar_decomposition(F, R);
+    }
+
+    template <int p, bool at_points>
     __attribute__((flatten)) void
     sweep_state(const ReferenceElement &reference,
                 const ElasticData      &data,
@@ -60,21 +69,26 @@ namespace corotet
         {
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u;
+          typename Kernel::Geometry    g;
           gather_differences<Kernel::n_nodes>(data.batches,
                                               batch,
                                               displacement,
                                               u);
+          Kernel::load(shapes, g);
           V R[3][3], grad_u[3][3];
-          rotations_of(data, batch, R);
-          Kernel::gradient(reference.centre, 0, shapes, u, grad_u);
+          if constexpr (!at_points)
+            rotations_of(data, batch, R);
+          Kernel::gradient(reference.centre, 0, g, u, grad_u);
           V       det_F       = determinant_of_F(grad_u), energy{};
           const V mu          = lanes(shapes.mu),
                   half_lambda = 0.5 * lanes(shapes.lambda);
           for (unsigned int q = 0; q < rule.weights.size(); ++q)
             {
-              Kernel::gradient(rule, q, shapes, u, grad_u);
+              Kernel::gradient(rule, q, g, u, grad_u);
               const V det = determinant_of_F(grad_u);
               det_F       = det < det_F ? det : det_F;
+              if constexpr (at_points)
+                rotations_at(grad_u, R);
               V e[6];
               corotational_strain(grad_u, R, e);
               const V trace = e[0] + e[1] + e[2];
@@ -93,6 +107,104 @@ namespace corotet
         }
     }
 
+    // f_i = sum_q w_q P(F_q) grad N_i, with the rotation of each point.
+    template <int p>
+    __attribute__((flatten)) void
+    sweep_force_at_points(const ReferenceElement &reference,
+                          ElasticData            &data,
+                          const unsigned int      first,
+                          const unsigned int      end,
+                          const double           *displacement,
+                          double                 *sums)
+    {
+      using Kernel = QuadratureKernel<p>;
+      for (unsigned int batch = first; batch < end; ++batch)
+        {
+          const CellShapes            &shapes = data.shapes[batch];
+          typename Kernel::NodalValues u, f{};
+          typename Kernel::Geometry    g;
+          gather_differences<Kernel::n_nodes>(data.batches,
+                                              batch,
+                                              displacement,
+                                              u);
+          Kernel::load(shapes, g);
+          V R[3][3], grad_u[3][3];
+          Kernel::gradient(reference.centre, 0, g, u, grad_u);
+          PolarLanes found = rotations_at(grad_u, R);
+          store_rotated(R, shapes, data.new_coefficients[batch]);
+          const V    mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
+          const auto stress =
+            [&](const unsigned int, V(&F)[3][3], V(&P)[3][3]) {
+              add_identity(F);
+              V R[3][3];
+              found |= polar_decomposition(F, R);
+              corotational_stress(R, lambda, mu, F, P);
+            };
+          Kernel::integrate(
+            reference.stiffness_rule, g, lanes(shapes.volume), u, f, stress);
+          data.counts.add(found, shapes);
+          scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+        }
+    }
+
+    // Gradient of the energy with one rotation per cell. With A_q = R^T F_q,
+    // dA_q = R^T dF_q - W(w) A_q, so to the force of frozen rotations comes
+    // w . m with the moment m, the axial vector of sum_q w_q sigma_q A_q^T, and
+    // G w = a(R^T dF) at the centre: a stress P = R W(G^{-1} m) there.
+    template <int p>
+    __attribute__((flatten)) void
+    sweep_variational_force(const ReferenceElement &reference,
+                            ElasticData            &data,
+                            const unsigned int      first,
+                            const unsigned int      end,
+                            const double           *displacement,
+                            double                 *sums)
+    {
+      using Kernel = QuadratureKernel<p>;
+      for (unsigned int batch = first; batch < end; ++batch)
+        {
+          const CellShapes            &shapes = data.shapes[batch];
+          typename Kernel::NodalValues u, f{};
+          typename Kernel::Geometry    g;
+          gather_differences<Kernel::n_nodes>(data.batches,
+                                              batch,
+                                              displacement,
+                                              u);
+          Kernel::load(shapes, g);
+          V R[3][3], F[3][3];
+          Kernel::gradient(reference.centre, 0, g, u, F);
+          add_identity(F);
+          data.counts.add(polar_decomposition(F, R), shapes);
+          store_rotated(R, shapes, data.new_coefficients[batch]);
+          const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda),
+                  volume = lanes(shapes.volume);
+          V          moment[3]{};
+          const auto stress =
+            [&](const unsigned int q, V(&F)[3][3], V(&P)[3][3]) {
+              V A[3][3], e[3][3], sigma[3][3];
+              add_identity(F);
+              transposed_times(R, F, A);
+              internal::copy(A, e);
+              static_for<3>([&](auto a) { e[a][a] -= 1.; });
+              isotropic_stress(lambda, mu, e, sigma);
+              times(R, sigma, P);
+              add_moment(reference.stiffness_rule.weights[q] * volume,
+                         sigma,
+                         A,
+                         moment);
+            };
+          Kernel::integrate(
+            reference.stiffness_rule, g, volume, u, f, stress);
+          V S[6], G_inverse[6], n[3], RW[3][3];
+          stretch(R, F, S);
+          inverse_spin_tensor(S, G_inverse);
+          symmetric_times(G_inverse, moment, n);
+          times_skew(R, n, RW);
+          Kernel::add(reference.centre, 0, g, RW, f);
+          scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+        }
+    }
+
     template <int p>
     __attribute__((flatten)) void
     sweep_tangent(const ReferenceElement &reference,
@@ -107,7 +219,9 @@ namespace corotet
         {
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u, f{};
+          typename Kernel::Geometry    g;
           gather_batch<Kernel::n_nodes>(data.batches, batch, source, u);
+          Kernel::load(shapes, g);
           V R[3][3];
           rotations_of(data, batch, R);
           const V    mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
@@ -115,18 +229,35 @@ namespace corotet
             [&](const unsigned int, const V(&grad_u)[3][3], V(&P)[3][3]) {
               corotational_tangent(R, lambda, mu, grad_u, P);
             };
-          Kernel::integrate(reference.stiffness_rule, shapes, u, f, stress);
+          Kernel::integrate(
+            reference.stiffness_rule, g, lanes(shapes.volume), u, f, stress);
           scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
         }
     }
   } // namespace
 
   StateSweep
-  state_sweep(const unsigned int degree)
+  state_sweep(const unsigned int degree, const Rotation rotation)
   {
     StateSweep result = nullptr;
     with_degree(degree, [&](const auto p) {
-      result = sweep_state<decltype(p)::value>;
+      constexpr int degree = decltype(p)::value;
+      result               = rotation == Rotation::quadrature_points ?
+                               sweep_state<degree, true> :
+                               sweep_state<degree, false>;
+    });
+    return result;
+  }
+
+  PointForceSweep
+  point_force_sweep(const unsigned int degree, const Rotation rotation)
+  {
+    PointForceSweep result = nullptr;
+    with_degree(degree, [&](const auto p) {
+      constexpr int degree = decltype(p)::value;
+      result               = rotation == Rotation::quadrature_points ?
+                               sweep_force_at_points<degree> :
+                               sweep_variational_force<degree>;
     });
     return result;
   }

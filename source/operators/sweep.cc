@@ -2,11 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/discretization/with_degree.h>
-#include <corotet/material/polar_decomposition_simd.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/sweep.h>
-
-#include <bit>
 
 namespace corotet
 {
@@ -106,26 +103,6 @@ namespace corotet
       });
     }
 
-    // Rotates the gradients of the cells.
-    COROTET_ALWAYS_INLINE void
-    store_rotated(const Simd<double> (&R)[3][3],
-                  const CellShapes         &shapes,
-                  CellCoefficients<double> &coefficients)
-    {
-      const Simd<double> scale = load_aligned<batch_size>(shapes.scale);
-      static_for<3>([&](auto k) {
-        Simd<double> g[3];
-        static_for<3>([&](auto b) {
-          g[b] = scale *
-                 load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
-        });
-        static_for<3>([&](auto a) {
-          store_aligned(R[a][0] * g[0] + R[a][1] * g[1] + R[a][2] * g[2],
-                        coefficients.gradients[3 * k + a]);
-        });
-      });
-    }
-
     // Strain of the body at rest as the rotations see it, sym(R) - I, in the
     // kernel's units.
     template <typename Kernel>
@@ -141,26 +118,6 @@ namespace corotet
       offset[3] = s * (R[1][2] + R[2][1]);
       offset[4] = s * (R[0][2] + R[2][0]);
       offset[5] = s * (R[0][1] + R[1][0]);
-    }
-
-    void
-    count(const PolarLanes  &lanes,
-          const unsigned int valid,
-          RotationCounts    &counts)
-    {
-      counts.robust += std::popcount(lanes.irregular & valid);
-      counts.inverted += std::popcount(lanes.inverted & valid);
-      counts.degenerate += std::popcount(lanes.degenerate & valid);
-    }
-
-    // Lanes with a cell.
-    unsigned int
-    valid_lanes(const CellShapes &shapes)
-    {
-      unsigned int valid = 0;
-      for (unsigned int lane = 0; lane < batch_size; ++lane)
-        valid |= (shapes.scale[lane] > 0 ? 1u : 0u) << lane;
-      return valid;
     }
 
     template <int p, bool rotate, bool with_force>
@@ -183,8 +140,7 @@ namespace corotet
               Simd<double> F[3][3];
               deformation_gradient<Kernel>(shapes, u, F);
               const PolarLanes lanes = polar_decomposition(F, R);
-              if (__builtin_expect(lanes.irregular != 0, 0))
-                count(lanes, valid_lanes(shapes), data.counts);
+              data.counts.add(lanes, shapes);
               store_rotated(R, shapes, data.new_coefficients[batch]);
             }
           else

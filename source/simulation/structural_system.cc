@@ -59,13 +59,13 @@ namespace corotet
     , elastic(discretization,
               reference,
               parameters.material.materials(discretization.mesh().regions()),
-              parameters.material.corotational())
+              parameters.material.rotation_placement())
     , loads(discretization,
             reference,
             mass_matrix,
             conditions,
             parameters.loads,
-            parameters.material.corotational(),
+            parameters.material.rotation_placement() != Rotation::none,
             log)
     , motion(discretization, reference, conditions, parameters.time_step)
   {
@@ -189,7 +189,7 @@ namespace corotet
     const double c_K = 1 + stage.velocity_factor * parameters.damping_stiffness;
     const double c_M = stage.acceleration_factor +
                        stage.velocity_factor * parameters.damping_mass;
-    if (elastic.is_corotational() || c_K != operator_c_K || c_M != operator_c_M)
+    if (elastic.rotation_placement() != Rotation::none || c_K != operator_c_K || c_M != operator_c_M)
       {
         ScopedTimer timer(wall_times.assembly);
         effective_operator->update(c_K, c_M);

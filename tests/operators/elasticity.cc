@@ -251,7 +251,7 @@ TEST_P(ElasticityTest, ExplicitStep)
   Elasticity elasticity(body.discretization,
                         body.system.reference_element(),
                         body.parameters.material.materials(body.mesh.regions()),
-                        true);
+                        Rotation::cell_centre);
   elasticity.explicit_step(u, v, external, inverse_mass, dt);
   EXPECT_LE(largest_difference(v, expected_v),
             1e-13 * expected_v.linfty_norm());

@@ -4,7 +4,7 @@
 #ifndef corotet_material_material_parameters_h
 #define corotet_material_material_parameters_h
 
-#include <corotet/material/isotropic.h>
+#include <corotet/material/corotational.h>
 #include <corotet/mesh/mesh.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -24,11 +24,8 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    bool
-    corotational() const
-    {
-      return type == "corotational";
-    }
+    Rotation
+    rotation_placement() const;
 
     /**
      * The material of each region, by the region's id. Throws InputError if a

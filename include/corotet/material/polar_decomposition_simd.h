@@ -28,6 +28,15 @@ namespace corotet
     unsigned int inverted = 0;
     /// Lanes with PolarState::degenerate.
     unsigned int degenerate = 0;
+
+    /// Lanes that this or @p other names.
+    COROTET_ALWAYS_INLINE void
+    operator|=(const PolarLanes &other)
+    {
+      irregular |= other.irregular;
+      inverted |= other.inverted;
+      degenerate |= other.degenerate;
+    }
   };
 
   namespace internal

@@ -9,8 +9,9 @@
 #include <corotet/discretization/reference_element.h>
 #include <corotet/material/isotropic.h>
 #include <corotet/operators/cell_loop.h>
-#include <corotet/operators/sweep.h>
+#include <corotet/operators/tangent_sweep.h>
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -27,8 +28,8 @@ namespace corotet
     double min_det_F = 1;
     /// Cells where det F is negative at one of these points.
     unsigned int inverted_cells = 0;
-    /// Cells whose centre the last rotation update found collapsed to a plane,
-    /// a line or a point. Zero for linear elasticity.
+    /// Cells that the last rotation update found collapsed to a plane, a line
+    /// or a point where rotations are taken. Zero for linear elasticity.
     unsigned int degenerate_cells = 0;
     /// Cells whose rotation the fast algorithm left to the robust one.
     unsigned int robust_rotations = 0;
@@ -48,16 +49,19 @@ namespace corotet
   };
 
   /**
-   * Internal force f(u) and tangent K of linear or corotational elasticity,
+   * Internal force f(u) of linear or corotational elasticity,
    * f_i = sum_q w_q R sigma(sym(R^T F_q) - I) grad N_i [seed, 2.73 to 2.76],
-   * with one rotation R per cell, taken from F at the cell's centre. Linear
-   * elasticity is the case R = I.
+   * and its tangents. Rotations R are those of the cells' centres, or each
+   * quadrature point has its own, as Rotation says; linear elasticity is the
+   * case R = I.
    *
-   * Rotations change only in update_rotations(); the tangent is the derivative
-   * of the force with these frozen. Vectors are those of the discretization;
-   * input vectors need ghost entries up to date, results are complete on owned
-   * entries. @p discretization and @p reference must outlive this object. All
-   * members but those marked are collective.
+   * The cells' rotations change only in update_rotations() and
+   * update_rotations_and_force(), whatever the case; K is the tangent with
+   * these frozen. Tangents that need more are prepared by linearize(). Vectors
+   * are those of the discretization; input vectors need ghost entries up to
+   * date unless told otherwise, results are complete on owned entries.
+   * @p discretization and @p reference must outlive this object. All members
+   * but those marked are collective.
    */
   class Elasticity
   {
@@ -66,18 +70,20 @@ namespace corotet
     Elasticity(const Discretization                            &discretization,
                const ReferenceElement                          &reference,
                const std::map<unsigned int, IsotropicMaterial> &materials,
-               const bool                                       corotational);
+               const Rotation                                   rotation);
 
     /// Takes the rotation of every local cell from the displacement @p u. For
     /// linear elasticity it does nothing.
     void
     update_rotations(const Vector &u);
 
-    /// f = internal force of the displacement @p u at the present rotations.
+    /// f = internal force of the displacement @p u at the present rotations of
+    /// the cells, whatever the placement: of the law with these frozen.
     void
     internal_force(Vector &f, const Vector &u) const;
 
-    /// Both, in one sweep over the cells.
+    /// New rotations of the cells and the internal force of @p u, in one sweep
+    /// over the cells.
     void
     update_rotations_and_force(Vector &f, const Vector &u);
 
@@ -103,6 +109,28 @@ namespace corotet
     /// to compare with.
     void
     apply_tangent_by_quadrature(Vector &f, const Vector &v) const;
+
+    /**
+     * Prepares the tangent at @p u, where the cells' rotations must have been
+     * taken. Returns in how many cells, over all ranks, the derivative of a
+     * rotation was clamped.
+     */
+    unsigned int
+    linearize(const Vector &u, const Tangent tangent);
+
+    /**
+     * f = (K_T + (frozen_factor - 1) K_frozen + c_M M) v with the tangent of the
+     * last linearize(). M is that of @p masses, none if null, and @p lumped_mass
+     * the diagonal of a lumped one, or null. Ghost entries of @p v are brought
+     * up to date where they are not in use.
+     */
+    void
+    apply_linearization(Vector                   &f,
+                        const Vector             &v,
+                        const double              frozen_factor,
+                        const double              c_M,
+                        const CellMasses<double> *masses,
+                        const Vector             *lumped_mass) const;
 
     ElasticState
     state(const Vector &u) const;
@@ -146,10 +174,28 @@ namespace corotet
       return round_off_norm;
     }
 
-    bool
-    is_corotational() const
+    Rotation
+    rotation_placement() const
     {
-      return corotational;
+      return placement;
+    }
+
+    /// Whether that tangent is the one of the cells' frozen rotations, which
+    /// apply_tangent() and the effective operator know without linearize().
+    bool
+    is_by_cell(const Tangent tangent) const
+    {
+      return placement == Rotation::none ||
+             (tangent == Tangent::frozen_rotation &&
+              placement != Rotation::quadrature_points);
+    }
+
+    /// Whether that tangent is symmetric.
+    bool
+    is_symmetric(const Tangent tangent) const
+    {
+      return tangent == Tangent::frozen_rotation ||
+             placement != Rotation::cell_centre;
     }
 
   private:
@@ -174,6 +220,19 @@ namespace corotet
                const Sweep  &sweep,
                Data         &data,
                const double  scale) const;
+    /// A sweep that takes new rotations and adds the force in units of scale.
+    struct Force
+    {
+      std::function<void(ElasticData &,
+                         const unsigned int,
+                         const unsigned int,
+                         const double *,
+                         double *)>
+             sweep;
+      double scale;
+    };
+    Force
+    moving_force() const;
     /// New rotations of batches [first, end).
     void
     rotate(ElasticData       &data,
@@ -183,7 +242,7 @@ namespace corotet
 
     const Discretization          &discretization;
     const ReferenceElement        &reference;
-    bool                           corotational;
+    Rotation                       placement;
     std::vector<IsotropicMaterial> cell_materials;
     std::vector<unsigned int>      material_of_cell;
     CellLoop<double>               cell_loop;
@@ -192,6 +251,10 @@ namespace corotet
     // are rotated: that is how rotations are stored.
     dealii::AlignedVector<CellShapes>               shapes;
     dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
+
+    /// Of the last linearize(); see linearization_sweep().
+    dealii::AlignedVector<double> linearization;
+    Tangent                       linearized_tangent = Tangent::frozen_rotation;
 
     RotationCounts counts;
     double         round_off_norm = 0;

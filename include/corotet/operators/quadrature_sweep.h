@@ -10,7 +10,9 @@
 #include <limits>
 
 /**
- * Loops over batches of cells around the quadrature kernel.
+ * Loops over batches of cells around the quadrature kernel: forces and energies
+ * whose rotation is not that of the cell's centre alone. Their tangents are in
+ * tangent_sweep.h.
  */
 namespace corotet
 {
@@ -32,10 +34,23 @@ namespace corotet
                               const double           *displacement,
                               PointResults           &results);
 
-  /// A sweep over the displacement that collects @p results, with the rotations
-  /// that there are.
+  /// A sweep over the displacement that collects @p results. Rotations of cells
+  /// are those that there are, rotations of points those of the displacement.
   StateSweep
-  state_sweep(const unsigned int degree);
+  state_sweep(const unsigned int degree, const Rotation rotation);
+
+  using PointForceSweep = void (*)(const ReferenceElement &reference,
+                                   ElasticData            &data,
+                                   const unsigned int      first,
+                                   const unsigned int      end,
+                                   const double           *displacement,
+                                   double                 *sums);
+
+  /// New rotations and the internal force, in units of one, for
+  /// Rotation::quadrature_points or cell_centre_variational. The cells' own
+  /// rotations become those at the centre.
+  PointForceSweep
+  point_force_sweep(const unsigned int degree, const Rotation rotation);
 
   using QuadratureSweep = void (*)(const ReferenceElement &reference,
                                    const ElasticData      &data,
@@ -44,8 +59,8 @@ namespace corotet
                                    const double           *source,
                                    double                 *sums);
 
-  /// K source with the rotations that there are, like form_sweep() but by
-  /// quadrature and in units of one.
+  /// K source with the cells' rotations that there are, like form_sweep() but
+  /// by quadrature and in units of one.
   QuadratureSweep
   tangent_by_quadrature_sweep(const unsigned int degree);
 } // namespace corotet

@@ -5,7 +5,11 @@
 #define corotet_operators_sweep_h
 
 #include <corotet/discretization/cell_batches.h>
+#include <corotet/material/corotational.h>
+#include <corotet/material/polar_decomposition_simd.h>
 #include <corotet/operators/factored_kernel.h>
+
+#include <bit>
 
 /**
  * Loops over batches of cells around the cell kernels: gather, compute, add.
@@ -77,15 +81,31 @@ namespace corotet
   double
   mass_scale(const unsigned int degree);
 
-  /// Cells of the last rotation update that needed care.
+  /// Cells of the last rotation update that needed care, at one of the points
+  /// where rotations are taken.
   struct RotationCounts
   {
     /// Cells whose rotation took the robust way.
     unsigned int robust = 0;
-    /// det F < 0 at the centre.
+    /// det F < 0.
     unsigned int inverted = 0;
     /// Collapsed to a plane, a line or a point.
     unsigned int degenerate = 0;
+
+    /// Counts the cells of a batch.
+    COROTET_ALWAYS_INLINE void
+    add(const PolarLanes &lanes, const CellShapes &shapes)
+    {
+      if (__builtin_expect(lanes.irregular != 0, 0))
+        {
+          unsigned int valid = 0;
+          for (unsigned int lane = 0; lane < batch_size; ++lane)
+            valid |= (shapes.scale[lane] > 0 ? 1u : 0u) << lane;
+          robust += std::popcount(lanes.irregular & valid);
+          inverted += std::popcount(lanes.inverted & valid);
+          degenerate += std::popcount(lanes.degenerate & valid);
+        }
+    }
   };
 
   /// What the sweeps of corotational elasticity read and write.
@@ -94,8 +114,7 @@ namespace corotet
     const CellBatches              &batches;
     const CellShapes               *shapes;
     const CellCoefficients<double> *coefficients;
-    /// If not, all rotations are I.
-    bool corotational;
+    Rotation rotation;
     /// The coefficients, for sweeps that rotate; null for others.
     CellCoefficients<double> *new_coefficients = nullptr;
     RotationCounts            counts           = {};
@@ -112,7 +131,7 @@ namespace corotet
                Simd<double> (&R)[3][3])
   {
     using V = Simd<double>;
-    if (!data.corotational)
+    if (data.rotation == Rotation::none)
       {
         static_for<9>(
           [&](auto i) { R[i / 3][i % 3] = broadcast(i % 4 == 0 ? 1. : 0.); });
@@ -146,6 +165,26 @@ namespace corotet
     });
   }
 
+  /// Rotates the gradients of the cells of a batch: rotations_of() tells @p R
+  /// afterwards.
+  COROTET_ALWAYS_INLINE void
+  store_rotated(const Simd<double> (&R)[3][3],
+                const CellShapes         &shapes,
+                CellCoefficients<double> &coefficients)
+  {
+    const Simd<double> scale = load_aligned<batch_size>(shapes.scale);
+    static_for<3>([&](auto k) {
+      Simd<double> g[3];
+      static_for<3>([&](auto b) {
+        g[b] = scale *
+               load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
+      });
+      static_for<3>([&](auto a) {
+        store_aligned(R[a][0] * g[0] + R[a][1] * g[1] + R[a][2] * g[2],
+                      coefficients.gradients[3 * k + a]);
+      });
+    });
+  }
 
   using ElasticSweep = void (*)(ElasticData       &data,
                                 const unsigned int first,

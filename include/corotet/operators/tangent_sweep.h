@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_tangent_sweep_h
+#define corotet_operators_tangent_sweep_h
+
+#include <corotet/discretization/reference_element.h>
+#include <corotet/operators/sweep.h>
+
+/**
+ * Tangents that vary inside a cell: with a rotation for each quadrature point,
+ * or exact, with the derivative of the rotation. A first sweep stores what they
+ * need of the displacement, a second one applies them.
+ */
+namespace corotet
+{
+  /// The derivative of the internal force.
+  enum class Tangent
+  {
+    /// As if the rotations did not depend on the displacement: symmetric and
+    /// positive semi-definite.
+    frozen_rotation,
+    /// Exact.
+    consistent
+  };
+
+  /// Numbers per cell that linearization_sweep() stores.
+  unsigned int
+  linearization_size(const ReferenceElement &reference,
+                     const Rotation          rotation,
+                     const Tangent           tangent);
+
+  /**
+   * Stores the linearization of batches [first, end) at @p displacement, where
+   * the cells' rotations must have been taken: linearization_size() numbers
+   * per cell, [batch][number][lane]. Adds to @p n_clamped the cells where the
+   * derivative of a rotation was clamped.
+   */
+  using LinearizationSweep = void (*)(const ReferenceElement &reference,
+                                      const ElasticData      &data,
+                                      const unsigned int      first,
+                                      const unsigned int      end,
+                                      const double           *displacement,
+                                      double                 *linearization,
+                                      unsigned int           &n_clamped);
+
+  LinearizationSweep
+  linearization_sweep(const unsigned int degree,
+                      const Rotation     rotation,
+                      const Tangent      tangent);
+
+  struct TangentData
+  {
+    const ReferenceElement &reference;
+    const ElasticData      &elastic;
+    const double           *linearization;
+    /// Multiplies the part of the tangent with frozen rotations.
+    double frozen_factor;
+    /// Null if there is no mass term.
+    const CellMasses<double> *masses;
+    double                    mass_factor;
+  };
+
+  /// Adds (K_T + (frozen_factor - 1) K_frozen + mass_factor M) source to
+  /// @p sums.
+  using TangentSweep = void (*)(const TangentData &data,
+                                const unsigned int first,
+                                const unsigned int end,
+                                const double      *source,
+                                double            *sums);
+
+  TangentSweep
+  tangent_sweep(const unsigned int degree,
+                const Rotation     rotation,
+                const Tangent      tangent);
+} // namespace corotet
+
+#endif
