@@ -243,10 +243,11 @@ namespace corotet
           double       *sums) { force.sweep(data, first, end, source, sums); },
       // No cell of this rank will need these nodes again in this sweep.
       [&](const unsigned int i, const auto y) {
-        using V          = decltype(y + y);
-        const V velocity = load_as<V>(v.begin() + i) +
-                           dt * load_as<V>(inverse_mass.begin() + i) *
-                             (load_as<V>(external.begin() + i) - force.scale * y);
+        using V = decltype(y + y);
+        const V velocity =
+          load_as<V>(v.begin() + i) +
+          dt * load_as<V>(inverse_mass.begin() + i) *
+            (load_as<V>(external.begin() + i) - force.scale * y);
         store_to(velocity, v.begin() + i);
         store_to(load_as<V>(u.begin() + i) + dt * velocity, u.begin() + i);
       });
@@ -295,14 +296,15 @@ namespace corotet
       static_cast<std::size_t>(n_batches) * batch_size *
       linearization_size(reference, placement, tangent));
     unsigned int n_clamped = 0;
-    linearization_sweep(discretization.degree(), placement, tangent)(
-      reference,
-      elastic_data(),
-      0,
-      n_batches,
-      u.begin(),
-      linearization.data(),
-      n_clamped);
+    linearization_sweep(discretization.degree(),
+                        placement,
+                        tangent)(reference,
+                                 elastic_data(),
+                                 0,
+                                 n_batches,
+                                 u.begin(),
+                                 linearization.data(),
+                                 n_clamped);
     return dealii::Utilities::MPI::sum(n_clamped,
                                        discretization.communicator());
   }
@@ -315,13 +317,9 @@ namespace corotet
                                   const CellMasses<double> *masses,
                                   const Vector             *lumped_mass) const
   {
-    const ElasticData  elastic = elastic_data();
-    const TangentData  data{reference,
-                           elastic,
-                           linearization.data(),
-                           frozen_factor,
-                           masses,
-                           c_M};
+    const ElasticData elastic = elastic_data();
+    const TangentData data{
+      reference, elastic, linearization.data(), frozen_factor, masses, c_M};
     const TangentSweep sweep =
       tangent_sweep(discretization.degree(), placement, linearized_tangent);
     cell_loop.run(
@@ -376,10 +374,8 @@ namespace corotet
         const Tensor<2, 3> R      = rotation(c);
         // Also linear elasticity shows how far its cells rotate: that is what
         // it neglects.
-        result.rotation_angle[c] =
-          rotation_angle(placement != Rotation::none ?
-                           R :
-                           polar_decomposition(F).rotation);
+        result.rotation_angle[c] = rotation_angle(
+          placement != Rotation::none ? R : polar_decomposition(F).rotation);
         result.det_F[c] = determinant(F);
         result.von_mises[c] =
           von_mises(stress(material(c), corotational_strain(grad_u, R)));

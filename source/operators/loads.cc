@@ -228,6 +228,65 @@ namespace corotet
         }
   }
 
+  bool
+  Loads::has_follower_pressure() const
+  {
+    return follow && !conditions.pressures.empty();
+  }
+
+  void
+  Loads::linearize(const double time, const Vector &u)
+  {
+    pressure_points.clear();
+    for (const auto &load : conditions.pressures)
+      for (const BoundaryFace &face : discretization.boundary_faces())
+        if (face.boundary == load.boundary)
+          for_each_surface_point(
+            discretization,
+            reference,
+            face,
+            &u,
+            [&](const SurfacePoint &point) {
+              const double weight =
+                reference.face_rules[face.face].weights[point.index];
+              pressure_points.push_back(
+                {&face,
+                 point.index,
+                 0.5 * weight * load.value.value(point.at_rest, time),
+                 point.tangents});
+            });
+  }
+
+  void
+  Loads::add_linearized(Vector &f, const Vector &v, const double factor) const
+  {
+    scratch = 0;
+    for (const PressurePoint &point : pressure_points)
+      {
+        const unsigned int face  = point.face->face;
+        const auto         nodes = discretization.cell_nodes(point.face->cell);
+        const auto        &face_nodes = reference.face_nodes[face];
+        const auto        &values     = reference.face_rules[face].values;
+        std::array<Tensor<1, 3>, 2> dt;
+        for (const unsigned int i : face_nodes)
+          {
+            const auto dN = face_derivatives(reference, face, point.index, i);
+            for (unsigned int a = 0; a < 3; ++a)
+              for (unsigned int k = 0; k < 2; ++k)
+                dt[k][a] += dN[k] * v.local_element(3 * nodes[i] + a);
+          }
+        const Tensor<1, 3> force =
+          -point.pressure * (cross_product_3d(dt[0], point.tangents[1]) +
+                             cross_product_3d(point.tangents[0], dt[1]));
+        for (const unsigned int i : face_nodes)
+          for (unsigned int a = 0; a < 3; ++a)
+            scratch.local_element(3 * nodes[i] + a) +=
+              force[a] * values[point.index][i];
+      }
+    scratch.compress(dealii::VectorOperation::add);
+    f.add(factor, scratch);
+  }
+
   Loads::PointForce
   Loads::locate(const std::string &text, Log &log) const
   {

@@ -25,7 +25,7 @@ namespace corotet
       static_for<6>([&](auto s) {
         constexpr int a = internal::symmetric_pairs[s][0],
                       b = internal::symmetric_pairs[s][1];
-        e[s] = a == b ? R[a][a] - 1. : 0.5 * (R[a][b] + R[b][a]);
+        e[s]            = a == b ? R[a][a] - 1. : 0.5 * (R[a][b] + R[b][a]);
         static_for<3>([&](auto c) {
           e[s] += a == b ?
                     R[c][a] * grad_u[c][a] :
@@ -193,8 +193,7 @@ namespace corotet
                          A,
                          moment);
             };
-          Kernel::integrate(
-            reference.stiffness_rule, g, volume, u, f, stress);
+          Kernel::integrate(reference.stiffness_rule, g, volume, u, f, stress);
           V S[6], G_inverse[6], n[3], RW[3][3];
           stretch(R, F, S);
           inverse_spin_tensor(S, G_inverse);

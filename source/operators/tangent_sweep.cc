@@ -27,16 +27,16 @@ namespace corotet
       COROTET_ALWAYS_INLINE void
       read(V (&values)[n])
       {
-        static_for<n>([&](auto i) { values[i] = lanes(next + i * batch_size); });
+        static_for<n>(
+          [&](auto i) { values[i] = lanes(next + i * batch_size); });
         next += n * batch_size;
       }
 
       COROTET_ALWAYS_INLINE void
       read(V (&values)[3][3])
       {
-        static_for<9>([&](auto i) {
-          values[i / 3][i % 3] = lanes(next + i * batch_size);
-        });
+        static_for<9>(
+          [&](auto i) { values[i / 3][i % 3] = lanes(next + i * batch_size); });
         next += 9 * batch_size;
       }
     };
@@ -81,8 +81,7 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     add_transposed(const V (&R)[3][3], V (&B)[3][3])
     {
-      static_for<9>(
-        [&](auto ab) { B[ab / 3][ab % 3] += R[ab % 3][ab / 3]; });
+      static_for<9>([&](auto ab) { B[ab / 3][ab % 3] += R[ab % 3][ab / 3]; });
     }
 
     COROTET_ALWAYS_INLINE void
@@ -115,8 +114,8 @@ namespace corotet
     {
       using Kernel     = QuadratureKernel<p>;
       const auto &rule = reference.stiffness_rule;
-      const auto  size = batch_size * linearization_size(
-                                       reference, data.rotation, tangent);
+      const auto  size =
+        batch_size * linearization_size(reference, data.rotation, tangent);
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
@@ -163,9 +162,9 @@ namespace corotet
     {
       using Kernel     = QuadratureKernel<p>;
       const auto &rule = reference.stiffness_rule;
-      const auto  size = batch_size * linearization_size(reference,
-                                                        rotation,
-                                                        Tangent::consistent);
+      const auto  size =
+        batch_size *
+        linearization_size(reference, rotation, Tangent::consistent);
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
@@ -196,8 +195,10 @@ namespace corotet
                   V e[3][3], sigma[3][3];
                   internal::copy(B, e);
                   static_for<3>([&](auto a) { e[a][a] -= 1.; });
-                  isotropic_stress(
-                    lanes(shapes.lambda), lanes(shapes.mu), e, sigma);
+                  isotropic_stress(lanes(shapes.lambda),
+                                   lanes(shapes.mu),
+                                   e,
+                                   sigma);
                   add_moment(rule.weights[q] * lanes(shapes.volume),
                              sigma,
                              B,
@@ -216,8 +217,8 @@ namespace corotet
     // f = c_M M u. Changes u.
     template <int p>
     COROTET_ALWAYS_INLINE void
-    apply_mass(const TangentData             &data,
-               const unsigned int             batch,
+    apply_mass(const TangentData &data,
+               const unsigned int batch,
                V (&u)[bernstein::size<p>][3],
                V (&f)[bernstein::size<p>][3])
     {
@@ -258,10 +259,10 @@ namespace corotet
     {
       using Kernel     = QuadratureKernel<p>;
       const auto &rule = data.reference.stiffness_rule;
-      const auto  size = batch_size * linearization_size(
-                                       data.reference,
-                                       Rotation::quadrature_points,
-                                       tangent);
+      const auto  size =
+        batch_size * linearization_size(data.reference,
+                                        Rotation::quadrature_points,
+                                        tangent);
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.elastic.shapes[batch];
@@ -269,8 +270,8 @@ namespace corotet
           typename Kernel::Geometry    g;
           gather_with_mass<p>(data, batch, source, u, f);
           Kernel::load(shapes, g);
-          const V    mu     = data.frozen_factor * lanes(shapes.mu),
-                     lambda = data.frozen_factor * lanes(shapes.lambda);
+          const V mu     = data.frozen_factor * lanes(shapes.mu),
+                  lambda = data.frozen_factor * lanes(shapes.lambda);
           Reader     numbers{data.linearization + size * std::size_t(batch)};
           const auto stress =
             [&](const unsigned int, const V(&dF)[3][3], V(&P)[3][3]) {
@@ -308,10 +309,11 @@ namespace corotet
                     const double      *source,
                     double            *sums)
     {
-      using Kernel               = QuadratureKernel<p>;
-      constexpr bool variational = rotation == Rotation::cell_centre_variational;
-      const auto    &rule        = data.reference.stiffness_rule;
-      const auto     size =
+      using Kernel = QuadratureKernel<p>;
+      constexpr bool variational =
+        rotation == Rotation::cell_centre_variational;
+      const auto &rule = data.reference.stiffness_rule;
+      const auto  size =
         batch_size *
         linearization_size(data.reference, rotation, Tangent::consistent);
       for (unsigned int batch = first; batch < end; ++batch)
@@ -323,8 +325,8 @@ namespace corotet
           load_rotated(data.elastic, batch, g);
           const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda),
                   volume = lanes(shapes.volume);
-          Reader  numbers{data.linearization + size * std::size_t(batch)};
-          V       G_inverse[6], S[6], H[3][3], a[3], w[3], dm[3]{};
+          Reader numbers{data.linearization + size * std::size_t(batch)};
+          V      G_inverse[6], S[6], H[3][3], a[3], w[3], dm[3]{};
           numbers.read(G_inverse);
           if constexpr (variational)
             numbers.read(S);
@@ -343,7 +345,7 @@ namespace corotet
               // Of the part with frozen rotations a multiple is wanted.
               static_for<9>([&](auto ab) {
                 constexpr int a = ab / 3, b = ab % 3;
-                e[a][b]         = H[a][b] - WB[a][b];
+                e[a][b]  = H[a][b] - WB[a][b];
                 WB[a][b] = data.frozen_factor * H[a][b] - WB[a][b];
               });
               isotropic_stress(lambda, mu, WB, P);
@@ -355,9 +357,8 @@ namespace corotet
                   add_moment(weight, d_sigma, B, dm);
                   add_moment(weight, sigma, e, dm);
                 }
-              static_for<9>([&](auto ab) {
-                P[ab / 3][ab % 3] += W_sigma[ab / 3][ab % 3];
-              });
+              static_for<9>(
+                [&](auto ab) { P[ab / 3][ab % 3] += W_sigma[ab / 3][ab % 3]; });
             };
           Kernel::integrate(rule, g, volume, u, f, stress);
           if constexpr (variational)
@@ -368,8 +369,8 @@ namespace corotet
               static_for<6>([&](auto s) {
                 constexpr int a = internal::symmetric_pairs[s][0],
                               b = internal::symmetric_pairs[s][1];
-                S_full[a][b] = S[s];
-                S_full[b][a] = S[s];
+                S_full[a][b]    = S[s];
+                S_full[b][a]    = S[s];
               });
               skew_times(w, S_full, WS);
               static_for<9>([&](auto ab) {
@@ -406,7 +407,8 @@ namespace corotet
         if (rotation == Rotation::quadrature_points)
           result =
             tangent == Tangent::frozen_rotation ?
-              at_points(p, integral_constant<Tangent, Tangent::frozen_rotation>()) :
+              at_points(
+                p, integral_constant<Tangent, Tangent::frozen_rotation>()) :
               at_points(p, integral_constant<Tangent, Tangent::consistent>());
         else if (tangent == Tangent::consistent)
           result =

@@ -73,6 +73,11 @@ namespace corotet
       add_vector(row, names[p], displacements[p]);
     row["volume"] = record.volume;
     add_vector(row, "reaction", record.reaction);
+    row["degenerate_cells"] = record.degenerate_cells;
+    row["robust_rotations"] = record.robust_rotations;
+    row["clamped_cells"]    = record.clamped_cells;
+    row["parts"]            = record.parts;
+    add_vector(row, "internal_moment", record.internal_moment);
     return row;
   }
 

@@ -62,8 +62,8 @@ namespace corotet
                                      "digits and _ are allowed, no digit first",
                                      name));
       // NAME_x would be two columns of the history.
-      const std::array<std::string, 3> taken{
-        {"momentum", "angular_momentum", "reaction"}};
+      const std::array<std::string, 4> taken{
+        {"momentum", "angular_momentum", "reaction", "internal_moment"}};
       if (std::find(taken.begin(), taken.end(), name) != taken.end())
         throw InputError(probes_entry,
                          fmt::format("'{}' cannot be a probe's name; {} are "

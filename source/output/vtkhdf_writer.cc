@@ -112,6 +112,13 @@ namespace corotet
       write_state(state);
   }
 
+  void
+  VtkhdfWriter::save(const Snapshot &state)
+  {
+    if (state.record.time > times.back())
+      write_state(state);
+  }
+
   bool
   VtkhdfWriter::is_due(const double time) const
   {

@@ -58,22 +58,25 @@ namespace corotet
 
     system.mass().apply(momentum, system.velocity());
     record.kinetic_energy = 0.5 * (momentum * state.v);
-    Tensor<1, 3> linear, angular;
+    Tensor<1, 3> linear, angular, moment;
     double       largest_square = 0;
     for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
       {
-        Tensor<1, 3> p, u;
+        Tensor<1, 3> p, u, f;
         for (unsigned int a = 0; a < 3; ++a)
           {
             p[a] = momentum.local_element(3 * n + a);
+            f[a] = forces.internal.local_element(3 * n + a);
             u[a] = state.u.local_element(3 * n + a);
           }
         linear += p;
         angular += cross_product_3d(discretization.node_position(n) + u, p);
+        moment += cross_product_3d(discretization.node_position(n) + u, f);
         largest_square = std::max(largest_square, u.norm_square());
       }
     record.momentum         = dealii::Utilities::MPI::sum(linear, comm);
     record.angular_momentum = dealii::Utilities::MPI::sum(angular, comm);
+    record.internal_moment  = dealii::Utilities::MPI::sum(moment, comm);
     record.max_displacement =
       std::sqrt(dealii::Utilities::MPI::max(largest_square, comm));
 

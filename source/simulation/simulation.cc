@@ -59,18 +59,29 @@ namespace corotet
       }
     catch (const ComputationError &error)
       {
-        const std::string message = fmt::format("step {} (t = {:.6g}): {}",
-                                                record.step + 1,
-                                                record.time,
-                                                error.what());
+        const std::string message =
+          fmt::format("step {} (t = {:.6g}): {}",
+                      static_cast<unsigned int>(done * n_steps + 1e-6) + 1,
+                      time(done),
+                      error.what());
+        if (budget)
+          save(observers, record);
         finish(observers, record, "failed", message);
         throw ComputationError(message);
       }
     finish(observers, record, "done", "");
   }
 
+  double
+  Simulation::time(const double done) const
+  {
+    // Not a sum of steps: no round-off accumulates.
+    return parameters.start_time +
+           done * (parameters.end_time - parameters.start_time);
+  }
+
   void
-  Simulation::start(StepRecord &record, std::unique_ptr<Budget> &budget)
+  Simulation::start(StepRecord &record)
   {
     const double          time       = parameters.start_time;
     const TimeIntegrator &integrator = parameters.time_integrator.selected();
@@ -85,18 +96,14 @@ namespace corotet
       system, disc, present, time, integrator.load_factor(0.));
     record           = budget->initial_record();
     record.wall_time = seconds();
+    report_inversions(record);
   }
 
   void
   Simulation::compute(const std::vector<std::unique_ptr<Observer>> &observers,
                       StepRecord                                   &record)
   {
-    TimeIntegrator &integrator = parameters.time_integrator.selected();
-    const double    duration   = parameters.end_time - parameters.start_time;
-    const double    dt         = duration / n_steps;
-
-    std::unique_ptr<Budget> budget;
-    start(record, budget);
+    start(record);
     for (const auto &observer : observers)
       {
         ScopedTimer timer(wall_times.output);
@@ -105,38 +112,136 @@ namespace corotet
 
     for (unsigned int step = 1; step <= n_steps; ++step)
       {
-        const TimeStep    time_step{record.time,
-                                 dt,
-                                 static_cast<double>(step) / n_steps};
-        const StageReport report = integrator.step(system, time_step, present);
-
-        const unsigned int inverted   = record.inverted_cells;
-        const unsigned int degenerate = record.degenerate_cells;
-
-        record.step              = step;
-        record.dt                = dt;
-        record.newton_iterations = report.newton_iterations;
-        record.linear_iterations = report.linear_iterations;
-        // Not a sum of steps: no round-off accumulates.
-        const double time = parameters.start_time + time_step.done * duration;
-        budget->update(record,
-                       present,
-                       time,
-                       integrator.load_factor(time_step.done));
-        record.wall_time = seconds();
-        if (record.inverted_cells != inverted ||
-            record.degenerate_cells != degenerate)
-          log.warning(fmt::format("step {}: {} inverted, {} degenerate cells; "
-                                  "{} rotations took the robust way",
-                                  step,
-                                  record.inverted_cells,
-                                  record.degenerate_cells,
-                                  record.robust_rotations));
+        StepRecord next        = record;
+        next.step              = step;
+        next.dt                = 0;
+        next.parts             = 0;
+        next.newton_iterations = 0;
+        next.linear_iterations = 0;
+        try
+          {
+            advance(static_cast<double>(step - 1) / n_steps,
+                    static_cast<double>(step) / n_steps,
+                    parameters.max_halvings,
+                    next);
+          }
+        catch (const ComputationError &)
+          {
+            if (next.parts > 0)
+              // Part of the step is done: what is saved has its record.
+              record = next;
+            throw;
+          }
+        record = next;
+        report_inversions(record);
+        if (record.parts > 1)
+          log.line(
+            fmt::format("step {}: made in {} parts", step, record.parts));
 
         ScopedTimer timer(wall_times.output);
         for (const auto &observer : observers)
           observer->step(snapshot(record, step == n_steps));
       }
+  }
+
+  void
+  Simulation::advance(const double       from,
+                      const double       to,
+                      const unsigned int halvings,
+                      StepRecord        &record)
+  {
+    before_step = present;
+    try
+      {
+        make_step(from, to, record);
+        return;
+      }
+    catch (const ComputationError &error)
+      {
+        present = before_step;
+        if (halvings == 0)
+          {
+            if (parameters.max_halvings == 0)
+              throw;
+            throw ComputationError(
+              fmt::format("{}; the step has been halved {} times",
+                          error.what(),
+                          parameters.max_halvings));
+          }
+        log.line(fmt::format("t = {:.6g}: {}; trying half the step",
+                             time(to),
+                             error.what()));
+      }
+    const double middle = 0.5 * (from + to);
+    advance(from, middle, halvings - 1, record);
+    advance(middle, to, halvings - 1, record);
+  }
+
+  void
+  Simulation::make_step(const double from, const double to, StepRecord &record)
+  {
+    TimeIntegrator   &integrator = parameters.time_integrator.selected();
+    const StageReport report =
+      integrator.step(system,
+                      {time(from),
+                       (to - from) *
+                         (parameters.end_time - parameters.start_time),
+                       to},
+                      present);
+    done = to;
+    ++record.parts;
+    record.newton_iterations += report.newton_iterations;
+    record.linear_iterations += report.linear_iterations;
+    record.dt += time(to) - time(from);
+    budget->update(record, present, time(to), integrator.load_factor(to));
+    record.clamped_cells = system.take_clamped_cells();
+    record.wall_time     = seconds();
+  }
+
+  void
+  Simulation::report_inversions(const StepRecord &record)
+  {
+    if (record.inverted_cells == reported_inverted &&
+        record.degenerate_cells == reported_degenerate &&
+        record.clamped_cells == reported_clamped)
+      return;
+    reported_inverted   = record.inverted_cells;
+    reported_degenerate = record.degenerate_cells;
+    reported_clamped    = record.clamped_cells;
+    std::string text    = fmt::format("step {}: smallest det F {:.3g}, {} "
+                                      "inverted and {} degenerate cells",
+                                   record.step,
+                                   record.min_det_F,
+                                   record.inverted_cells,
+                                   record.degenerate_cells);
+    if (record.robust_rotations > 0)
+      text += fmt::format("; rotations of {} cells by singular value "
+                          "decomposition",
+                          record.robust_rotations);
+    if (record.clamped_cells > 0)
+      text += fmt::format("; derivatives of rotations clamped in {} cells",
+                          record.clamped_cells);
+    if (record.inverted_cells + record.degenerate_cells > 0)
+      log.warning(text);
+    else
+      log.line(text);
+  }
+
+  void
+  Simulation::save(const std::vector<std::unique_ptr<Observer>> &observers,
+                   StepRecord                                   &record)
+  {
+    // What the failed step has left in the system is not the state.
+    system.evaluate(present,
+                    record.time,
+                    parameters.time_integrator.selected().load_factor(done));
+    ScopedTimer timer(wall_times.output);
+    const bool  is_shown = record.step <= done * n_steps + 1e-6;
+    for (const auto &observer : observers)
+      if (is_shown)
+        observer->save(snapshot(record, true));
+      else
+        observer->step(snapshot(record, true));
   }
 
   Snapshot

@@ -82,6 +82,13 @@ namespace corotet
                         "In s. It is shortened a little if the duration is not "
                         "a multiple of it.",
                         Double(1e-300));
+      prm.add_parameter("Maximum halvings",
+                        max_halvings,
+                        "How often a step that fails is halved before the run "
+                        "ends [-]. The states at the ends of the steps asked "
+                        "for are what is recorded, in how many parts ever a "
+                        "step was made.",
+                        Integer(0, 30));
     });
     section(prm, "Newton", [&] { newton.declare_parameters(prm); });
     section(prm, "Linear solver", [&] {

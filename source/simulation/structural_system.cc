@@ -7,6 +7,8 @@
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/solver_cg.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +50,7 @@ namespace corotet
     : discretization(discretization)
     , parameters(parameters)
     , wall_times(wall_times)
+    , log(log)
     , reference(discretization.degree())
     , conditions(parameters.boundary_conditions,
                  discretization.mesh().boundaries())
@@ -68,7 +71,15 @@ namespace corotet
             parameters.material.rotation_placement() != Rotation::none,
             log)
     , motion(discretization, reference, conditions, parameters.time_step)
+    , wanted_tangent(parameters.newton.tangent == "consistent" ?
+                       Tangent::consistent :
+                       Tangent::frozen_rotation)
+    , tangent(wanted_tangent)
   {
+    if (needs_tangent_operator(tangent))
+      parameters.linear_solver.check_fit(
+        elastic.is_symmetric(tangent) &&
+        !(tangent == Tangent::consistent && loads.has_follower_pressure()));
     for (Vector *vector : {&forces.external,
                            &forces.internal,
                            &forces.damping,
@@ -135,7 +146,15 @@ namespace corotet
 
     if (parameters.damping_stiffness > 0)
       {
-        elastic.apply_tangent(forces.damping, v_ghosted);
+        // C turns with the rotations that the material has.
+        if (elastic.is_by_cell(Tangent::frozen_rotation))
+          elastic.apply_tangent(forces.damping, v_ghosted);
+        else
+          {
+            elastic.linearize(u_ghosted, Tangent::frozen_rotation);
+            elastic.apply_linearization(
+              forces.damping, v_ghosted, 1., 0., nullptr, nullptr);
+          }
         forces.damping *= parameters.damping_stiffness;
       }
     else
@@ -151,19 +170,44 @@ namespace corotet
     return forces;
   }
 
+  bool
+  StructuralSystem::needs_tangent_operator(const Tangent tangent) const
+  {
+    return !elastic.is_by_cell(tangent);
+  }
+
+  void
+  StructuralSystem::make_operators()
+  {
+    ScopedTimer timer(wall_times.assembly);
+    effective_operator = std::make_unique<EffectiveOperator>(
+      discretization, elastic, mass_matrix, motion.is_prescribed());
+    if (needs_tangent_operator(wanted_tangent))
+      tangent_operator =
+        std::make_unique<TangentOperator>(*effective_operator, elastic, loads);
+  }
+
   StageReport
   StructuralSystem::solve_stage(State &state, const Stage &stage)
   {
     if (!effective_operator)
+      make_operators();
+    this->stage          = stage;
+    stage_state          = &state;
+    const bool   statics = stage.acceleration_factor == 0;
+    NewtonReport report;
+    try
       {
-        ScopedTimer timer(wall_times.assembly);
-        effective_operator = std::make_unique<EffectiveOperator>(
-          discretization, elastic, mass_matrix, motion.is_prescribed());
+        parameters.newton.solve(*this, state.u, report);
       }
-    this->stage  = stage;
-    stage_state  = &state;
-    const auto r = parameters.newton.solve(*this, state.u);
-    return {r.iterations, r.linear_iterations};
+    catch (const ComputationError &)
+      {
+        log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
+        throw;
+      }
+    if (statics || parameters.newton.always_log || report.line_searches > 0)
+      log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
+    return {report.iterations, report.linear_iterations};
   }
 
   NewtonProblem::Norm
@@ -189,29 +233,69 @@ namespace corotet
     const double c_K = 1 + stage.velocity_factor * parameters.damping_stiffness;
     const double c_M = stage.acceleration_factor +
                        stage.velocity_factor * parameters.damping_mass;
-    if (elastic.rotation_placement() != Rotation::none || c_K != operator_c_K || c_M != operator_c_M)
+    if (elastic.rotation_placement() != Rotation::none || c_K != operator_c_K ||
+        c_M != operator_c_M)
       {
         ScopedTimer timer(wall_times.assembly);
         effective_operator->update(c_K, c_M);
         operator_c_K = c_K;
         operator_c_M = c_M;
       }
+    const TangentOperator *J = nullptr;
+    if (needs_tangent_operator(tangent))
+      {
+        ScopedTimer timer(wall_times.assembly);
+        clamped_cells = std::max(clamped_cells,
+                                 tangent_operator->update(u_ghosted,
+                                                          tangent,
+                                                          stage.time,
+                                                          stage.load_factor));
+        J             = tangent_operator.get();
+      }
     ScopedTimer timer(wall_times.solve);
     positions.copy_locally_owned_data_from(discretization.node_positions());
     positions += stage_state->u;
-    return parameters.linear_solver.solve(*effective_operator,
-                                          dx,
-                                          r,
-                                          positions);
+    return parameters.linear_solver.solve(
+      *effective_operator, dx, r, positions, J);
   }
 
   NewtonProblem::Norm
-  StructuralSystem::add(const Vector &dx)
+  StructuralSystem::add(const double factor, const Vector &dx)
   {
-    stage_state->u += dx;
-    stage_state->v.add(stage.velocity_factor, dx);
-    stage_state->a.add(stage.acceleration_factor, dx);
-    return {norm(dx), norm(stage_state->u)};
+    stage_state->u.add(factor, dx);
+    stage_state->v.add(factor * stage.velocity_factor, dx);
+    stage_state->a.add(factor * stage.acceleration_factor, dx);
+    return {std::abs(factor) * norm(dx), norm(stage_state->u)};
+  }
+
+  void
+  StructuralSystem::keep()
+  {
+    kept = *stage_state;
+  }
+
+  void
+  StructuralSystem::restore()
+  {
+    *stage_state = kept;
+  }
+
+  bool
+  StructuralSystem::has_energy() const
+  {
+    // Damping by a stiffness that turns with the body is not a gradient.
+    return elastic.is_symmetric(Tangent::consistent) &&
+           !loads.has_follower_pressure() &&
+           (parameters.damping_stiffness == 0 ||
+            elastic.rotation_placement() == Rotation::none);
+  }
+
+  bool
+  StructuralSystem::use_definite_tangent(const bool use)
+  {
+    tangent = use ? Tangent::frozen_rotation : wanted_tangent;
+    return wanted_tangent != Tangent::frozen_rotation &&
+           elastic.rotation_placement() != Rotation::none;
   }
 
   void

@@ -7,9 +7,11 @@
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/solver_minres.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corotet
@@ -29,10 +31,12 @@ namespace corotet
       "sparse factorisation of the assembled matrix.");
     prm.add_parameter("Method",
                       method,
-                      "Krylov method. GMRES (flexible, restarted after 30 "
-                      "iterations) also solves systems that are not "
-                      "symmetric.",
-                      dealii::Patterns::Selection("conjugate gradients|gmres"));
+                      "Krylov method. 'automatic': conjugate gradients for "
+                      "symmetric systems, MINRES where these turn out to be "
+                      "indefinite, GMRES (flexible, restarted after 30 "
+                      "iterations) for those that are not symmetric.",
+                      dealii::Patterns::Selection(
+                        "automatic|conjugate gradients|minres|gmres"));
     prm.add_parameter("Operator",
                       operator_type,
                       "How the matrix is applied: cell by cell without "
@@ -49,30 +53,137 @@ namespace corotet
                       dealii::Patterns::Integer(1));
   }
 
-  template <typename Matrix>
-  void
-  LinearSolver::iterate(dealii::SolverControl &control,
-                        const Matrix          &A,
-                        Vector                &x,
-                        const Vector          &b) const
+  namespace
   {
-    if (method == "conjugate gradients")
+    // Met by conjugate gradients.
+    struct NegativeCurvature
+    {};
+
+    // A matrix that tells when conjugate gradients meet a direction of negative
+    // curvature.
+    template <typename Matrix>
+    struct Watched
+    {
+      const Matrix &A;
+
+      void
+      vmult(Vector &dst, const Vector &src) const
       {
-        dealii::SolverCG<Vector> cg(control);
-        cg.solve(A, x, b, preconditioner.selected());
-        return;
+        A.vmult(dst, src);
+        // The first product may be that of x = 0.
+        if (dst * src < 0)
+          throw NegativeCurvature();
       }
-    // The flexible variant: a preconditioner in single precision is not quite
-    // linear, and the plain one trusts that it is.
-    dealii::SolverFGMRES<Vector> gmres(control);
-    gmres.solve(A, x, b, preconditioner.selected());
+    };
+  } // namespace
+
+  void
+  LinearSolver::check_fit(const bool symmetric) const
+  {
+    if (operator_type == "assembled")
+      throw InputError("Linear solver/Operator",
+                       "found assembled; allowed: matrix-free, as this "
+                       "material's tangent is not assembled (an assembled "
+                       "one needs Material/Rotation = cell centre and "
+                       "Newton/Tangent = frozen rotation)");
+    if (!symmetric && method != "automatic" && method != "gmres")
+      throw InputError("Linear solver/Method",
+                       fmt::format("found {}; allowed: automatic or gmres, as "
+                                   "this tangent is not symmetric",
+                                   method));
+  }
+
+  template <typename Matrix>
+  unsigned int
+  LinearSolver::minimal_residuals(const Matrix &A,
+                                  Vector       &x,
+                                  const Vector &b) const
+  {
+    // MINRES measures residuals in the norm of the preconditioner, and a
+    // preconditioner in single precision blurs them: it starts again from the
+    // residual proper until that is small.
+    Vector       r(b), dx(b);
+    unsigned int iterations = 0;
+    for (unsigned int round = 0; round < 10; ++round)
+      {
+        A.vmult(r, x);
+        r.sadd(-1., 1., b);
+        const double missing = tolerance * norm(b) / norm(r);
+        if (!(missing < 1) || iterations >= max_iterations)
+          break;
+        dx = 0;
+        preconditioner.selected().vmult(dx, r);
+        const double start = std::sqrt(std::abs(dx * r));
+        dx                 = 0;
+        dealii::SolverControl        control(max_iterations - iterations,
+                                      0.3 * std::max(missing, 1e-6) * start);
+        dealii::SolverMinRes<Vector> minres(control);
+        minres.solve(A, dx, r, preconditioner.selected());
+        iterations += control.last_step();
+        x += dx;
+      }
+    A.vmult(r, x);
+    r.sadd(-1., 1., b);
+    if (!(norm(r) <= tolerance * norm(b)))
+      throw dealii::SolverControl::NoConvergence(iterations, norm(r));
+    return iterations;
+  }
+
+  template <typename Matrix>
+  unsigned int
+  LinearSolver::iterate(const Matrix &A,
+                        const bool    symmetric,
+                        Vector       &x,
+                        const Vector &b) const
+  {
+    dealii::SolverControl control(max_iterations, tolerance * norm(b));
+    if (method == "gmres" || !symmetric)
+      {
+        // The flexible variant: a preconditioner in single precision is not
+        // quite linear, and the plain one trusts that it is.
+        dealii::SolverFGMRES<Vector> gmres(control);
+        gmres.solve(A, x, b, preconditioner.selected());
+        return control.last_step();
+      }
+    if (method == "minres")
+      return minimal_residuals(A, x, b);
+    dealii::SolverCG<Vector> cg(control);
+    if (method == "conjugate gradients" ||
+        !std::is_same_v<Matrix, TangentOperator>)
+      {
+        cg.solve(A, x, b, preconditioner.selected());
+        return control.last_step();
+      }
+    try
+      {
+        cg.solve(Watched<Matrix>{A}, x, b, preconditioner.selected());
+        return control.last_step();
+      }
+    catch (const NegativeCurvature &)
+      {
+        return control.last_step() + minimal_residuals(A, x, b);
+      }
+  }
+
+  unsigned int
+  LinearSolver::solve_with(const EffectiveOperator &A,
+                           const TangentOperator   *J,
+                           Vector                  &x,
+                           const Vector            &b) const
+  {
+    if (J != nullptr)
+      return iterate(*J, J->is_symmetric(), x, b);
+    if (operator_type == "matrix-free")
+      return iterate(A, true, x, b);
+    return iterate(A.matrix(), true, x, b);
   }
 
   unsigned int
   LinearSolver::solve(const EffectiveOperator &A,
                       Vector                  &x,
                       const Vector            &b,
-                      const Vector            &positions)
+                      const Vector            &positions,
+                      const TangentOperator   *J)
   {
     const double b_norm = norm(b);
     x                   = 0;
@@ -90,20 +201,17 @@ namespace corotet
       preconditioner.selected().update(A);
     known_version = A.version();
 
-    dealii::SolverControl control(max_iterations, tolerance * b_norm);
+    unsigned int iterations = 0;
     try
       {
-        if (operator_type == "matrix-free")
-          iterate(control, A, x, b);
-        else
-          iterate(control, A.matrix(), x, b);
+        iterations = solve_with(A, J, x, b);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
         is_built = false;
         if (!first_solve)
           // Perhaps only the preconditioner was outdated.
-          return solve(A, x, b, positions);
+          return solve(A, x, b, positions, J);
         throw ComputationError(fmt::format(
           "the linear solver stopped after {} iterations at a relative "
           "residual of {:.3g}; required is {:.3g} within {} iterations",
@@ -113,11 +221,15 @@ namespace corotet
           max_iterations));
       }
 
-    const unsigned int iterations = control.last_step();
     if (first_solve)
       first_iterations = iterations;
-    is_built = iterations <= preconditioner.selected().acceptable_iterations(
-                               first_iterations);
+    unsigned int acceptable =
+      preconditioner.selected().acceptable_iterations(first_iterations);
+    // A new preconditioner is not better than the first solve with it, as it
+    // is made of the effective operator.
+    if (J != nullptr)
+      acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
+    is_built = iterations <= acceptable;
     return iterations;
   }
 

@@ -8,12 +8,88 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
+  namespace
+  {
+    // Full increments without a smaller residual before a line search.
+    constexpr unsigned int patience = 5;
+    // Trials of a line search: the last are some 1e-4 of the increment.
+    constexpr unsigned int max_trials = 10;
+    // Residuals this much above the best one are divergence.
+    constexpr double divergence = 1e8;
+
+    bool
+    is_finite(const NewtonProblem::Norm &norm)
+    {
+      return std::isfinite(norm.value) && std::isfinite(norm.scale);
+    }
+  } // namespace
+
+  double
+  NewtonReport::observed_order() const
+  {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    // The last increments may be nothing but round-off.
+    std::size_t n = history.size();
+    while (n > 0 && history[n - 1].increment < 1e-13)
+      --n;
+    if (n < 3)
+      return none;
+    double e[3];
+    for (unsigned int k = 0; k < 3; ++k)
+      {
+        if (history[n - 3 + k].length != 1)
+          return none;
+        e[k] = std::log(history[n - 3 + k].increment);
+      }
+    // An order is what convergence has, not the search for it.
+    return e[1] < e[0] - 0.7 && e[2] < e[1] - 0.7 ?
+             (e[2] - e[1]) / (e[1] - e[0]) :
+             none;
+  }
+
+  std::string
+  NewtonReport::text() const
+  {
+    std::string residuals  = fmt::format("{:.1e}", first_residual);
+    std::string increments = "";
+    for (const NewtonIteration &step : history)
+      {
+        residuals += fmt::format(" {:.1e}", step.residual);
+        increments += fmt::format("{}{:.1e}",
+                                  increments.empty() ? "" : " ",
+                                  step.increment);
+        if (step.length != 1)
+          increments += fmt::format(" (x {:.2g})", step.length);
+        if (step.definite)
+          increments += " (frozen)";
+      }
+    std::string text =
+      fmt::format("Newton {} iterations, linear {}; residual {}; increment {}",
+                  iterations,
+                  linear_iterations,
+                  residuals,
+                  increments);
+    const double order = observed_order();
+    if (std::isfinite(order))
+      text += fmt::format("; order {:.2f}", order);
+    return text;
+  }
+
   void
   Newton::declare_parameters(dealii::ParameterHandler &prm)
   {
+    prm.add_parameter("Tangent",
+                      tangent,
+                      "Derivative of the corotational forces: 'frozen "
+                      "rotation' leaves out that of the rotations, is always "
+                      "positive and converges linearly; 'consistent' is exact "
+                      "and converges quadratically.",
+                      dealii::Patterns::Selection(
+                        "frozen rotation|consistent"));
     prm.add_parameter("Residual tolerance",
                       residual_tolerance,
                       "Residual at which iterations stop, relative to the "
@@ -29,61 +105,284 @@ namespace corotet
                       max_iterations,
                       "A step that needs more has failed [-].",
                       dealii::Patterns::Integer(1));
+    prm.add_parameter("Linearly implicit",
+                      linearly_implicit,
+                      "Whether one iteration is all: steps of a fixed price "
+                      "that cannot fail, with an error that shrinks with the "
+                      "time step; as interactive codes do, and where rotations "
+                      "jump in cells that are collapsed or inside out. For "
+                      "dynamics only.");
+    prm.add_parameter("Log every solve",
+                      always_log,
+                      "Whether the log shows the convergence history of every "
+                      "solve. If not, it shows those of load steps and those "
+                      "that needed a line search or failed.");
   }
 
-  NewtonReport
-  Newton::solve(NewtonProblem &problem, const Vector &prototype) const
+  /**
+   * The state of one solve.
+   */
+  class Newton::Search
+  {
+  public:
+    Search(const Newton &newton, NewtonProblem &problem, NewtonReport &report)
+      : newton(newton)
+      , problem(problem)
+      , report(report)
+      , r(newton.r)
+      , dx(newton.dx)
+      , best_dx(newton.best_dx)
+    {}
+
+    void
+    run()
+    {
+      residual              = problem.residual(r);
+      report.first_residual = relative_residual();
+      if (!is_finite(residual))
+        throw ComputationError("the forces are not finite in Newton iteration "
+                               "0");
+      if (is_round_off() ||
+          residual.value <= 1e-3 * newton.residual_tolerance * residual.scale)
+        return;
+      if (newton.linearly_implicit)
+        {
+          problem.use_definite_tangent(false);
+          find_direction();
+          record(problem.add(1., dx), 1.);
+          return;
+        }
+      best_values.push_back(residual.value);
+      while (report.iterations < newton.max_iterations)
+        {
+          iterate();
+          if (has_converged())
+            return;
+          check_progress();
+        }
+      fail(fmt::format("did not converge in {} iterations",
+                       newton.max_iterations));
+    }
+
+  private:
+    double
+    relative_residual() const
+    {
+      return residual.value / residual.scale;
+    }
+
+    bool
+    is_round_off() const
+    {
+      return residual.value <= residual.round_off;
+    }
+
+    bool
+    has_converged() const
+    {
+      return is_round_off() ||
+             (residual.value <= newton.residual_tolerance * residual.scale &&
+              error <= newton.increment_tolerance * size);
+    }
+
+    [[noreturn]] void
+    fail(const std::string &what) const
+    {
+      throw ComputationError(fmt::format(
+        "Newton's method {}: the residual is {:.3g} of the forces (required: "
+        "{:.3g}), the estimated error {:.3g} of the displacement (required: "
+        "{:.3g})",
+        what,
+        relative_residual(),
+        newton.residual_tolerance,
+        error / size,
+        newton.increment_tolerance));
+    }
+
+    // A direction from the present point. What the exact tangent has none for,
+    // the definite one may have.
+    void
+    find_direction()
+    {
+      try
+        {
+          linear_iterations = problem.solve_linearized(dx, r);
+          if (std::isfinite(norm(dx)))
+            return;
+        }
+      catch (const ComputationError &)
+        {
+          if (definite || !use_definite_tangent())
+            throw;
+          linear_iterations = problem.solve_linearized(dx, r);
+          return;
+        }
+      fail("met a direction that is not finite");
+    }
+
+    bool
+    use_definite_tangent()
+    {
+      definite = problem.use_definite_tangent(true);
+      return definite;
+    }
+
+    void
+    iterate()
+    {
+      definite = false;
+      problem.use_definite_tangent(false);
+      find_direction();
+      const double best = best_values.back();
+      if (n_without_progress == 0)
+        {
+          // This is the best point so far.
+          problem.keep();
+          best_dx = dx;
+        }
+      const double              previous  = residual.value;
+      const NewtonProblem::Norm increment = problem.add(1., dx);
+      residual                            = problem.residual(r);
+      if (is_finite(residual) && (residual.value < best || is_round_off() ||
+                                  (n_without_progress < patience &&
+                                   residual.value < divergence * best)))
+        {
+          n_without_progress =
+            residual.value < best ? 0 : n_without_progress + 1;
+          const double theta = residual.value / previous;
+          error = increment.value * (theta < 0.5 ? theta / (1 - theta) : 1.);
+          size  = increment.scale;
+          record(increment, 1.);
+          best_values.push_back(std::min(best, residual.value));
+          return;
+        }
+      // Back to the best point, and along the direction found there.
+      search_from_best(true);
+    }
+
+    void
+    search_from_best(const bool dx_is_known)
+    {
+      ++report.line_searches;
+      problem.restore();
+      residual = problem.residual(r);
+      if (dx_is_known)
+        dx = best_dx;
+      else
+        find_direction();
+      const double value = residual.value;
+      const double slope = r * dx;
+      if (!problem.has_energy() || slope > 0)
+        if (const double length = line_search(value, slope); length > 0)
+          {
+            n_without_progress = 0;
+            best_values.push_back(residual.value);
+            return;
+          }
+      if (definite || !use_definite_tangent())
+        {
+          problem.restore();
+          residual = problem.residual(r);
+          fail("found no descent along its direction");
+        }
+      search_from_best(false);
+    }
+
+    // Moves x along dx; returns the part of dx that it took, or zero. Forces
+    // that are not finite count as too far.
+    double
+    line_search(const double value, const double slope)
+    {
+      double length = 1;
+      for (unsigned int trial = 0; trial < max_trials; ++trial)
+        {
+          problem.restore();
+          const NewtonProblem::Norm increment = problem.add(length, dx);
+          residual                            = problem.residual(r);
+          double next                         = 0.1 * length;
+          if (is_finite(residual))
+            {
+              const double here = r * dx;
+              if (problem.has_energy() ?
+                    here >= -0.5 * slope :
+                    residual.value <= (1 - 1e-4 * length) * value)
+                {
+                  error = increment.value;
+                  size  = increment.scale;
+                  record(increment, length);
+                  return length;
+                }
+              // Secant to the zero of r . dx; parabola to the minimum of |r|^2,
+              // whose slope at the start is -2 |r|^2 for an exact tangent.
+              const double ratio = residual.value / value;
+              next               = length * (problem.has_energy() ?
+                                               slope / (slope - here) :
+                                               length / (ratio * ratio - 1 + 2 * length));
+            }
+          length = std::clamp(next, 0.1 * length, 0.5 * length);
+        }
+      return 0;
+    }
+
+    void
+    record(const NewtonProblem::Norm &increment, const double length)
+    {
+      ++report.iterations;
+      report.linear_iterations += linear_iterations;
+      report.history.push_back({relative_residual(),
+                                increment.value / increment.scale,
+                                length,
+                                definite,
+                                linear_iterations});
+    }
+
+    // Gives up when the rate of the last iterations is far too slow.
+    void
+    check_progress() const
+    {
+      constexpr unsigned int window = 6;
+      const unsigned int     n      = best_values.size();
+      if (n < 2 * window || problem.has_energy())
+        return;
+      const double rate =
+        std::pow(best_values[n - 1] / best_values[n - 1 - window], 1. / window);
+      const double wanted = newton.residual_tolerance * residual.scale;
+      const double needed = std::log(wanted / best_values[n - 1]) /
+                            std::log(std::min(rate, 1 - 1e-12));
+      if (wanted < best_values[n - 1] &&
+          needed > 3. * (newton.max_iterations - report.iterations))
+        fail(fmt::format("converges too slowly: after {} iterations {:.0f} "
+                         "more are needed",
+                         report.iterations,
+                         std::min(needed, 1e6)));
+    }
+
+    const Newton  &newton;
+    NewtonProblem &problem;
+    NewtonReport  &report;
+    Vector        &r;
+    Vector        &dx;
+    Vector        &best_dx;
+
+    NewtonProblem::Norm residual = {};
+    double              error    = std::numeric_limits<double>::infinity();
+    double              size     = 1;
+    bool                definite = false;
+    unsigned int        linear_iterations  = 0;
+    unsigned int        n_without_progress = 0;
+    /// Of the residual, after each iteration. A line search for less energy
+    /// may raise it.
+    std::vector<double> best_values;
+  };
+
+  void
+  Newton::solve(NewtonProblem &problem,
+                const Vector  &prototype,
+                NewtonReport  &report) const
   {
     if (r.size() != prototype.size())
-      {
-        r.reinit(prototype);
-        dx.reinit(prototype);
-      }
-    NewtonReport        report;
-    NewtonProblem::Norm residual = problem.residual(r);
-    double              error    = 0;
-    double              size     = 0;
-
-    const auto check_finite = [&] {
-      if (!std::isfinite(residual.value) || !std::isfinite(residual.scale))
-        throw ComputationError(
-          fmt::format("the forces are not finite in Newton iteration {}",
-                      report.iterations));
-    };
-    check_finite();
-    const auto is_round_off = [&] {
-      return residual.value <= residual.round_off;
-    };
-    if (is_round_off() ||
-        residual.value <= 1e-3 * residual_tolerance * residual.scale)
-      return report;
-
-    while (report.iterations < max_iterations)
-      {
-        report.linear_iterations += problem.solve_linearized(dx, r);
-        const NewtonProblem::Norm increment = problem.add(dx);
-        const double              previous  = residual.value;
-        residual                            = problem.residual(r);
-        ++report.iterations;
-        check_finite();
-
-        const double theta = residual.value / previous;
-        error = increment.value * (theta < 0.5 ? theta / (1 - theta) : 1.);
-        size  = increment.scale;
-        if (is_round_off() ||
-            (residual.value <= residual_tolerance * residual.scale &&
-             error <= increment_tolerance * size))
-          return report;
-      }
-    throw ComputationError(fmt::format(
-      "Newton's method did not converge in {} iterations: the residual is "
-      "{:.3g} of the forces (required: {:.3g}), the estimated error {:.3g} of "
-      "the displacement (required: {:.3g}); a smaller time step or more load "
-      "steps may help",
-      max_iterations,
-      residual.value / residual.scale,
-      residual_tolerance,
-      error / size,
-      increment_tolerance));
+      for (Vector *vector : {&r, &dx, &best_dx})
+        vector->reinit(prototype);
+    Search(*this, problem, report).run();
   }
 } // namespace corotet

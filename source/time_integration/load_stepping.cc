@@ -11,7 +11,8 @@ namespace corotet
     prm.add_parameter("Load steps",
                       load_steps,
                       "Number of equal steps from the start time to the end "
-                      "time [-]. The time step is not used.",
+                      "time [-]. The time step is not used. A step that fails "
+                      "is made in halves.",
                       dealii::Patterns::Integer(1));
     prm.add_parameter("Proportional loading",
                       proportional,

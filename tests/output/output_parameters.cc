@@ -76,7 +76,8 @@ TEST(OutputParameters, WrongProbesAreRefused)
             "_ are allowed, no digit first");
   EXPECT_EQ(refusal("momentum: 1 2 3"),
             "Output/Probes: 'momentum' cannot be a probe's name; momentum, "
-            "angular_momentum, reaction are columns of the history already");
+            "angular_momentum, reaction, internal_moment are columns of the "
+            "history already");
   EXPECT_EQ(refusal("a: 1 2 3, a: 3 2 1"),
             "Output/Probes: two probes are called 'a'; each name must be used "
             "once");

@@ -173,14 +173,20 @@ TEST(Simulation, FailureIsTold)
   catch (const ComputationError &error)
     {
       EXPECT_EQ(std::string(error.what())
-                  .find("step 6 (t = 0.05): the forces "
-                        "are not finite"),
+                  .find("step 6 (t = 0.0507031): the forces are not finite"),
                 0u)
         << error.what();
+      EXPECT_NE(
+        std::string(error.what()).find("; the step has been halved 8 times"),
+        std::string::npos)
+        << error.what();
     }
+  // Five whole steps, and the part of the sixth that could be made.
   EXPECT_EQ(run.recorder().summary.status, "failed");
-  EXPECT_EQ(run.recorder().summary.steps, 5u);
-  EXPECT_EQ(run.recorder().records.size(), 6u);
+  EXPECT_EQ(run.recorder().summary.steps, 6u);
+  ASSERT_EQ(run.recorder().records.size(), 7u);
+  EXPECT_NEAR(run.recorder().records.back().time, 0.050703125, 1e-14);
+  EXPECT_TRUE(run.recorder().last);
 }
 
 // The same before the first step: no results, but a summary.

@@ -38,8 +38,8 @@ namespace corotet
     ClampedInverse
     clamped_inverse(const dealii::SymmetricTensor<2, 3> &G);
 
-    inline constexpr int symmetric_pairs[6][2] = {
-      {0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    inline constexpr int symmetric_pairs[6][2] =
+      {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
 
     /// clamped_inverse() for the lanes of @p lanes. Returns those clamped.
     inline __attribute__((noinline, cold)) unsigned int
@@ -123,9 +123,8 @@ namespace corotet
     static_for<3>([&](auto c) {
       constexpr int i = (c + 1) % 3, j = (c + 2) % 3;
       Simd<double>  sum{};
-      static_for<3>([&](auto k) {
-        sum += sigma[i][k] * A[j][k] - sigma[j][k] * A[i][k];
-      });
+      static_for<3>(
+        [&](auto k) { sum += sigma[i][k] * A[j][k] - sigma[j][k] * A[i][k]; });
       moment[c] += weight * sum;
     });
   }
@@ -172,9 +171,8 @@ namespace corotet
     // No eigenvalue is small, as the other two have at most a product of
     // trace^2 / 4. NaN is not among these lanes.
     const unsigned int ordinary = internal::lane_bits(
-      (trace > 0.) &
-      (det > 0.25 * smallest_sum_of_stretches * trace * trace));
-    const unsigned int others = ~ordinary & ((1u << n_lanes<double>)-1);
+      (trace > 0.) & (det > 0.25 * smallest_sum_of_stretches * trace * trace));
+    const unsigned int others  = ~ordinary & ((1u << n_lanes<double>)-1);
     unsigned int       clamped = 0;
     if (__builtin_expect(others != 0, 0))
       {

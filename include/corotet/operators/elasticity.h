@@ -119,10 +119,10 @@ namespace corotet
     linearize(const Vector &u, const Tangent tangent);
 
     /**
-     * f = (K_T + (frozen_factor - 1) K_frozen + c_M M) v with the tangent of the
-     * last linearize(). M is that of @p masses, none if null, and @p lumped_mass
-     * the diagonal of a lumped one, or null. Ghost entries of @p v are brought
-     * up to date where they are not in use.
+     * f = (K_T + (frozen_factor - 1) K_frozen + c_M M) v with the tangent of
+     * the last linearize(). M is that of @p masses, none if null, and @p
+     * lumped_mass the diagonal of a lumped one, or null. Ghost entries of @p v
+     * are brought up to date where they are not in use.
      */
     void
     apply_linearization(Vector                   &f,
@@ -190,12 +190,13 @@ namespace corotet
               placement != Rotation::quadrature_points);
     }
 
-    /// Whether that tangent is symmetric.
+    /// Whether that tangent is symmetric. For the consistent one this means
+    /// that the force is the gradient of the energy.
     bool
     is_symmetric(const Tangent tangent) const
     {
       return tangent == Tangent::frozen_rotation ||
-             placement != Rotation::cell_centre;
+             placement != Rotation::cell_centre || discretization.degree() == 1;
     }
 
   private:

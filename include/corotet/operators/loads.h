@@ -14,6 +14,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,21 @@ namespace corotet
     void
     force(Vector &f, const double time, const Vector &u) const;
 
+    /// Whether there are pressures on the deformed surface: loads that depend
+    /// on the displacement.
+    bool
+    has_follower_pressure() const;
+
+    /// Prepares the derivative of the force by the displacement, at @p time and
+    /// displacement @p u (ghosts up to date). Not collective.
+    void
+    linearize(const double time, const Vector &u);
+
+    /// f += factor d f_ext / du v, with v's ghosts up to date. f must not have
+    /// ghost entries in use.
+    void
+    add_linearized(Vector &f, const Vector &v, const double factor) const;
+
   private:
     /// A load that does not depend on the displacement.
     struct DeadLoad
@@ -75,6 +91,18 @@ namespace corotet
       /// The force itself if the load is constant in time; the force of a unit
       /// load in each direction if it is constant in space only.
       Vector integral = {};
+    };
+
+    /// A point of a surface under pressure.
+    struct PressurePoint
+    {
+      const BoundaryFace *face;
+      /// In the face's rule.
+      unsigned int index;
+      /// Pressure times weight [N/m^2].
+      double pressure;
+      /// Derivatives of the position by the face's parameters [m].
+      std::array<dealii::Tensor<1, 3>, 2> tangents;
     };
 
     struct PointForce
@@ -116,7 +144,9 @@ namespace corotet
     bool                      follow;
     std::vector<DeadLoad>     dead_loads;
     std::vector<PointForce>   point_forces;
-    mutable Vector            scratch;
+    /// Of the last linearize().
+    std::vector<PressurePoint> pressure_points;
+    mutable Vector             scratch;
   };
 } // namespace corotet
 

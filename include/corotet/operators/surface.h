@@ -21,9 +21,27 @@ namespace corotet
     unsigned int     index;
     dealii::Point<3> at_rest;
     dealii::Point<3> position;
+    /// Derivatives of the position by the face's two parameters [m].
+    std::array<dealii::Tensor<1, 3>, 2> tangents;
     /// Outward normal times the point's share of the area [m^2].
     dealii::Tensor<1, 3> area;
   };
+
+  /// Derivatives of node @p i's shape function by the two parameters of a face,
+  /// at point @p q of the face's rule.
+  inline std::array<double, 2>
+  face_derivatives(const ReferenceElement &reference,
+                   const unsigned int      face,
+                   const unsigned int      q,
+                   const unsigned int      i)
+  {
+    const double         *dN = &reference.face_rules[face].gradients(q, i, 0);
+    std::array<double, 2> result{};
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int a = 0; a < 3; ++a)
+        result[k] += dN[a] * reference.face_tangents[face][k][a];
+    return result;
+  }
 
   /**
    * Calls @p function(SurfacePoint) for the quadrature points of @p face, of
@@ -39,13 +57,12 @@ namespace corotet
                          const Vector           *u,
                          const Function         &function)
   {
-    const auto &rule     = reference.face_rules[face.face];
-    const auto &tangents = reference.face_tangents[face.face];
-    const auto  nodes    = discretization.cell_nodes(face.cell);
+    const auto &rule  = reference.face_rules[face.face];
+    const auto  nodes = discretization.cell_nodes(face.cell);
     for (unsigned int q = 0; q < rule.weights.size(); ++q)
       {
-        SurfacePoint                        point{q, {}, {}, {}};
-        std::array<dealii::Tensor<1, 3>, 2> t;
+        SurfacePoint point{q, {}, {}, {}, {}};
+        auto        &t = point.tangents;
         for (const unsigned int i : reference.face_nodes[face.face])
           {
             const dealii::Point<3> X = discretization.node_position(nodes[i]);
@@ -55,10 +72,9 @@ namespace corotet
                 x[a] += u->local_element(3 * nodes[i] + a);
             point.at_rest += rule.values[q][i] * X;
             point.position += rule.values[q][i] * x;
-            const double *dN = &rule.gradients(q, i, 0);
+            const auto dN = face_derivatives(reference, face.face, q, i);
             for (unsigned int k = 0; k < 2; ++k)
-              t[k] += x * (dN[0] * tangents[k][0] + dN[1] * tangents[k][1] +
-                           dN[2] * tangents[k][2]);
+              t[k] += dN[k] * x;
           }
         point.area = cross_product_3d(t[0], t[1]) * (0.5 * rule.weights[q]);
         function(point);

@@ -114,7 +114,7 @@ namespace corotet
     const CellBatches              &batches;
     const CellShapes               *shapes;
     const CellCoefficients<double> *coefficients;
-    Rotation rotation;
+    Rotation                        rotation;
     /// The coefficients, for sweeps that rotate; null for others.
     CellCoefficients<double> *new_coefficients = nullptr;
     RotationCounts            counts           = {};
@@ -176,8 +176,8 @@ namespace corotet
     static_for<3>([&](auto k) {
       Simd<double> g[3];
       static_for<3>([&](auto b) {
-        g[b] = scale *
-               load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
+        g[b] =
+          scale * load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
       });
       static_for<3>([&](auto a) {
         store_aligned(R[a][0] * g[0] + R[a][1] * g[1] + R[a][2] * g[2],

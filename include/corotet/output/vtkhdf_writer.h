@@ -59,6 +59,9 @@ namespace corotet
     void
     step(const Snapshot &state) override;
 
+    void
+    save(const Snapshot &state) override;
+
   private:
     /// A file in folder solution that has or refers to the numbers of @p
     /// n_results results in a row; @p step is the step of the first.

@@ -45,6 +45,11 @@ namespace corotet
     unsigned int degenerate_cells = 0;
     /// Cells whose rotation the fast algorithm left to the robust one.
     unsigned int robust_rotations = 0;
+    /// Cells where the derivative of a rotation was clamped in a tangent, most
+    /// of a tangent since the last record.
+    unsigned int clamped_cells = 0;
+    /// Parts that the step was made in: 1 unless it failed at first.
+    unsigned int parts = 1;
     /// Since the start of the run [s].
     double wall_time = 0;
 
@@ -52,6 +57,9 @@ namespace corotet
     double volume = 0;
     /// Sum of the forces that the supports exert on the body [N].
     dealii::Tensor<1, 3> reaction;
+    /// Moment of the internal forces about the origin, with current positions
+    /// [N m]: zero for a law that conserves angular momentum.
+    dealii::Tensor<1, 3> internal_moment;
   };
 
   /**
@@ -116,6 +124,12 @@ namespace corotet
     /// After every step.
     virtual void
     step(const Snapshot & /*state*/)
+    {}
+
+    /// After a failure: the state of the last step, which step() has shown
+    /// already, is the last of the run.
+    virtual void
+    save(const Snapshot & /*state*/)
     {}
 
     /// At the end, also after a failure.

@@ -65,7 +65,25 @@ namespace corotet
     compute(const std::vector<std::unique_ptr<Observer>> &observers,
             StepRecord                                   &record);
     void
-    start(StepRecord &record, std::unique_ptr<Budget> &budget);
+    start(StepRecord &record);
+    /// Makes the part (from, to] of the run, in [0, 1], in one step, or in two
+    /// halves if that fails, each with one halving less.
+    void
+    advance(const double       from,
+            const double       to,
+            const unsigned int halvings,
+            StepRecord        &record);
+    void
+    make_step(const double from, const double to, StepRecord &record);
+    double
+    time(const double done) const;
+    void
+    report_inversions(const StepRecord &record);
+    /// Shows the observers the last good state, as far as they have not seen
+    /// it.
+    void
+    save(const std::vector<std::unique_ptr<Observer>> &observers,
+         StepRecord                                   &record);
     void
     finish(const std::vector<std::unique_ptr<Observer>> &observers,
            const StepRecord                             &record,
@@ -79,14 +97,22 @@ namespace corotet
     const std::chrono::steady_clock::time_point started =
       std::chrono::steady_clock::now();
 
-    SimulationParameters &parameters;
-    Log                  &log;
-    WallTimes             wall_times;
-    const Mesh            mesh;
-    const Discretization  disc;
-    StructuralSystem      system;
-    unsigned int          n_steps;
-    State                 present;
+    SimulationParameters   &parameters;
+    Log                    &log;
+    WallTimes               wall_times;
+    const Mesh              mesh;
+    const Discretization    disc;
+    StructuralSystem        system;
+    unsigned int            n_steps;
+    State                   present;
+    State                   before_step;
+    std::unique_ptr<Budget> budget;
+    /// Part of the run that the present state has reached.
+    double done = 0;
+    /// Of the last report.
+    unsigned int reported_inverted   = 0;
+    unsigned int reported_degenerate = 0;
+    unsigned int reported_clamped    = 0;
   };
 } // namespace corotet
 

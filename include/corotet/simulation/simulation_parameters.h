@@ -42,9 +42,10 @@ namespace corotet
     std::string                initial_displacement = "0; 0; 0";
     std::string                initial_velocity     = "0; 0; 0";
     Selectable<TimeIntegrator> time_integrator;
-    double                     start_time = 0;
-    double                     end_time   = 1;
-    double                     time_step  = 0.01;
+    double                     start_time   = 0;
+    double                     end_time     = 1;
+    double                     time_step    = 0.01;
+    unsigned int               max_halvings = 8;
     Newton                     newton;
     LinearSolver               linear_solver;
   };

@@ -10,11 +10,13 @@
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/loads.h>
 #include <corotet/operators/mass.h>
+#include <corotet/operators/tangent_operator.h>
 #include <corotet/simulation/simulation_parameters.h>
 #include <corotet/solvers/newton.h>
 #include <corotet/time_integration/second_order_system.h>
 
 #include <memory>
+#include <utility>
 
 namespace corotet
 {
@@ -86,6 +88,14 @@ namespace corotet
       return reference;
     }
 
+    /// Cells where the derivative of a rotation was clamped, over all ranks,
+    /// largest number since the last call.
+    unsigned int
+    take_clamped_cells()
+    {
+      return std::exchange(clamped_cells, 0u);
+    }
+
     const Elasticity &
     elasticity() const
     {
@@ -110,27 +120,48 @@ namespace corotet
     unsigned int
     solve_linearized(Vector &dx, const Vector &r) override;
     Norm
-    add(const Vector &dx) override;
+    add(const double factor, const Vector &dx) override;
+    void
+    keep() override;
+    void
+    restore() override;
+    bool
+    has_energy() const override;
+    bool
+    use_definite_tangent(const bool use) override;
+
+    /// Whether the tangent asked for is not the effective operator.
+    bool
+    needs_tangent_operator(const Tangent tangent) const;
+    void
+    make_operators();
 
     const Discretization &discretization;
     SimulationParameters &parameters;
     WallTimes            &wall_times;
+    Log                  &log;
 
     const ReferenceElement   reference;
     const BoundaryConditions conditions;
     const Mass               mass_matrix;
     Elasticity               elastic;
-    const Loads              loads;
+    Loads                    loads;
     const PrescribedMotion   motion;
+    const Tangent            wanted_tangent;
+    Tangent                  tangent;
 
     std::unique_ptr<EffectiveOperator> effective_operator;
+    std::unique_ptr<TangentOperator>   tangent_operator;
 
     // The stage that is being solved.
     State *stage_state = nullptr;
     Stage  stage       = {};
+    State  kept;
     // Of the last update of the operator.
     double operator_c_K = -1;
     double operator_c_M = -1;
+
+    unsigned int clamped_cells = 0;
 
     Forces forces;
     Vector u_ghosted;

@@ -5,7 +5,7 @@
 #define corotet_solvers_linear_solver_h
 
 #include <corotet/base/selectable.h>
-#include <corotet/operators/effective_operator.h>
+#include <corotet/operators/tangent_operator.h>
 #include <corotet/solvers/preconditioner.h>
 
 #include <deal.II/lac/solver_control.h>
@@ -15,9 +15,13 @@
 namespace corotet
 {
   /**
-   * A Krylov method for the effective operator, with a preconditioner chosen at
-   * run time (section Linear solver): conjugate gradients, or GMRES for
-   * operators that are not symmetric.
+   * A Krylov method for the effective operator, or for an operator close to it,
+   * with a preconditioner chosen at run time (section Linear solver).
+   *
+   * Conjugate gradients for what is symmetric; if these meet a direction of
+   * negative curvature, the operator is indefinite and MINRES goes on from
+   * there (the preconditioner, made of the effective operator, is definite
+   * whatever happens). GMRES for what is not symmetric.
    *
    * A preconditioner is made at the first solve, after the ratio of mass to
    * stiffness in the operator changed, and when the iterations have grown past
@@ -32,32 +36,48 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
+    /// Throws InputError if the parameters are not fit for operators other than
+    /// the effective one: @p symmetric ones or not.
+    void
+    check_fit(const bool symmetric) const;
+
     /**
-     * Solves A x = b from x = 0 until the residual is below the tolerance
-     * times |b|. @p positions: current positions of the nodes [m]. Returns the
-     * number of iterations. Throws ComputationError if it does not get there.
+     * Solves J x = b, or A x = b if J is null, from x = 0 until the residual is
+     * below the tolerance times |b|. @p positions: current positions of the
+     * nodes [m]. Returns the number of iterations. Throws ComputationError if
+     * it does not get there.
      * @p A must live until clear(). Collective.
      */
     unsigned int
     solve(const EffectiveOperator &A,
           Vector                  &x,
           const Vector            &b,
-          const Vector            &positions);
+          const Vector            &positions,
+          const TangentOperator   *J = nullptr);
 
     /// Forgets the operator of the last solves.
     void
     clear();
 
   private:
+    /// Both return the number of iterations.
+    unsigned int
+    solve_with(const EffectiveOperator &A,
+               const TangentOperator   *J,
+               Vector                  &x,
+               const Vector            &b) const;
     template <typename Matrix>
-    void
-    iterate(dealii::SolverControl &control,
-            const Matrix          &A,
-            Vector                &x,
-            const Vector          &b) const;
+    unsigned int
+    iterate(const Matrix &A,
+            const bool    symmetric,
+            Vector       &x,
+            const Vector &b) const;
+    template <typename Matrix>
+    unsigned int
+    minimal_residuals(const Matrix &A, Vector &x, const Vector &b) const;
 
     Selectable<Preconditioner> preconditioner;
-    std::string                method         = "conjugate gradients";
+    std::string                method         = "automatic";
     std::string                operator_type  = "matrix-free";
     double                     tolerance      = 1e-8;
     unsigned int               max_iterations = 10000;

@@ -8,6 +8,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <string>
+#include <vector>
+
 namespace corotet
 {
   /**
@@ -33,19 +36,73 @@ namespace corotet
     residual(Vector &r) = 0;
 
     /// Solves J dx = r with an approximation J of -dr/dx at the x of the last
-    /// residual. Returns the number of linear iterations.
+    /// residual. Returns the number of linear iterations. Throws
+    /// ComputationError.
     virtual unsigned int
     solve_linearized(Vector &dx, const Vector &r) = 0;
 
-    /// x += dx. The scale is the size of x.
+    /// x += factor dx. The norm is that of factor dx, its scale the size of x.
     virtual Norm
-    add(const Vector &dx) = 0;
+    add(const double factor, const Vector &dx) = 0;
+
+    /// Keeps a copy of x.
+    virtual void
+    keep() = 0;
+
+    /// Sets x to that copy.
+    virtual void
+    restore() = 0;
+
+    /// Whether r is the negative gradient of an energy, so that the minimum
+    /// along a direction is where r is orthogonal to it.
+    virtual bool
+    has_energy() const
+    {
+      return false;
+    }
+
+    /// Whether J is to be a positive definite one, if it has a choice. Returns
+    /// whether it has.
+    virtual bool
+    use_definite_tangent(const bool /*use*/)
+    {
+      return false;
+    }
+  };
+
+  /**
+   * One iteration of Newton's method.
+   */
+  struct NewtonIteration
+  {
+    /// Residual after it, relative to the forces.
+    double residual;
+    /// |dx| / |x|.
+    double increment;
+    /// Part of the increment that a line search took; 1 without one.
+    double length;
+    /// Whether the definite tangent stood in for the one asked for.
+    bool         definite;
+    unsigned int linear_iterations;
   };
 
   struct NewtonReport
   {
-    unsigned int iterations        = 0;
-    unsigned int linear_iterations = 0;
+    unsigned int                 iterations        = 0;
+    unsigned int                 linear_iterations = 0;
+    unsigned int                 line_searches     = 0;
+    double                       first_residual    = 0;
+    std::vector<NewtonIteration> history;
+
+    /// log(e_k / e_k-1) / log(e_k-1 / e_k-2) with the last three increments e
+    /// above round-off. NaN if there are none, or if these do not at least
+    /// halve or were shortened.
+    double
+    observed_order() const;
+
+    /// The history as a line of text.
+    std::string
+    text() const;
   };
 
   /**
@@ -61,6 +118,20 @@ namespace corotet
    * nonlinear problems, 2004), which an approximate tangent has. So a linear
    * problem takes one iteration. A start with a thousandth of the tolerated
    * residual, or with round-off only, takes none.
+   *
+   * Full increments are taken as long as the residual comes below its best
+   * value now and then: in bending it first grows by orders of magnitude and
+   * is then gone within a few iterations, which a monotone method would take
+   * for ages. When it does not for several iterations, or is not finite, the
+   * method returns to its best point and searches along the increment from
+   * there (the watchdog technique of Chamberlain, Powell, Lemarechal, Pedersen,
+   * 1982): for the zero of r . dx where there is an energy (Matthies, Strang,
+   * The solution of nonlinear finite element equations, 1979), else for a
+   * smaller |r|. If that finds nothing, it tries the definite tangent's
+   * direction, which always leads down in energy.
+   *
+   * Linearly implicit, it makes one iteration and is done: what then remains of
+   * the residual is an error of the time step.
    */
   class Newton
   {
@@ -68,18 +139,26 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws ComputationError if it does not converge or meets a number that
-    /// is not finite. @p prototype: a vector like x. Collective.
-    NewtonReport
-    solve(NewtonProblem &problem, const Vector &prototype) const;
+    /// Throws ComputationError if it does not converge; @p report tells also
+    /// then what was done. @p prototype: a vector like x. Collective.
+    void
+    solve(NewtonProblem &problem,
+          const Vector  &prototype,
+          NewtonReport  &report) const;
 
     double       residual_tolerance  = 1e-8;
     double       increment_tolerance = 1e-8;
     unsigned int max_iterations      = 50;
+    std::string  tangent             = "frozen rotation";
+    bool         linearly_implicit   = false;
+    bool         always_log          = false;
 
   private:
+    class Search;
+
     mutable Vector r;
     mutable Vector dx;
+    mutable Vector best_dx;
   };
 } // namespace corotet
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/operators/tangent_operator.h>
+
+namespace corotet
+{
+  TangentOperator::TangentOperator(const EffectiveOperator &A,
+                                   Elasticity              &elasticity,
+                                   Loads                   &loads)
+    : A(A)
+    , elasticity(elasticity)
+    , loads(loads)
+    , prescribed(marked_unknowns(A.is_prescribed()))
+  {
+    A.discretization().initialize_vector(source);
+  }
+
+  unsigned int
+  TangentOperator::update(const Vector &u,
+                          const Tangent tangent,
+                          const double  time,
+                          const double  load_factor)
+  {
+    with_pressures =
+      tangent == Tangent::consistent && loads.has_follower_pressure();
+    symmetric         = elasticity.is_symmetric(tangent) && !with_pressures;
+    this->load_factor = load_factor;
+    if (with_pressures)
+      loads.linearize(time, u);
+    return elasticity.linearize(u, tangent);
+  }
+
+  void
+  TangentOperator::vmult(Vector &dst, const Vector &src) const
+  {
+    const unsigned int n_owned = src.locally_owned_size();
+    source.copy_locally_owned_data_from(src);
+    for (const unsigned int i : prescribed)
+      if (i < n_owned)
+        source.local_element(i) = 0;
+    if (with_pressures)
+      source.update_ghost_values();
+    const Mass &mass = A.mass();
+    elasticity.apply_linearization(dst,
+                                   source,
+                                   A.stiffness_factor(),
+                                   A.mass_factor(),
+                                   A.mass_factor() == 0 || mass.is_lumped() ?
+                                     nullptr :
+                                     mass.cell_masses().data(),
+                                   A.mass_factor() != 0 && mass.is_lumped() ?
+                                     &mass.diagonal() :
+                                     nullptr);
+    if (with_pressures)
+      {
+        loads.add_linearized(dst, source, -load_factor);
+        source.zero_out_ghost_values();
+      }
+    for (const unsigned int i : prescribed)
+      if (i < n_owned)
+        dst.local_element(i) =
+          A.diagonal().local_element(i) * src.local_element(i);
+  }
+} // namespace corotet
