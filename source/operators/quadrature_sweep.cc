@@ -181,12 +181,10 @@ namespace corotet
           V          moment[3]{};
           const auto stress =
             [&](const unsigned int q, V(&F)[3][3], V(&P)[3][3]) {
-              V A[3][3], e[3][3], sigma[3][3];
+              V A[3][3], sigma[3][3];
               add_identity(F);
               transposed_times(R, F, A);
-              internal::copy(A, e);
-              static_for<3>([&](auto a) { e[a][a] -= 1.; });
-              isotropic_stress(lambda, mu, e, sigma);
+              stress_of_stretch(lambda, mu, A, sigma);
               times(R, sigma, P);
               add_moment(reference.stiffness_rule.weights[q] * volume,
                          sigma,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/with_degree.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/quadrature_kernel.h>
-#include <corotet/operators/tangent_sweep.h>
+#include <corotet/operators/rotated_frame.h>
+#include <corotet/operators/with_tangent.h>
 
 namespace corotet
 {
@@ -40,179 +40,6 @@ namespace corotet
         next += 9 * batch_size;
       }
     };
-
-    struct Writer
-    {
-      double *next;
-
-      template <int n>
-      COROTET_ALWAYS_INLINE void
-      write(const V (&values)[n])
-      {
-        static_for<n>(
-          [&](auto i) { store_aligned(values[i], next + i * batch_size); });
-        next += n * batch_size;
-      }
-
-      COROTET_ALWAYS_INLINE void
-      write(const V (&values)[3][3])
-      {
-        static_for<9>([&](auto i) {
-          store_aligned(values[i / 3][i % 3], next + i * batch_size);
-        });
-        next += 9 * batch_size;
-      }
-    };
-
-    // The gradients of the reference coordinates as the cells' rotations turn
-    // them: with these, F R^T stands where F stands with those at rest.
-    COROTET_ALWAYS_INLINE void
-    load_rotated(const ElasticData &data, const unsigned int batch, V (&g)[9])
-    {
-      const V scale = lanes(data.shapes[batch].scale);
-      // Lanes without a cell have zeros throughout.
-      const V factor = 1. / (scale > 0. ? scale : broadcast(1.));
-      static_for<9>([&](auto i) {
-        g[i] = factor * lanes(data.coefficients[batch].gradients[i]);
-      });
-    }
-
-    // B <- R^T + B: F R^T from grad u R^T.
-    COROTET_ALWAYS_INLINE void
-    add_transposed(const V (&R)[3][3], V (&B)[3][3])
-    {
-      static_for<9>([&](auto ab) { B[ab / 3][ab % 3] += R[ab % 3][ab / 3]; });
-    }
-
-    COROTET_ALWAYS_INLINE void
-    symmetric_part(const V (&B)[3][3], V (&S)[6])
-    {
-      static_for<6>([&](auto s) {
-        constexpr int a = internal::symmetric_pairs[s][0],
-                      b = internal::symmetric_pairs[s][1];
-        S[s]            = a == b ? B[a][a] : 0.5 * (B[a][b] + B[b][a]);
-      });
-    }
-
-    COROTET_ALWAYS_INLINE void
-    count(unsigned int clamped, const CellShapes &shapes, unsigned int &n)
-    {
-      if (__builtin_expect(clamped != 0, 0))
-        for (unsigned int lane = 0; lane < batch_size; ++lane)
-          n += (clamped >> lane & 1u) != 0 && shapes.volume[lane] > 0;
-    }
-
-    template <int p, Tangent tangent>
-    __attribute__((flatten)) void
-    linearize_at_points(const ReferenceElement &reference,
-                        const ElasticData      &data,
-                        const unsigned int      first,
-                        const unsigned int      end,
-                        const double           *displacement,
-                        double                 *linearization,
-                        unsigned int           &n_clamped)
-    {
-      using Kernel     = QuadratureKernel<p>;
-      const auto &rule = reference.stiffness_rule;
-      const auto  size =
-        batch_size * linearization_size(reference, data.rotation, tangent);
-      for (unsigned int batch = first; batch < end; ++batch)
-        {
-          const CellShapes            &shapes = data.shapes[batch];
-          typename Kernel::NodalValues u;
-          typename Kernel::Geometry    g;
-          gather_differences<Kernel::n_nodes>(data.batches,
-                                              batch,
-                                              displacement,
-                                              u);
-          Kernel::load(shapes, g);
-          const V      mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
-          Writer       numbers{linearization + size * std::size_t(batch)};
-          unsigned int clamped = 0;
-          for (unsigned int q = 0; q < rule.weights.size(); ++q)
-            {
-              V F[3][3], R[3][3];
-              Kernel::gradient(rule, q, g, u, F);
-              add_identity(F);
-              polar_decomposition(F, R);
-              numbers.write(R);
-              if constexpr (tangent == Tangent::consistent)
-                {
-                  V S[6], T[6];
-                  stretch(R, F, S);
-                  clamped |= rotation_stiffness(lambda, mu, S, T);
-                  numbers.write(T);
-                }
-            }
-          count(clamped, shapes, n_clamped);
-        }
-    }
-
-    // With one rotation per cell, everything is turned by it: B = F R^T stands
-    // for R^T F, and R disappears from the formulas.
-    template <int p, Rotation rotation>
-    __attribute__((flatten)) void
-    linearize_by_cell(const ReferenceElement &reference,
-                      const ElasticData      &data,
-                      const unsigned int      first,
-                      const unsigned int      end,
-                      const double           *displacement,
-                      double                 *linearization,
-                      unsigned int           &n_clamped)
-    {
-      using Kernel     = QuadratureKernel<p>;
-      const auto &rule = reference.stiffness_rule;
-      const auto  size =
-        batch_size *
-        linearization_size(reference, rotation, Tangent::consistent);
-      for (unsigned int batch = first; batch < end; ++batch)
-        {
-          const CellShapes            &shapes = data.shapes[batch];
-          typename Kernel::NodalValues u;
-          typename Kernel::Geometry    g;
-          gather_differences<Kernel::n_nodes>(data.batches,
-                                              batch,
-                                              displacement,
-                                              u);
-          load_rotated(data, batch, g);
-          Writer numbers{linearization + size * std::size_t(batch)};
-          V      R[3][3], B[3][3], S[6], G_inverse[6], moment[3]{};
-          rotations_of(data, batch, R);
-          Kernel::gradient(reference.centre, 0, g, u, B);
-          add_transposed(R, B);
-          symmetric_part(B, S);
-          count(inverse_spin_tensor(S, G_inverse), shapes, n_clamped);
-          numbers.write(G_inverse);
-          if constexpr (rotation == Rotation::cell_centre_variational)
-            numbers.write(S);
-          for (unsigned int q = 0; q < rule.weights.size(); ++q)
-            {
-              Kernel::gradient(rule, q, g, u, B);
-              add_transposed(R, B);
-              numbers.write(B);
-              if constexpr (rotation == Rotation::cell_centre_variational)
-                {
-                  V e[3][3], sigma[3][3];
-                  internal::copy(B, e);
-                  static_for<3>([&](auto a) { e[a][a] -= 1.; });
-                  isotropic_stress(lanes(shapes.lambda),
-                                   lanes(shapes.mu),
-                                   e,
-                                   sigma);
-                  add_moment(rule.weights[q] * lanes(shapes.volume),
-                             sigma,
-                             B,
-                             moment);
-                }
-            }
-          if constexpr (rotation == Rotation::cell_centre_variational)
-            {
-              V n[3];
-              symmetric_times(G_inverse, moment, n);
-              numbers.write(n);
-            }
-        }
-    }
 
     // f = c_M M u. Changes u.
     template <int p>
@@ -337,9 +164,7 @@ namespace corotet
             [&](const unsigned int q, const V(&H)[3][3], V(&P)[3][3]) {
               V B[3][3], e[3][3], WB[3][3], sigma[3][3], W_sigma[3][3];
               numbers.read(B);
-              internal::copy(B, e);
-              static_for<3>([&](auto a) { e[a][a] -= 1.; });
-              isotropic_stress(lambda, mu, e, sigma);
+              stress_of_stretch(lambda, mu, B, sigma);
               skew_times(w, sigma, W_sigma);
               skew_times(w, B, WB);
               // Of the part with frozen rotations a multiple is wanted.
@@ -391,80 +216,25 @@ namespace corotet
                                        sums);
         }
     }
-
-    // function(p) with each of the three tangents for a degree.
-    template <typename Sweep, typename AtPoints, typename ByCell>
-    Sweep
-    choose(const unsigned int degree,
-           const Rotation     rotation,
-           const Tangent      tangent,
-           const AtPoints    &at_points,
-           const ByCell      &by_cell)
-    {
-      Sweep result = nullptr;
-      with_degree(degree, [&](const auto p) {
-        using std::integral_constant;
-        if (rotation == Rotation::quadrature_points)
-          result =
-            tangent == Tangent::frozen_rotation ?
-              at_points(
-                p, integral_constant<Tangent, Tangent::frozen_rotation>()) :
-              at_points(p, integral_constant<Tangent, Tangent::consistent>());
-        else if (tangent == Tangent::consistent)
-          result =
-            rotation == Rotation::cell_centre ?
-              by_cell(p, integral_constant<Rotation, Rotation::cell_centre>()) :
-              by_cell(p,
-                      integral_constant<Rotation,
-                                        Rotation::cell_centre_variational>());
-      });
-      Assert(result != nullptr, dealii::ExcNotImplemented());
-      return result;
-    }
   } // namespace
-
-  unsigned int
-  linearization_size(const ReferenceElement &reference,
-                     const Rotation          rotation,
-                     const Tangent           tangent)
-  {
-    const unsigned int n_points = reference.stiffness_rule.weights.size();
-    if (rotation == Rotation::quadrature_points)
-      return (tangent == Tangent::consistent ? 15 : 9) * n_points;
-    return (rotation == Rotation::cell_centre ? 6 : 15) + 9 * n_points;
-  }
-
-  LinearizationSweep
-  linearization_sweep(const unsigned int degree,
-                      const Rotation     rotation,
-                      const Tangent      tangent)
-  {
-    return choose<LinearizationSweep>(
-      degree,
-      rotation,
-      tangent,
-      [](const auto p, const auto t) -> LinearizationSweep {
-        return linearize_at_points<decltype(p)::value, decltype(t)::value>;
-      },
-      [](const auto p, const auto r) -> LinearizationSweep {
-        return linearize_by_cell<decltype(p)::value, decltype(r)::value>;
-      });
-  }
 
   TangentSweep
   tangent_sweep(const unsigned int degree,
                 const Rotation     rotation,
                 const Tangent      tangent)
   {
-    return choose<TangentSweep>(
-      degree,
-      rotation,
-      tangent,
-      [](const auto p, const auto t) -> TangentSweep {
-        return tangent_at_points<decltype(p)::value, decltype(t)::value>;
-      },
-      [](const auto p, const auto r) -> TangentSweep {
-        return tangent_by_cell<decltype(p)::value, decltype(r)::value>;
-      });
+    TangentSweep result = nullptr;
+    with_tangent(degree,
+                 rotation,
+                 tangent,
+                 [&](const auto p, const auto r, const auto t) {
+                   constexpr int      degree   = decltype(p)::value;
+                   constexpr Rotation rotation = decltype(r)::value;
+                   if constexpr (rotation == Rotation::quadrature_points)
+                     result = tangent_at_points<degree, decltype(t)::value>;
+                   else
+                     result = tangent_by_cell<degree, rotation>;
+                 });
+    return result;
   }
 } // namespace corotet

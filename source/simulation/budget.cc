@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/exceptions.h>
 #include <corotet/operators/surface.h>
 #include <corotet/simulation/budget.h>
 
@@ -102,6 +103,16 @@ namespace corotet
     last_damping.swap(damping);
     last_displacement.swap(displacement);
     evaluate(record, state, time, load_factor);
+    if (!std::isfinite(norm(force) + norm(damping) + record.elastic_energy +
+                       record.kinetic_energy))
+      {
+        // As if this call had not been.
+        last_force.swap(force);
+        last_damping.swap(damping);
+        last_displacement.swap(displacement);
+        throw ComputationError(
+          "the forces at the end of the step are not finite");
+      }
 
     // Mean forces times the displacement of the step.
     last_force.sadd(0.5, 0.5, force);

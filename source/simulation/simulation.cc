@@ -188,12 +188,12 @@ namespace corotet
                          (parameters.end_time - parameters.start_time),
                        to},
                       present);
+    budget->update(record, present, time(to), integrator.load_factor(to));
     done = to;
     ++record.parts;
     record.newton_iterations += report.newton_iterations;
     record.linear_iterations += report.linear_iterations;
     record.dt += time(to) - time(from);
-    budget->update(record, present, time(to), integrator.load_factor(to));
     record.clamped_cells = system.take_clamped_cells();
     record.wall_time     = seconds();
   }

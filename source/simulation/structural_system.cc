@@ -207,7 +207,9 @@ namespace corotet
       }
     if (statics || parameters.newton.always_log || report.line_searches > 0)
       log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
-    return {report.iterations, report.linear_iterations};
+    return {report.iterations,
+            report.linear_iterations,
+            report.observed_order()};
   }
 
   NewtonProblem::Norm

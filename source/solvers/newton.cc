@@ -191,12 +191,15 @@ namespace corotet
       throw ComputationError(fmt::format(
         "Newton's method {}: the residual is {:.3g} of the forces (required: "
         "{:.3g}), the estimated error {:.3g} of the displacement (required: "
-        "{:.3g})",
+        "{:.3g}){}",
         what,
         relative_residual(),
         newton.residual_tolerance,
         error / size,
-        newton.increment_tolerance));
+        newton.increment_tolerance,
+        newton.tangent == "consistent" ?
+          "" :
+          "; Newton/Tangent = consistent may help"));
     }
 
     // A direction from the present point. What the exact tangent has none for,

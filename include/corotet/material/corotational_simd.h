@@ -48,6 +48,19 @@ namespace corotet
     });
   }
 
+  /// sigma of the strain sym(A) - I.
+  COROTET_ALWAYS_INLINE void
+  stress_of_stretch(const Simd<double> lambda,
+                    const Simd<double> mu,
+                    const Simd<double> (&A)[3][3],
+                    Simd<double> (&sigma)[3][3])
+  {
+    Simd<double> e[3][3];
+    internal::copy(A, e);
+    static_for<3>([&](auto a) { e[a][a] -= 1.; });
+    isotropic_stress(lambda, mu, e, sigma);
+  }
+
   /// F = I + grad u.
   COROTET_ALWAYS_INLINE void
   add_identity(Simd<double> (&F)[3][3])
@@ -55,7 +68,18 @@ namespace corotet
     static_for<3>([&](auto a) { F[a][a] += 1.; });
   }
 
-  /// sym(R^T F).
+  /// S = sym(A).
+  COROTET_ALWAYS_INLINE void
+  symmetric_part(const Simd<double> (&A)[3][3], Simd<double> (&S)[6])
+  {
+    static_for<6>([&](auto s) {
+      constexpr int a = internal::symmetric_pairs[s][0],
+                    b = internal::symmetric_pairs[s][1];
+      S[s]            = a == b ? A[a][a] : 0.5 * (A[a][b] + A[b][a]);
+    });
+  }
+
+  /// S = sym(R^T F).
   COROTET_ALWAYS_INLINE void
   stretch(const Simd<double> (&R)[3][3],
           const Simd<double> (&F)[3][3],
@@ -63,11 +87,7 @@ namespace corotet
   {
     Simd<double> A[3][3];
     transposed_times(R, F, A);
-    static_for<6>([&](auto s) {
-      constexpr int a = internal::symmetric_pairs[s][0],
-                    b = internal::symmetric_pairs[s][1];
-      S[s]            = a == b ? A[a][a] : 0.5 * (A[a][b] + A[b][a]);
-    });
+    symmetric_part(A, S);
   }
 
   /**

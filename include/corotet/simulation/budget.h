@@ -29,7 +29,9 @@ namespace corotet
            const double          load_factor);
 
     /**
-     * Accounts for the step that led to @p state at @p time. The fields of the
+     * Accounts for the step that led to @p state at @p time. Throws
+     * ComputationError, and accounts for nothing, if there the forces are not
+     * finite. The fields of the
      * record that only the driver knows (step, dt, iterations, wall time) are
      * left as they are.
      */

@@ -6,6 +6,8 @@
 
 #include <corotet/base/vector.h>
 
+#include <limits>
+
 namespace corotet
 {
   /**
@@ -43,6 +45,9 @@ namespace corotet
   {
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
+    /// Observed order of convergence of Newton's method; NaN if it took too few
+    /// iterations to tell.
+    double order = std::numeric_limits<double>::quiet_NaN();
   };
 
   /**
