@@ -20,12 +20,17 @@ from support import CASES, COLUMNS, COLUMNS_AFTER_PROBES, SUMMARY_KEYS, WALL_TIM
 N_STEPS = 2
 LOAD_STEPS = (f"Time integration/static/Load steps = {N_STEPS}",)
 SHORTER = {
+    "bend_45": (*LOAD_STEPS, "Boundary conditions/Traction = tip: 0; 0; 200"),
     "bracket": (*LOAD_STEPS, "Mesh/gmsh/Element size = 0.01"),
     "cantilever": ("Time integration/End time = 0.02",),
+    "crushed_cube": ("Time integration/End time = 0.6",),
+    "elastica": (*LOAD_STEPS, "Boundary conditions/Traction = x-max: 0; 0; -800"),
     "gravity_corotational": (*LOAD_STEPS, "Loads/Gravity = 0; 0; -1"),
     "gravity_linear": LOAD_STEPS,
+    "ring": (*LOAD_STEPS, "Boundary conditions/Pressure = x-max: 1e6 * (z - 0.025)"),
     "spring": ("Time integration/End time = 0.012",),
     "tuning_fork": ("Time integration/End time = 8e-5", "Output/Time between results = 0"),
+    "twisted_beam": (*LOAD_STEPS, "Time integration/End time = 0.1"),
     "two_materials": ("Time integration/End time = 0.01",),
 }
 

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Large rotations in the ready cases come out as theory has them. doc/rotations.md has the figures in full.
+
+- elastica: deflection and shortening of Bernoulli's elastica (elliptic integrals) to 1 %. The body is 20 times as long as
+  thick: shear and stretch, which the elastica has not, change its deflection by 0.1 to 0.4 %.
+- ring: an end moment of 2 pi E I / L closes the ring to 1 % of L. What a beam as thick as that lacks shrinks with
+  (thickness / L)^2 and is 0.6 %.
+- bend_45: the tip of Bathe and Bolourchi's bend to 0.8 m. Published values of beam elements differ by 0.4 m.
+- twisted_beam: the middle section makes half of the turns of the end, by symmetry.
+- crushed_cube: all nodes return to their places at rest but for a rigid motion, to 1e-6 of the cube's length.
+"""
+
+import math
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+from support import ProgramTest, read_history
+
+# Load P L^2 / E I: deflection w / L, shortening u / L.
+ELASTICA = {1: (0.30172, 0.05643), 2: (0.49346, 0.16064), 5: (0.71379, 0.38763), 10: (0.81061, 0.55500)}
+BEND = (-13.4, -23.5, 53.4)
+
+
+def distance_from_rest(directory):
+    """The largest distance of a node from its place at rest in the last state, after the best rigid motion (Kabsch)."""
+    reader = vtkHDFReader()
+    reader.SetFileName(str(directory / "solution.vtkhdf"))
+    reader.UpdateInformation()
+    reader.UpdateTimeStep(reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())[-1])
+    grid = reader.GetOutputDataObject(0)
+    rest = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    now = rest + vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+    rest, now = rest - rest.mean(axis=0), now - now.mean(axis=0)
+    u, _, v = np.linalg.svd(now.T @ rest)
+    u[:, 2] *= np.linalg.det(u @ v)
+    return np.linalg.norm(now - rest @ (u @ v).T, axis=1).max()
+
+
+class Rotations(ProgramTest):
+
+    def history(self, case, *settings, **others):
+        return read_history(self.run_case(case, case, *settings, **others))
+
+    def check_elastica(self, **others):
+        rows = self.history("elastica", "Discretization/Degree = 2", **others)
+        for load, (w, u) in ELASTICA.items():
+            self.assertAlmostEqual(-float(rows[load]["tip_z"]), w, delta=0.01 * w, msg=f"deflection under load {load}")
+            self.assertAlmostEqual(-float(rows[load]["tip_x"]), u, delta=0.01 * u, msg=f"shortening under load {load}")
+
+    def test_elastica(self):
+        self.check_elastica()
+
+    def test_elastica_two_ranks(self):
+        self.check_elastica(ranks=2)
+
+    def test_ring(self):
+        last = self.history("ring")[-1]
+        gap = math.hypot(float(last["tip_x"]) + 1, float(last["tip_y"]), float(last["tip_z"]))
+        self.assertLess(gap, 0.01)
+
+    def test_bend_45(self):
+        last = self.history("bend_45")[-1]
+        for component, expected in zip("xyz", BEND):
+            self.assertAlmostEqual(float(last[f"tip_{component}"]), expected, delta=0.8, msg=component)
+
+    def test_twisted_beam(self):
+        for degree in (1, 2, 3):
+            for rotation in ("cell centre", "quadrature points"):
+                with self.subTest(degree=degree, rotation=rotation):
+                    rows = read_history(self.run_case("twisted_beam", f"{degree} {rotation}", f"Discretization/Degree = {degree}",
+                                                      f"Material/Rotation = {rotation}"))
+                    self.assertEqual(float(rows[-1]["time"]), 2)
+                    angles = {name: np.unwrap([math.atan2(0.05 + float(row[f"{name}_z"]), 0.05 + float(row[f"{name}_y"])) for row in rows])
+                              for name in ("middle", "end")}
+                    turns = {name: (a - a[0]) / (2 * math.pi) for name, a in angles.items()}
+                    time = np.array([float(row["time"]) for row in rows])
+                    # The end is prescribed; the middle follows to the tolerance of Newton's method.
+                    self.assertLess(np.abs(turns["end"] - time).max(), 1e-12)
+                    self.assertLess(np.abs(turns["middle"] - time / 2).max(), 1e-6)
+                    self.assertEqual({int(row["inverted_cells"]) for row in rows}, {0})
+
+    def test_crushed_cube(self):
+        starts = {"flat": "0; 0; -z", "line": "0; -y; -z", "point": "-x; -y; -z"}
+        for degree in (1, 2, 3):
+            for name, displacement in starts.items():
+                with self.subTest(degree=degree, start=name):
+                    directory = self.run_case("crushed_cube", f"{degree} {name}", f"Discretization/Degree = {degree}",
+                                              f"Initial conditions/Displacement = {displacement}", "Output/Time between results = 1000")
+                    self.assertLessEqual(distance_from_rest(directory), 1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()
