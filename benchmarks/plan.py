@@ -78,7 +78,7 @@ class Run:
 
 APPLICATIONS = ["assembly", "epetra", "eigen", "block_csr", "matrix_free.*", "quadrature"]
 FREE_APPLICATIONS = ["matrix_free.*", "quadrature"]
-UPDATES = ["rotations.*", "setup_after_rotation", "explicit_step"]
+UPDATES = ["rotations.*", "setup_after_rotation", "explicit_step", "(force|linearization|tangent)_.*"]
 COARSE = ["direct", "aggregation", "amg"]
 MULTIGRID = ["solve/p-multigrid", "solve/p-multigrid-.*"]
 

@@ -89,7 +89,7 @@ namespace corotet::benchmarks
   namespace
   {
     std::map<unsigned int, IsotropicMaterial>
-    materials(const Case &c)
+    materials_of(const Case &c)
     {
       return {{0,
                isotropic_material(youngs_modulus, c.poissons_ratio, density)},
@@ -145,11 +145,12 @@ namespace corotet::benchmarks
     , mesh(mesh_and_memory(c, memory_at_start), 0, 1., MPI_COMM_WORLD, log)
     , discretization(mesh, c.degree)
     , reference(c.degree)
+    , materials(materials_of(c))
     , mass(discretization,
            reference,
            {{0, density}, {1, density}},
            MassType::consistent)
-    , elasticity(discretization, reference, materials(c), Rotation::cell_centre)
+    , elasticity(discretization, reference, materials, Rotation::cell_centre)
     , is_prescribed(3 * discretization.n_local_nodes(), 0)
     , state(bent(c.bend))
   {
@@ -158,6 +159,15 @@ namespace corotet::benchmarks
         for (unsigned int a = 0; a < 3; ++a)
           is_prescribed[3 * n + a] = 1;
     reset_rotations();
+  }
+
+  std::unique_ptr<Elasticity>
+  Problem::elasticity_with(const Rotation rotation) const
+  {
+    return std::make_unique<Elasticity>(discretization,
+                                        reference,
+                                        materials,
+                                        rotation);
   }
 
   Vector

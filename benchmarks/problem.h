@@ -10,6 +10,8 @@
 #include <corotet/operators/mass.h>
 
 #include <array>
+#include <map>
+#include <memory>
 #include <string>
 
 namespace corotet::benchmarks
@@ -98,6 +100,10 @@ namespace corotet::benchmarks
     void
     clamp(Vector &vector) const;
 
+    /// The same body with rotations taken elsewhere.
+    std::unique_ptr<Elasticity>
+    elasticity_with(const Rotation rotation) const;
+
     double
     n_unknowns() const
     {
@@ -107,13 +113,14 @@ namespace corotet::benchmarks
     Log log;
     /// Resident memory when the serial mesh had been made, and nothing else
     /// [bytes, of all ranks].
-    double                     memory_at_start = 0;
-    Mesh                       mesh;
-    Discretization             discretization;
-    ReferenceElement           reference;
-    Mass                       mass;
-    Elasticity                 elasticity;
-    std::vector<unsigned char> is_prescribed;
+    double                                          memory_at_start = 0;
+    Mesh                                            mesh;
+    Discretization                                  discretization;
+    ReferenceElement                                reference;
+    const std::map<unsigned int, IsotropicMaterial> materials;
+    Mass                                            mass;
+    Elasticity                                      elasticity;
+    std::vector<unsigned char>                      is_prescribed;
     /// The displacement of solves, ghosts included.
     Vector state;
   };

@@ -160,7 +160,9 @@ def updates(results):
                  "computes and stores the rotation of every cell; `rotations_svd` takes Eigen's JacobiSVD of deformation "
                  "gradients that are there already. `rotations_and_matrix` also fills the existing sparsity. "
                  "`setup_after_rotation` is what a Newton iteration does but its solve: rotations with internal force, operator "
-                 "and preconditioner. `explicit_step` is one sweep with rotations, external force and inverse mass as vectors.")
+                 "and preconditioner. `explicit_step` is one sweep with rotations, external force and inverse mass as vectors. `force_`, "
+                 "`linearization_` and `tangent_` are rotations with internal force, what the exact tangent stores, and its application, "
+                 "for each place where rotations are taken.")
 
 
 def newton(results):

@@ -161,6 +161,54 @@ namespace corotet::benchmarks
               },
               counters};
     }
+
+    /// The force, its linearization and the exact tangent with rotations taken
+    /// as @p rotation says.
+    void
+    add_placement(CaseData          &data,
+                  const std::string &name,
+                  const Rotation     rotation)
+    {
+      struct Deformed : DeformedBeam
+      {
+        Deformed(CaseData &data, const Rotation rotation)
+          : DeformedBeam(data)
+          , elasticity(data.problem().elasticity_with(rotation))
+        {
+          elasticity->update_rotations_and_force(f, u);
+          elasticity->linearize(u, Tangent::consistent);
+        }
+
+        std::unique_ptr<Elasticity> elasticity;
+      };
+      const auto make = [&data, rotation] {
+        return std::make_shared<Deformed>(data, rotation);
+      };
+      add_short(data.name("force_" + name), [&data, make] {
+        const auto beam = make();
+        return Measured{[beam] {
+                          beam->elasticity->update_rotations_and_force(beam->f,
+                                                                       beam->u);
+                        },
+                        cells(data)};
+      });
+      add_short(data.name("linearization_" + name), [&data, make] {
+        const auto beam = make();
+        return Measured{[beam] {
+                          beam->elasticity->linearize(beam->u,
+                                                      Tangent::consistent);
+                        },
+                        cells(data)};
+      });
+      add_short(data.name("tangent_" + name), [&data, make] {
+        const auto beam = make();
+        return Measured{[beam] {
+                          beam->elasticity->apply_linearization(
+                            beam->f, beam->u, 1., 0., nullptr, nullptr);
+                        },
+                        cells(data)};
+      });
+    }
   } // namespace
 
   void
@@ -189,5 +237,8 @@ namespace corotet::benchmarks
               [&data] { return make_setup_after_rotation(data); });
     add_short(data.name("explicit_step"),
               [&data] { return make_explicit_step(data); });
+    add_placement(data, "cell_centre", Rotation::cell_centre);
+    add_placement(data, "variational", Rotation::cell_centre_variational);
+    add_placement(data, "quadrature_points", Rotation::quadrature_points);
   }
 } // namespace corotet::benchmarks

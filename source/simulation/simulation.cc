@@ -27,6 +27,12 @@ namespace corotet
                                    "time {}",
                                    parameters.end_time,
                                    parameters.start_time));
+    if (parameters.newton.linearly_implicit &&
+        !parameters.time_integrator.selected().is_dynamic())
+      throw InputError("Newton/Linearly implicit",
+                       "found true; allowed with Time integration/Type = "
+                       "static: false, as nothing would correct the error of "
+                       "a load step");
     n_steps =
       parameters.time_integrator.selected().n_steps(duration,
                                                     parameters.time_step);
