@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The derivative of follower pressures against differences of their force.
+
+#include <gtest/gtest.h>
+
+#include "random_states.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  // The external loads of a 1 x 2 x 1 box, as the system makes them.
+  struct Loaded : public Body
+  {
+    Loaded(const unsigned int degree, const std::string &text)
+      : Body(box("1, 2, 1", "2, 3, 2", 0.2),
+             "subsection Discretization\n set Degree = " +
+               std::to_string(degree) +
+               "\nend\nsubsection Boundary conditions\n" + text + "\nend\n")
+      , conditions(parameters.boundary_conditions, mesh.boundaries())
+      , loads(discretization,
+              system.reference_element(),
+              system.mass(),
+              conditions,
+              parameters.loads,
+              parameters.material.rotation_placement() != Rotation::none,
+              log)
+    {}
+
+    Vector
+    force(const double time, const Vector &u) const
+    {
+      Vector f(u);
+      f.zero_out_ghost_values();
+      loads.force(f, time, u);
+      return f;
+    }
+
+    Vector
+    derivative(const Vector &v, const double factor) const
+    {
+      Vector f(v);
+      f.zero_out_ghost_values();
+      f = 0;
+      loads.add_linearized(f, v, factor);
+      return f;
+    }
+
+    // A shape that bends, stretches and shears every side.
+    Vector
+    shape() const
+    {
+      return interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({std::sin(2 * x[1]) + 0.1 * x[0] * x[2],
+                             0.3 * x[0] * x[2] - 0.2 * x[1],
+                             std::cos(2 * x[0]) * x[1]});
+      });
+    }
+
+    BoundaryConditions conditions;
+    Loads              loads;
+  };
+} // namespace
+
+class PressureTangent : public testing::TestWithParam<unsigned int>
+{};
+
+// A pressure that varies in space and time, on three sides that meet in edges.
+// The force is quadratic in u, so that central differences are exact but for
+// round-off, 1e-16 / 1e-2.
+TEST_P(PressureTangent, IsTheDerivative)
+{
+  Loaded       body(GetParam(),
+              "set Pressure = z-max: (1+x*y^2)*t, x-max: sin(3*y)+z, "
+                    "y-min: 2-x*z");
+  const Vector v = random_direction(body), u = body.shape();
+  const double t = 3, h = 1e-2, factor = -0.7;
+  EXPECT_TRUE(body.loads.has_follower_pressure());
+  Vector difference = body.force(t, moved(u, h, v));
+  difference -= body.force(t, moved(u, -h, v));
+  difference *= factor / (2 * h);
+  body.loads.linearize(t, u);
+  const Vector found = body.derivative(v, factor);
+  const double error =
+    largest_difference(found, difference) / difference.linfty_norm();
+  report("relative difference, P" + std::to_string(GetParam()), error);
+  EXPECT_GT(difference.linfty_norm(), 1e-2);
+  EXPECT_LE(error, 1e-12);
+}
+
+// It adds: what was in f stays.
+TEST_P(PressureTangent, Adds)
+{
+  Loaded       body(GetParam(), "set Pressure = z-max: 1+x");
+  const Vector v = random_direction(body);
+  body.loads.linearize(0., body.shape());
+  const Vector once = body.derivative(v, 2.);
+  Vector       twice(once);
+  body.loads.add_linearized(twice, v, 2.);
+  twice.add(-2., once);
+  EXPECT_LE(twice.linfty_norm(), 1e-14 * once.linfty_norm());
+}
+
+// A uniform pressure on the whole surface has a potential, the volume: its
+// derivative is symmetric. On a part of the surface it is not.
+TEST_P(PressureTangent, SymmetricOnAClosedSurface)
+{
+  for (const bool closed : {true, false})
+    {
+      Loaded       body(GetParam(),
+                  closed ? "set Pressure = x-min: 7, x-max: 7, y-min: 7, "
+                                 "y-max: 7, z-min: 7, z-max: 7" :
+                                 "set Pressure = x-max: 7");
+      const Vector v = random_direction(body), w = body.shape();
+      body.loads.linearize(0., body.shape());
+      const Vector Kv = body.derivative(v, 1.), Kw = body.derivative(w, 1.);
+      const double asymmetry = std::abs(w * Kv - v * Kw) / (norm(w) * norm(Kv));
+      if (closed)
+        EXPECT_LE(asymmetry, 1e-13);
+      else
+        EXPECT_GE(asymmetry, 1e-4);
+    }
+}
+
+// Linear elasticity has pressures on the surface at rest.
+TEST_P(PressureTangent, NoneInLinearElasticity)
+{
+  Loaded body(GetParam(),
+              "set Pressure = z-max: 1\nend\nsubsection Material\n set Type = "
+              "linear");
+  EXPECT_FALSE(body.loads.has_follower_pressure());
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, PressureTangent, testing::Values(1u, 2u, 3u));

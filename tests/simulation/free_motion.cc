@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// A free body that spins and vibrates: what the laws with an energy conserve,
+// and what one rotation per cell does not.
+
+#include <corotet/simulation/budget.h>
+#include <corotet/time_integration/generalized_alpha.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  // Largest changes from the start to any step, of the momenta relative to the
+  // momenta at the start, of the energy relative to the elastic one then.
+  struct Drift
+  {
+    double momentum = 0, angular_momentum = 0, energy = 0;
+  };
+
+  // A bar of 2 x 1 x 1 that is stretched and bent and turns by some 2 radians.
+  Drift
+  fly(const unsigned int degree,
+      const std::string &rotation,
+      const unsigned int n_steps)
+  {
+    Body       body(box("2, 1, 1", "2, 1, 1"),
+              fmt::format(R"(
+      subsection Discretization
+        set Degree = {}
+      end
+      subsection Material
+        set Rotation        = {}
+        set Young's modulus = 2e4
+        set Poisson's ratio = 0.3
+      end
+      subsection Newton
+        set Tangent             = consistent
+        set Residual tolerance  = 1e-13
+        set Increment tolerance = 1e-13
+      end
+      subsection Linear solver
+        set Type      = direct
+        set Tolerance = 1e-10
+      end)",
+                          degree,
+                          rotation));
+    const auto deformation = [](const Point<3> &x) {
+      return Tensor<1, 3>(
+        {0.1 * (x[0] - 1), 0.05 * x[1] * x[2], 0.1 * x[0] * x[0]});
+    };
+    body.state.u.copy_locally_owned_data_from(body.interpolate(deformation));
+    body.state.v.copy_locally_owned_data_from(
+      body.interpolate([&](const Point<3> &x) {
+        return Tensor<1, 3>({1., 2., 3.}) +
+               cross_product_3d(Tensor<1, 3>({0.5, 1.5, 1.}),
+                                Tensor<1, 3>(x) + deformation(x));
+      }));
+    GeneralizedAlpha integrator;
+    integrator.spectral_radius = 1;
+    const double end           = 1;
+    body.system.solve_acceleration(body.state, 0.);
+    Budget budget(body.system, body.discretization, body.state, 0., 1.);
+    const StepRecord start  = budget.initial_record();
+    StepRecord       record = start;
+    Drift            drift;
+    for (unsigned int i = 0; i < n_steps; ++i)
+      {
+        integrator.step(body.system,
+                        {i * end / n_steps, end / n_steps, (i + 1.) / n_steps},
+                        body.state);
+        budget.update(record, body.state, (i + 1) * end / n_steps, 1.);
+        drift.momentum = std::max(drift.momentum,
+                                  (record.momentum - start.momentum).norm() /
+                                    start.momentum.norm());
+        drift.angular_momentum =
+          std::max(drift.angular_momentum,
+                   (record.angular_momentum - start.angular_momentum).norm() /
+                     start.angular_momentum.norm());
+        drift.energy =
+          std::max(drift.energy,
+                   std::abs(record.energy_balance) / start.elastic_energy);
+      }
+    return drift;
+  }
+
+  // Hundreds of steps of a few cells: two ranks would only wait for each other.
+  bool
+  on_one_rank()
+  {
+    return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+  }
+} // namespace
+
+class FreeMotion : public testing::TestWithParam<unsigned int>
+{};
+
+// The spectral radius 1 makes the midpoint rule. It conserves both momenta
+// exactly when forces have no resultant and no moment, so to the solvers'
+// tolerance, and the energy to its order.
+TEST_P(FreeMotion, Conservation)
+{
+  if (!on_one_rank())
+    GTEST_SKIP();
+  const unsigned int degree    = GetParam();
+  double             conserved = 0;
+  for (const std::string rotation :
+       {"quadrature points", "cell centre, variational"})
+    {
+      const Drift       coarse = fly(degree, rotation, 50);
+      const Drift       fine   = fly(degree, rotation, 100);
+      const std::string what   = fmt::format(", P{}, {}", degree, rotation);
+      report("drift of momentum" + what, fine.momentum);
+      report("drift of angular momentum" + what, fine.angular_momentum);
+      report("error of energy" + what, fine.energy);
+      report("order of energy" + what, std::log2(coarse.energy / fine.energy));
+      EXPECT_LE(fine.momentum, 1e-12);
+      EXPECT_LE(coarse.angular_momentum, 1e-10);
+      EXPECT_LE(fine.angular_momentum, 1e-10);
+      EXPECT_NEAR(std::log2(coarse.energy / fine.energy), 2, 0.2);
+      EXPECT_LE(fine.energy, 0.02);
+      conserved = std::max(conserved, fine.angular_momentum);
+    }
+  const Drift by_cell = fly(degree, "cell centre", 100);
+  report(fmt::format("drift of momentum, P{}, cell centre", degree),
+         by_cell.momentum);
+  report(fmt::format("drift of angular momentum, P{}, cell centre", degree),
+         by_cell.angular_momentum);
+  EXPECT_LE(by_cell.momentum, 1e-12);
+  EXPECT_GE(by_cell.angular_momentum, 100 * conserved);
+  EXPECT_GE(by_cell.angular_momentum, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, FreeMotion, testing::Values(2u, 3u));

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Newton's method in statics with large rotations: the observed order of the
+// consistent tangent, and what the frozen one takes.
+
+#include <corotet/time_integration/load_stepping.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  constexpr unsigned int max_iterations = 300;
+
+  // A clamped bar of 1 x 0.1 x 0.1 under a dead traction at its tip,
+  // multiplied by the time.
+  struct Cantilever : public Body
+  {
+    // The tip turns by 40 degrees under the traction @p first, by 80 degrees
+    // under @p second: P L^2 / EI is some 1.7 and 8.7 (elastica); linear
+    // tetrahedra are far stiffer in bending.
+    static constexpr double
+    first(const unsigned int degree)
+    {
+      return degree == 1 ? 2.6 * EI / A : 1.7 * EI / A;
+    }
+
+    static constexpr double
+    second(const unsigned int degree)
+    {
+      return degree == 1 ? 13 * EI / A : 8.7 * EI / A;
+    }
+
+    Cantilever(const unsigned int degree,
+               const std::string &rotation,
+               const std::string &tangent)
+      : Body(box("1, 0.1, 0.1", degree == 1 ? "20, 2, 2" : "10, 1, 1"),
+             fmt::format(R"(
+      subsection Discretization
+        set Degree = {}
+      end
+      subsection Material
+        set Rotation        = {}
+        set Young's modulus = {}
+        set Poisson's ratio = 0.3
+      end
+      subsection Boundary conditions
+        set Fixed    = x-min
+        set Traction = x-max: 0; 0; t
+      end
+      subsection Newton
+        set Tangent             = {}
+        set Residual tolerance  = 1e-12
+        set Increment tolerance = 1e-12
+        set Maximum iterations  = {}
+      end
+      subsection Linear solver
+        set Type      = direct
+        set Tolerance = 1e-12
+      end)",
+                         degree,
+                         rotation,
+                         E,
+                         tangent,
+                         max_iterations))
+    {
+      load_stepping.proportional = false;
+    }
+
+    StageReport
+    load(const double from, const double to)
+    {
+      return load_stepping.step(system, {from, to - from, 1.}, state);
+    }
+
+    // Largest rotation of a cell in degrees.
+    double
+    angle()
+    {
+      system.evaluate(state, 0., 1.);
+      double largest = 0;
+      for (const double cell : system.elasticity()
+                                 .cell_results(system.displacement())
+                                 .rotation_angle)
+        largest = std::max(largest, cell);
+      return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD) * 180 /
+             dealii::numbers::PI;
+    }
+
+    static constexpr double E = 1e6, A = 0.01, EI = E * A * A / 12;
+
+    LoadStepping load_stepping;
+  };
+} // namespace
+
+class NewtonConvergence
+  : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
+{};
+
+// From 40 to 80 degrees in a single step.
+TEST_P(NewtonConvergence, QuadraticWithTheConsistentTangent)
+{
+  const auto &[degree, rotation] = GetParam();
+  const double      first        = Cantilever::first(degree);
+  const double      second       = Cantilever::second(degree);
+  const std::string what         = fmt::format(", P{}, {}", degree, rotation);
+
+  Cantilever body(degree, rotation, "consistent");
+  Cantilever frozen(degree, rotation, "frozen rotation");
+  for (const double part : {0., 0.25, 0.5, 0.75})
+    body.load(part * first, (part + 0.25) * first);
+  EXPECT_NEAR(body.angle(), 40, 2);
+  frozen.state = body.state;
+
+  const StageReport exact = body.load(first, second);
+  EXPECT_NEAR(body.angle(), 80, 2);
+  report("observed order" + what, exact.order);
+  report("iterations" + what, exact.newton_iterations);
+  EXPECT_GE(exact.order, 1.8);
+  EXPECT_LE(exact.newton_iterations, 10u);
+
+  // The frozen tangent takes far more, or too many.
+  try
+    {
+      const StageReport linear = frozen.load(first, second);
+      report("iterations with the frozen tangent" + what,
+             linear.newton_iterations);
+      EXPECT_GE(linear.newton_iterations, 10 * exact.newton_iterations);
+      // Both are at the same equilibrium, to their tolerance.
+      EXPECT_LE(largest_difference(frozen.state.u, body.state.u), 1e-9);
+    }
+  catch (const ComputationError &error)
+    {
+      report("no convergence of the frozen tangent within" + what,
+             max_iterations);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         NewtonConvergence,
+                         testing::Combine(testing::Values(1u, 2u, 3u),
+                                          testing::Values("quadrature points",
+                                                          "cell centre")));
