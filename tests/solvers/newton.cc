@@ -58,11 +58,20 @@ namespace
     restore() override
     {
       x = kept;
+      ++n_restored;
+    }
+
+    bool
+    has_energy() const override
+    {
+      return with_energy;
     }
 
     std::function<double(double)> f, slope;
     double                        x;
-    double                        kept = 0;
+    double                        kept        = 0;
+    unsigned int                  n_restored  = 0;
+    bool                          with_energy = false;
   };
 
   NewtonReport
@@ -93,11 +102,78 @@ namespace
 
 TEST(Newton, QuadraticConvergence)
 {
-  Scalar root([](double x) { return x * x - 2; },
+  Scalar             root([](double x) { return x * x - 2; },
               [](double x) { return 2 * x; },
               1.);
-  EXPECT_LE(solve(root).iterations, 6u);
+  const NewtonReport report = solve(root);
+  EXPECT_LE(report.iterations, 6u);
   EXPECT_NEAR(root.x, std::sqrt(2.), 1e-12);
+  tests::report("observed order", report.observed_order());
+  EXPECT_NEAR(report.observed_order(), 2, 0.1);
+}
+
+// The slope of the secant through the last two points: order 1.618.
+TEST(Newton, OrderOfTheSecantMethod)
+{
+  double             last_x = 2.1, last_f = last_x * last_x - 2;
+  Scalar             root([](double x) { return x * x - 2; },
+              [&](double x) {
+                const double f     = x * x - 2;
+                const double slope = (f - last_f) / (x - last_x);
+                last_x             = x;
+                last_f             = f;
+                return slope;
+              },
+              2.);
+  const NewtonReport report = solve(root);
+  EXPECT_NEAR(root.x, std::sqrt(2.), 1e-12);
+  tests::report("observed order", report.observed_order());
+  EXPECT_NEAR(report.observed_order(), 1.62, 0.15);
+}
+
+// Linear convergence has order 1; one that does not even halve the increments
+// has none, and neither have two iterations or shortened ones.
+TEST(Newton, OrderOfLinearConvergence)
+{
+  const auto order = [](const double slope) {
+    Scalar root([](double x) { return x * x - 2; },
+                [=](double) { return slope; },
+                1.);
+    return solve(root, 1e-6).observed_order();
+  };
+  EXPECT_NEAR(order(4.), 1, 0.05);
+  EXPECT_TRUE(std::isnan(order(7.)));
+
+  NewtonReport report;
+  report.history = {{1e-3, 1e-2, 1., false, 1}, {1e-6, 1e-4, 1., false, 1}};
+  EXPECT_TRUE(std::isnan(report.observed_order()));
+  report.history.push_back({1e-12, 1e-8, 1., false, 1});
+  EXPECT_NEAR(report.observed_order(), 2, 1e-12);
+  // Increments that are round-off do not count.
+  report.history.push_back({1e-16, 1e-16, 1., false, 1});
+  EXPECT_NEAR(report.observed_order(), 2, 1e-12);
+  report.history[1].length = 0.5;
+  EXPECT_TRUE(std::isnan(report.observed_order()));
+}
+
+TEST(Newton, TextOfTheReport)
+{
+  NewtonReport report;
+  report.iterations        = 3;
+  report.linear_iterations = 12;
+  report.first_residual    = 1;
+  report.history           = {{0.5, 0.1, 1., false, 2},
+                              {0.25, 0.05, 0.25, false, 4},
+                              {1e-3, 1e-2, 1., true, 6}};
+  EXPECT_EQ(report.text(),
+            "Newton 3 iterations, linear 12; residual 1.0e+00 5.0e-01 2.5e-01 "
+            "1.0e-03; increment 1.0e-01 5.0e-02 (x 0.25) 1.0e-02 (frozen)");
+  report.history = {{1e-2, 1e-2, 1., false, 2},
+                    {1e-4, 1e-4, 1., false, 4},
+                    {1e-8, 1e-8, 1., false, 6}};
+  EXPECT_EQ(report.text(),
+            "Newton 3 iterations, linear 12; residual 1.0e+00 1.0e-02 1.0e-04 "
+            "1.0e-08; increment 1.0e-02 1.0e-04 1.0e-08; order 2.00");
 }
 
 // With the slope frozen at 4 the error shrinks by |1 - f'/4| = 0.29 per
@@ -168,4 +244,114 @@ TEST(Newton, Failures)
                     -1.);
   EXPECT_EQ(failure(not_finite),
             "the forces are not finite in Newton iteration 0");
+}
+
+// A slender body's residual: the first full step throws it up by four orders of
+// magnitude, and full steps from there take it down at once, as the wall only
+// bends what was stretched. No search, no way back.
+TEST(Newton, FullStepsThroughALargeResidual)
+{
+  // f is steep beyond 1: x - 1 + 1e4 (x - 1)^2 there; from -9 with slope 0.9
+  // the first step lands at 2.1.
+  Scalar wall(
+    [](double x) {
+      return x < 1 ? 0.9 * (x - 1) : x - 1 + 1e4 * (x - 1) * (x - 1);
+    },
+    [](double x) { return x < 1 ? 0.81 : 1 + 2e4 * (x - 1); },
+    0.);
+  const NewtonReport report = solve(wall);
+  EXPECT_NEAR(wall.x, 1, 1e-12);
+  EXPECT_EQ(report.line_searches, 0u);
+  EXPECT_EQ(wall.n_restored, 0u);
+  EXPECT_GE(report.history[0].residual, 100 * report.first_residual);
+  for (const NewtonIteration &iteration : report.history)
+    EXPECT_EQ(iteration.length, 1.);
+}
+
+// atan(x) from 2: full steps run away to ever larger |x|, so that the watchdog
+// returns to the start and searches, with and without an energy. With one it is
+// more patient.
+TEST(Newton, LineSearch)
+{
+  for (const auto &[start, with_energy] :
+       {std::pair<double, bool>{2., false}, {2., true}, {20., true}})
+    {
+      Scalar root([](double x) { return std::atan(x); },
+                  [](double x) { return 1 / (1 + x * x); },
+                  start);
+      root.with_energy          = with_energy;
+      const NewtonReport report = solve(root);
+      tests::report("iterations", report.iterations);
+      EXPECT_NEAR(root.x, 0, 1e-12);
+      EXPECT_GE(report.line_searches, 1u);
+      EXPECT_GE(root.n_restored, 2u);
+      unsigned int n_short = 0;
+      for (const NewtonIteration &iteration : report.history)
+        n_short += iteration.length < 1;
+      EXPECT_EQ(n_short, report.line_searches);
+    }
+}
+
+// With an energy a direction must lead down: where the exact slope is negative
+// the definite tangent takes over.
+TEST(Newton, DefiniteTangentStandsIn)
+{
+  // The gradient of x^4 / 4 - x^2 / 2: the exact slope at 0.1 is negative and
+  // leads up, to the maximum at 0; the definite one leads down, to 1.
+  class Indefinite : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    bool
+    use_definite_tangent(const bool use) override
+    {
+      if (use)
+        slope = [](double) { return 1.; };
+      else
+        slope = [](double x) { return 3 * x * x - 1; };
+      return true;
+    }
+  };
+  Indefinite double_well([](double x) { return x * x * x - x; },
+                         [](double x) { return 3 * x * x - 1; },
+                         0.55);
+  double_well.with_energy   = true;
+  const NewtonReport report = solve(double_well);
+  EXPECT_NEAR(std::abs(double_well.x), 1, 1e-12) << report.text();
+}
+
+// log(x) - 1 from 10: the first full step goes to x < 0, where there is no
+// logarithm. The search backs off until there is one.
+TEST(Newton, BacksOffFromWhatIsNotFinite)
+{
+  for (const bool with_energy : {false, true})
+    {
+      Scalar root([](double x) { return std::log(x) - 1; },
+                  [](double x) { return 1 / x; },
+                  10.);
+      root.with_energy          = with_energy;
+      const NewtonReport report = solve(root);
+      EXPECT_NEAR(root.x, std::exp(1.), 1e-11);
+      ASSERT_GE(report.history.size(), 1u);
+      EXPECT_LT(report.history[0].length, 1.);
+      // The next try is a tenth of a step that leads nowhere.
+      EXPECT_GE(report.line_searches, 1u);
+      EXPECT_LE(report.line_searches, 4u);
+      EXPECT_NEAR(report.observed_order(), 2, 0.1);
+    }
+}
+
+// One iteration, whatever the residual then is.
+TEST(Newton, LinearlyImplicit)
+{
+  Scalar root([](double x) { return x * x - 2; },
+              [](double x) { return 2 * x; },
+              1.);
+  Newton newton;
+  newton.linearly_implicit = true;
+  NewtonReport report;
+  newton.solve(root, Vector(1), report);
+  EXPECT_EQ(report.iterations, 1u);
+  EXPECT_EQ(root.x, 1.5);
 }

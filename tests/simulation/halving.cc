@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Steps that fail and are made in halves.
+
+#include <corotet/simulation/simulation.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // What an observer was shown, by way.
+  class Recorder : public Observer
+  {
+  public:
+    void
+    step(const Snapshot &state) override
+    {
+      shown.push_back(state.record);
+      keep(state);
+    }
+
+    void
+    save(const Snapshot &state) override
+    {
+      saved.push_back(state.record);
+      keep(state);
+    }
+
+    void
+    finish(const RunSummary &run_summary) override
+    {
+      summary = run_summary;
+    }
+
+    std::vector<StepRecord> shown, saved;
+    Vector                  displacement;
+    bool                    last = false;
+    RunSummary              summary;
+
+  private:
+    void
+    keep(const Snapshot &state)
+    {
+      displacement = state.displacement;
+      last         = state.last;
+    }
+  };
+
+  struct CompleteRun
+  {
+    explicit CompleteRun(const std::string &text)
+      : parameters(text)
+      , log(MPI_COMM_WORLD, true)
+      , simulation(parameters, "", MPI_COMM_WORLD, log)
+    {
+      observers.push_back(std::make_unique<Recorder>());
+      try
+        {
+          simulation.run(observers);
+        }
+      catch (const ComputationError &error)
+        {
+          message = error.what();
+        }
+    }
+
+    const Recorder &
+    recorder() const
+    {
+      return static_cast<const Recorder &>(*observers.front());
+    }
+
+    Parameters                             parameters;
+    Log                                    log;
+    Simulation                             simulation;
+    std::vector<std::unique_ptr<Observer>> observers;
+    std::string                            message;
+  };
+
+  // A bar of 1 x 0.1 x 0.1 that is bent far. Too few iterations for large
+  // steps.
+  std::string
+  bar(const std::string &time_integration,
+      const unsigned int max_iterations,
+      const std::string &traction)
+  {
+    return fmt::format(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 1, 0.1, 0.1
+          set Cells = 5, 1, 1
+        end
+      end
+      subsection Discretization
+        set Degree = 2
+      end
+      subsection Material
+        set Rotation        = quadrature points
+        set Young's modulus = 1e6
+      end
+      subsection Boundary conditions
+        set Fixed    = x-min
+        set Traction = x-max: 0; 0; {}
+      end
+      subsection Newton
+        set Tangent             = consistent
+        set Residual tolerance  = 1e-11
+        set Increment tolerance = 1e-11
+        set Maximum iterations  = {}
+      end
+      subsection Linear solver
+        set Type      = direct
+        set Tolerance = 1e-10
+      end
+      subsection Time integration
+        {}
+      end)",
+                       traction,
+                       max_iterations,
+                       time_integration);
+  }
+
+  std::string
+  statics(const unsigned int load_steps, const unsigned int max_halvings)
+  {
+    return fmt::format("set Type = static\n set Maximum halvings = {}\n "
+                       "subsection static\n set Load steps = {}\n end\n",
+                       max_halvings,
+                       load_steps);
+  }
+
+  std::string
+  dynamics(const double time_step)
+  {
+    return fmt::format("set Type = generalized-alpha\n set End time = 0.2\n "
+                       "set Time step = {}\n",
+                       time_step);
+  }
+} // namespace
+
+// A load step that fails at first is made in parts, and ends where small steps
+// end; what is recorded are the steps that were asked for.
+TEST(Halving, Statics)
+{
+  const CompleteRun small(bar(statics(32, 0), 50, "5000"));
+  const CompleteRun halved(bar(statics(2, 8), 5, "5000"));
+  EXPECT_EQ(small.message, "");
+  EXPECT_EQ(halved.message, "");
+  const auto &records = halved.recorder().shown;
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[0].time, 0.5);
+  EXPECT_EQ(records[1].time, 1.);
+  unsigned int parts = 0;
+  for (const StepRecord &record : records)
+    {
+      parts += record.parts;
+      EXPECT_NEAR(record.dt, 0.5, 1e-15);
+      EXPECT_GE(record.newton_iterations, record.parts);
+      EXPECT_LE(record.newton_iterations, 5 * record.parts);
+    }
+  report("parts of two load steps", parts);
+  EXPECT_GE(parts, 3u);
+  for (const StepRecord &record : small.recorder().shown)
+    EXPECT_EQ(record.parts, 1u);
+  // The path does not matter in statics.
+  const StepRecord &last = small.recorder().shown.back();
+  EXPECT_GE(last.max_displacement, 0.3);
+  EXPECT_LE(largest_difference(halved.simulation.state().u,
+                               small.simulation.state().u),
+            1e-9);
+  EXPECT_NEAR(records.back().elastic_energy,
+              last.elastic_energy,
+              1e-9 * last.elastic_energy);
+  EXPECT_EQ(halved.recorder().summary.status, "done");
+  EXPECT_EQ(halved.recorder().summary.steps, 2u);
+}
+
+// One time step made in two parts is two steps of half the size, accelerations
+// and works included.
+TEST(Halving, Dynamics)
+{
+  const CompleteRun halved(bar(dynamics(0.2), 6, "8"));
+  const CompleteRun half(bar(dynamics(0.1), 6, "8"));
+  EXPECT_EQ(half.message, "");
+  EXPECT_EQ(halved.message, "");
+  const auto &records = halved.recorder().shown;
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_EQ(records[0].parts, 2u);
+  EXPECT_NEAR(records[0].dt, 0.2, 1e-15);
+  EXPECT_EQ(records[0].time, 0.2);
+  ASSERT_EQ(half.recorder().shown.size(), 2u);
+  const StepRecord &last = half.recorder().shown.back();
+  EXPECT_EQ(last.parts, 1u);
+  const State &a = halved.simulation.state(), &b = half.simulation.state();
+  EXPECT_GT(b.u.linfty_norm(), 5e-4);
+  EXPECT_LE(largest_difference(a.u, b.u), 1e-12 * b.u.linfty_norm());
+  EXPECT_LE(largest_difference(a.v, b.v), 1e-12 * b.v.linfty_norm());
+  EXPECT_LE(largest_difference(a.a, b.a), 1e-12 * b.a.linfty_norm());
+  EXPECT_NEAR(records[0].external_work,
+              last.external_work,
+              1e-12 * last.external_work);
+}
+
+// Loads that end at t = 0.8 of four load steps: three are shown, then parts of
+// the fourth as far as halves go, t = 0.75 + 0.25 (1/8).
+TEST(Halving, GivesUp)
+{
+  const CompleteRun run(bar(statics(4, 3), 50, "if(t > 0.8, 1/(t-t), 100)"));
+  EXPECT_EQ(run.message.find("step 4 (t = 0.78125): the forces are not finite"),
+            0u)
+    << run.message;
+  EXPECT_NE(run.message.find("; the step has been halved 3 times"),
+            std::string::npos)
+    << run.message;
+  const auto &shown = run.recorder().shown;
+  ASSERT_EQ(shown.size(), 4u);
+  EXPECT_EQ(shown[2].time, 0.75);
+  EXPECT_EQ(shown[3].step, 4u);
+  EXPECT_EQ(shown[3].time, 0.78125);
+  EXPECT_EQ(shown[3].parts, 1u);
+  EXPECT_NEAR(shown[3].dt, 0.03125, 1e-15);
+  EXPECT_TRUE(run.recorder().last);
+  EXPECT_EQ(run.recorder().saved.size(), 0u);
+  EXPECT_EQ(run.recorder().summary.status, "failed");
+  EXPECT_EQ(run.recorder().summary.message, run.message);
+  EXPECT_EQ(run.recorder().summary.end_time, 0.78125);
+  // Good: the equilibrium of that load, a factor of 0.78125.
+  const CompleteRun good(
+    bar(statics(1, 0), 50, fmt::format("{}", 100 * 0.78125)));
+  EXPECT_LE(largest_difference(run.recorder().displacement,
+                               good.recorder().displacement),
+            1e-10 * good.recorder().displacement.linfty_norm());
+}
+
+// Nothing of the fourth step can be made: the third, which has been shown, is
+// what is saved.
+TEST(Halving, FailsAtOnceWithoutHalvings)
+{
+  const CompleteRun run(bar(statics(4, 0), 50, "if(t > 0.8, 1/(t-t), 100)"));
+  EXPECT_EQ(run.message.find("step 4 (t = 0.75): the forces are not finite"),
+            0u)
+    << run.message;
+  EXPECT_EQ(run.message.find("halved"), std::string::npos);
+  ASSERT_EQ(run.recorder().shown.size(), 3u);
+  ASSERT_EQ(run.recorder().saved.size(), 1u);
+  EXPECT_EQ(run.recorder().saved[0].step, 3u);
+  EXPECT_EQ(run.recorder().saved[0].time, 0.75);
+  EXPECT_TRUE(run.recorder().last);
+  EXPECT_EQ(run.recorder().summary.status, "failed");
+  EXPECT_EQ(run.recorder().summary.steps, 3u);
+  const CompleteRun good(bar(statics(1, 0), 50, "75"));
+  EXPECT_LE(largest_difference(run.recorder().displacement,
+                               good.recorder().displacement),
+            1e-10 * good.recorder().displacement.linfty_norm());
+}

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Krylov methods for consistent tangents: symmetric ones that are indefinite,
+// and those that are not symmetric.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  constexpr double tolerance = 1e-10;
+
+  // A clamped bar of 4 x 1 x 1 in a state u, and its consistent tangent.
+  struct Bar : public Body
+  {
+    Bar(const unsigned int degree,
+        const std::string &rotation,
+        const std::string &method,
+        const std::string &more = "")
+      : Body(box("4, 1, 1", "6, 2, 2", 0.1),
+             fmt::format(R"(
+        subsection Discretization
+          set Degree = {}
+        end
+        subsection Material
+          set Rotation = {}
+        end
+        subsection Boundary conditions
+          set Fixed = x-min
+        end
+        subsection Newton
+          set Tangent = consistent
+        end
+        subsection Linear solver
+          set Method    = {}
+          set Tolerance = {}
+          {}
+        end)",
+                         degree,
+                         rotation,
+                         method,
+                         tolerance,
+                         more))
+      , conditions(parameters.boundary_conditions, mesh.boundaries())
+      , elasticity(discretization,
+                   system.reference_element(),
+                   parameters.material.materials(mesh.regions()),
+                   parameters.material.rotation_placement())
+      , loads(discretization,
+              system.reference_element(),
+              system.mass(),
+              conditions,
+              parameters.loads,
+              true,
+              log)
+      , A(discretization,
+          elasticity,
+          system.mass(),
+          system.prescribed_motion().is_prescribed())
+      , J(A, elasticity, loads)
+    {}
+
+    ~Bar()
+    {
+      // The solver may live longer than the operator that it knows.
+      parameters.linear_solver.clear();
+    }
+
+    void
+    linearize(const std::function<Tensor<1, 3>(const Point<3> &)> &displacement)
+    {
+      const Vector u = interpolate(displacement);
+      elasticity.update_rotations(u);
+      A.update(1., 0.);
+      J.update(u, Tangent::consistent, 0., 1.);
+    }
+
+    // A right hand side that supports take no part in.
+    Vector
+    load() const
+    {
+      Vector b = interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({std::sin(3 * x[0]), 1., x[1] * x[2]});
+      });
+      b.zero_out_ghost_values();
+      system.prescribed_motion().set_zero(b);
+      return b;
+    }
+
+    struct Solution
+    {
+      Vector       x;
+      unsigned int iterations;
+      /// |b - J x| / |b|.
+      double residual;
+    };
+
+    Solution
+    solve()
+    {
+      const Vector b = load();
+      Solution     solution{b, 0, 0};
+      solution.iterations = parameters.linear_solver.solve(
+        A, solution.x, b, discretization.node_positions(), &J);
+      Vector r(b);
+      J.vmult(r, solution.x);
+      r -= b;
+      solution.residual = norm(r) / norm(b);
+      return solution;
+    }
+
+    // v . J v / |v| |J v| of the shape in which a column buckles.
+    double
+    buckling_curvature() const
+    {
+      Vector v = interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({-x[0] * (x[1] - 0.5), 0.5 * x[0] * x[0], 0.});
+      });
+      v.zero_out_ghost_values();
+      system.prescribed_motion().set_zero(v);
+      Vector Jv(v);
+      J.vmult(Jv, v);
+      return (v * Jv) / (norm(v) * norm(Jv));
+    }
+
+    BoundaryConditions conditions;
+    Elasticity         elasticity;
+    Loads              loads;
+    EffectiveOperator  A;
+    TangentOperator    J;
+  };
+
+  Tensor<1, 3>
+  compressed(const Point<3> &x)
+  {
+    return Tensor<1, 3>({-0.2 * x[0], 0.05 * (x[1] - 0.5), 0.});
+  }
+
+  Tensor<1, 3>
+  bent(const Point<3> &x)
+  {
+    const double angle = x[0] / 3;
+    return Tensor<1, 3>({(3 - x[1]) * std::sin(angle) - x[0],
+                         3 - (3 - x[1]) * std::cos(angle) - x[1],
+                         0.02 * x[0] * x[2]});
+  }
+} // namespace
+
+class Indefinite : public testing::TestWithParam<std::string>
+{};
+
+// Far beyond the load at which it buckles, the bar's energy has directions
+// downwards. All methods come to the same solution; its residual is computed
+// apart from them. By itself the solver starts with conjugate gradients and
+// goes on with MINRES.
+TEST_P(Indefinite, AllMethodsAgree)
+{
+  for (const std::string preconditioner : {"p-multigrid", "direct", "amg"})
+    {
+      Vector       expected;
+      unsigned int minres = 0;
+      for (const std::string method : {"minres", "gmres", "automatic"})
+        {
+          Bar bar(2, GetParam(), method, "set Type = " + preconditioner);
+          bar.linearize(compressed);
+          EXPECT_TRUE(bar.J.is_symmetric());
+          EXPECT_LE(bar.buckling_curvature(), -1e-3);
+          const Bar::Solution solution = bar.solve();
+          report(fmt::format("iterations, {}, {}, {}",
+                             GetParam(),
+                             preconditioner,
+                             method),
+                 solution.iterations);
+          EXPECT_LE(solution.residual, 1.01 * tolerance) << method;
+          if (method == "minres")
+            {
+              expected = solution.x;
+              minres   = solution.iterations;
+            }
+          // The condition number of this bar is below 1e5.
+          EXPECT_LE(largest_difference(solution.x, expected),
+                    1e-5 * expected.linfty_norm())
+            << method;
+          // More than MINRES alone: what conjugate gradients took.
+          if (method == "automatic")
+            {
+              EXPECT_GE(solution.iterations + 3, minres);
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rotations,
+                         Indefinite,
+                         testing::Values("quadrature points",
+                                         "cell centre, variational"));
+
+// One rotation per cell above degree 1: GMRES, also where the solver chooses.
+TEST(Unsymmetric, Gmres)
+{
+  Vector expected;
+  for (const std::string method : {"gmres", "automatic"})
+    {
+      Bar bar(2, "cell centre", method);
+      bar.linearize(bent);
+      EXPECT_FALSE(bar.J.is_symmetric());
+      const Bar::Solution solution = bar.solve();
+      report("iterations, " + method, solution.iterations);
+      EXPECT_LE(solution.residual, 1.01 * tolerance);
+      if (method == "gmres")
+        expected = solution.x;
+      EXPECT_EQ(largest_difference(solution.x, expected), 0.);
+    }
+}
+
+// A positive tangent stays with conjugate gradients: the iterations are theirs.
+TEST(Positive, ConjugateGradientsGoOn)
+{
+  unsigned int iterations[2];
+  for (const bool automatic : {false, true})
+    {
+      Bar bar(2,
+              "quadrature points",
+              automatic ? "automatic" : "conjugate gradients");
+      bar.linearize(
+        [](const Point<3> &x) { return Tensor<1, 3>({0.05 * x[0], 0., 0.}); });
+      const Bar::Solution solution = bar.solve();
+      EXPECT_LE(solution.residual, 1.01 * tolerance);
+      iterations[automatic] = solution.iterations;
+    }
+  EXPECT_EQ(iterations[0], iterations[1]);
+}
+
+// Methods and operators that do not fit are refused before anything is
+// computed.
+TEST(Unsymmetric, Refusals)
+{
+  const std::string not_symmetric =
+    "Linear solver/Method: found {}; allowed: automatic or gmres, as this "
+    "tangent is not symmetric";
+  for (const std::string method : {"conjugate gradients", "minres"})
+    EXPECT_EQ(refusal([&] { Bar(2, "cell centre", method); }),
+              fmt::format(fmt::runtime(not_symmetric), method));
+  EXPECT_EQ(refusal([] { Bar(1, "cell centre", "conjugate gradients"); }),
+            "nothing was refused");
+  EXPECT_EQ(refusal([] { Bar(2, "quadrature points", "minres"); }),
+            "nothing was refused");
+  for (const std::string rotation : {"quadrature points", "cell centre"})
+    EXPECT_EQ(
+      refusal([&] {
+        Bar(2, rotation, "automatic", "set Operator = assembled");
+      }).find("Linear solver/Operator: found assembled; allowed: matrix-free"),
+      0u);
+}
