@@ -59,7 +59,8 @@ namespace corotet::benchmarks
                                "set End time = 100\nset Time step = {}",
                                dt)) +
                set("Newton",
-                   fmt::format("set Residual tolerance = {0}\n"
+                   fmt::format("set Tangent = frozen rotation\n"
+                               "set Residual tolerance = {0}\n"
                                "set Increment tolerance = {0}",
                                dynamic_tolerance)) +
                set("Linear solver",

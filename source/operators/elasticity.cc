@@ -222,8 +222,12 @@ namespace corotet
     ElasticData        data    = elastic_data();
     cell_sweep(f, u, force.sweep, data, force.scale);
     counts = data.counts;
-    if (placement != Rotation::none)
+    if (placement == Rotation::cell_centre)
       rotate(data, batches.n_owned_batches(), batches.n_batches(), u);
+    else if (placement != Rotation::none)
+      // Of owned and ghost cells by one function: where rotations are not
+      // unique, round-off chooses, and ranks must agree.
+      rotate(data, 0, batches.n_batches(), u);
   }
 
   void
@@ -320,6 +324,7 @@ namespace corotet
     const ElasticData elastic = elastic_data();
     const TangentData data{
       reference, elastic, linearization.data(), frozen_factor, masses, c_M};
+    Assert(!linearization.empty(), dealii::ExcNotInitialized());
     const TangentSweep sweep =
       tangent_sweep(discretization.degree(), placement, linearized_tangent);
     cell_loop.run(

@@ -44,6 +44,9 @@ namespace corotet
              grad_u[0][2] * (grad_u[1][0] * grad_u[2][1] - b * grad_u[2][0]);
     }
 
+    // det F of cells that are exactly flat, but for round-off.
+    constexpr double flat = 1e-12;
+
     // The rotations of F = I + grad u.
     COROTET_ALWAYS_INLINE PolarLanes
     rotations_at(const V (&grad_u)[3][3], V (&R)[3][3])
@@ -102,7 +105,7 @@ namespace corotet
               {
                 results.energy += energy[lane] * shapes.volume[lane];
                 results.min_det_F = std::min(results.min_det_F, det_F[lane]);
-                results.inverted_cells += det_F[lane] < 0;
+                results.inverted_cells += det_F[lane] < -flat;
               }
         }
     }
@@ -128,10 +131,7 @@ namespace corotet
                                               displacement,
                                               u);
           Kernel::load(shapes, g);
-          V R[3][3], grad_u[3][3];
-          Kernel::gradient(reference.centre, 0, g, u, grad_u);
-          PolarLanes found = rotations_at(grad_u, R);
-          store_rotated(R, shapes, data.new_coefficients[batch]);
+          PolarLanes found;
           const V    mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
           const auto stress =
             [&](const unsigned int, V(&F)[3][3], V(&P)[3][3]) {
@@ -175,7 +175,6 @@ namespace corotet
           Kernel::gradient(reference.centre, 0, g, u, F);
           add_identity(F);
           data.counts.add(polar_decomposition(F, R), shapes);
-          store_rotated(R, shapes, data.new_coefficients[batch]);
           const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda),
                   volume = lanes(shapes.volume);
           V          moment[3]{};

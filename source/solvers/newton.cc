@@ -14,7 +14,7 @@ namespace corotet
 {
   namespace
   {
-    // Full increments without a smaller residual before a line search.
+    // Full increments that may raise the residual before a line search.
     constexpr unsigned int patience = 5;
     // Trials of a line search: the last are some 1e-4 of the increment.
     constexpr unsigned int max_trials = 10;
@@ -84,12 +84,12 @@ namespace corotet
   {
     prm.add_parameter("Tangent",
                       tangent,
-                      "Derivative of the corotational forces: 'frozen "
-                      "rotation' leaves out that of the rotations, is always "
-                      "positive and converges linearly; 'consistent' is exact "
-                      "and converges quadratically.",
+                      "Derivative of the corotational forces: 'consistent' is "
+                      "exact and converges quadratically; 'frozen rotation' "
+                      "leaves out that of the rotations, is always positive "
+                      "and converges linearly, if at all.",
                       dealii::Patterns::Selection(
-                        "frozen rotation|consistent"));
+                        "consistent|frozen rotation"));
     prm.add_parameter("Residual tolerance",
                       residual_tolerance,
                       "Residual at which iterations stop, relative to the "
@@ -109,8 +109,9 @@ namespace corotet
                       linearly_implicit,
                       "Whether one iteration is all: steps of a fixed price "
                       "that cannot fail, with an error that shrinks with the "
-                      "time step; as interactive codes do, and where rotations "
-                      "jump in cells that are collapsed or inside out. For "
+                      "time step; as interactive codes do. With the tangent "
+                      "'frozen rotation' it brings back bodies whose cells are "
+                      "collapsed or inside out, where rotations jump. For "
                       "dynamics only.");
     prm.add_parameter("Log every solve",
                       always_log,
@@ -152,7 +153,7 @@ namespace corotet
           record(problem.add(1., dx), 1.);
           return;
         }
-      best_values.push_back(residual.value);
+      best = residual.value;
       while (report.iterations < newton.max_iterations)
         {
           iterate();
@@ -236,7 +237,6 @@ namespace corotet
       definite = false;
       problem.use_definite_tangent(false);
       find_direction();
-      const double best = best_values.back();
       if (n_without_progress == 0)
         {
           // This is the best point so far.
@@ -250,13 +250,17 @@ namespace corotet
                                   (n_without_progress < patience &&
                                    residual.value < divergence * best)))
         {
-          n_without_progress =
-            residual.value < best ? 0 : n_without_progress + 1;
+          // On the way down from a rise that an increment has made there is
+          // progress, too.
+          if (residual.value < best)
+            n_without_progress = 0;
+          else if (n_without_progress == 0 || residual.value >= previous)
+            ++n_without_progress;
           const double theta = residual.value / previous;
           error = increment.value * (theta < 0.5 ? theta / (1 - theta) : 1.);
           size  = increment.scale;
           record(increment, 1.);
-          best_values.push_back(std::min(best, residual.value));
+          best = std::min(best, residual.value);
           return;
         }
       // Back to the best point, and along the direction found there.
@@ -279,7 +283,7 @@ namespace corotet
         if (const double length = line_search(value, slope); length > 0)
           {
             n_without_progress = 0;
-            best_values.push_back(residual.value);
+            best               = residual.value;
             return;
           }
       if (definite || !use_definite_tangent())
@@ -331,6 +335,7 @@ namespace corotet
     record(const NewtonProblem::Norm &increment, const double length)
     {
       ++report.iterations;
+      values.push_back(residual.value);
       report.linear_iterations += linear_iterations;
       report.history.push_back({relative_residual(),
                                 increment.value / increment.scale,
@@ -339,21 +344,22 @@ namespace corotet
                                 linear_iterations});
     }
 
-    // Gives up when the rate of the last iterations is far too slow.
+    // Gives up when the rate at which the residual has been falling is far too
+    // slow.
     void
     check_progress() const
     {
       constexpr unsigned int window = 6;
-      const unsigned int     n      = best_values.size();
+      const unsigned int     n      = values.size();
       if (n < 2 * window || problem.has_energy())
         return;
-      const double rate =
-        std::pow(best_values[n - 1] / best_values[n - 1 - window], 1. / window);
+      const double ratio  = values[n - 1] / values[n - 1 - window];
       const double wanted = newton.residual_tolerance * residual.scale;
-      const double needed = std::log(wanted / best_values[n - 1]) /
-                            std::log(std::min(rate, 1 - 1e-12));
-      if (wanted < best_values[n - 1] &&
-          needed > 3. * (newton.max_iterations - report.iterations))
+      if (!(ratio < 1) || values[n - 1] <= wanted)
+        return;
+      const double needed =
+        window * std::log(wanted / values[n - 1]) / std::log(ratio);
+      if (needed > 3. * (newton.max_iterations - report.iterations))
         fail(fmt::format("converges too slowly: after {} iterations {:.0f} "
                          "more are needed",
                          report.iterations,
@@ -373,9 +379,10 @@ namespace corotet
     bool                definite = false;
     unsigned int        linear_iterations  = 0;
     unsigned int        n_without_progress = 0;
-    /// Of the residual, after each iteration. A line search for less energy
-    /// may raise it.
-    std::vector<double> best_values;
+    /// Residual at the best point. A search for less energy may raise it.
+    double best = 0;
+    /// Residuals after each iteration.
+    std::vector<double> values;
   };
 
   void

@@ -100,7 +100,10 @@ const std::vector<Part> parts = {
        0.4 * 0.04 * 0.04,
        {{1, "steel"}, {2, "rubber"}},
        {"left", "right", "top"},
-       1e-12}};
+       1e-12},
+  // Forty-five degrees of a ring with a section of 1 x 1; the sides of the
+  // cells are chords.
+  Part{"bend_45", 100 * pi / 4, {{1, "bend"}}, {"fixed", "tip"}, 1e-3}};
 
 INSTANTIATE_TEST_SUITE_P(Parts,
                          ShippedMesh,

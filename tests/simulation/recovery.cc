@@ -41,6 +41,7 @@ namespace
           set Mass coefficient = 0.1
         end
         subsection Newton
+          set Tangent           = frozen rotation
           set Linearly implicit = true
         end)",
                          degree,

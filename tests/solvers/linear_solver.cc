@@ -75,6 +75,8 @@ TEST(LinearSolver, MethodsAndOperators)
       {
         Body              body(box("4, 1, 1", "8, 2, 2", 0.1),
                   "subsection Discretization\n set Degree = 3\nend\n"
+                               "subsection Newton\n set Tangent = frozen "
+                               "rotation\nend\n"
                                "subsection Boundary conditions\n set Fixed = "
                                "x-min\nend\nsubsection Linear solver\n set Method = " +
                     method + "\n set Operator = " + operator_type +

@@ -23,7 +23,7 @@ namespace corotet
     double energy = 0;
     /// Smallest det F at these points and at the centres [-].
     double min_det_F = std::numeric_limits<double>::infinity();
-    /// Cells where det F is negative at one of them.
+    /// Cells where det F is negative at one of them, by more than round-off.
     unsigned int inverted_cells = 0;
   };
 
@@ -46,9 +46,9 @@ namespace corotet
                                    const double           *displacement,
                                    double                 *sums);
 
-  /// New rotations and the internal force, in units of one, for
-  /// Rotation::quadrature_points or cell_centre_variational. The cells' own
-  /// rotations become those at the centre.
+  /// The internal force, in units of one, for Rotation::quadrature_points or
+  /// cell_centre_variational, with rotations of its own: it neither reads nor
+  /// changes those of the cells.
   PointForceSweep
   point_force_sweep(const unsigned int degree, const Rotation rotation);
 

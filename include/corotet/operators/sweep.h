@@ -165,27 +165,6 @@ namespace corotet
     });
   }
 
-  /// Rotates the gradients of the cells of a batch: rotations_of() tells @p R
-  /// afterwards.
-  COROTET_ALWAYS_INLINE void
-  store_rotated(const Simd<double> (&R)[3][3],
-                const CellShapes         &shapes,
-                CellCoefficients<double> &coefficients)
-  {
-    const Simd<double> scale = load_aligned<batch_size>(shapes.scale);
-    static_for<3>([&](auto k) {
-      Simd<double> g[3];
-      static_for<3>([&](auto b) {
-        g[b] =
-          scale * load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
-      });
-      static_for<3>([&](auto a) {
-        store_aligned(R[a][0] * g[0] + R[a][1] * g[1] + R[a][2] * g[2],
-                      coefficients.gradients[3 * k + a]);
-      });
-    });
-  }
-
   using ElasticSweep = void (*)(ElasticData       &data,
                                 const unsigned int first,
                                 const unsigned int end,

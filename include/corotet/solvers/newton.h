@@ -119,10 +119,10 @@ namespace corotet
    * problem takes one iteration. A start with a thousandth of the tolerated
    * residual, or with round-off only, takes none.
    *
-   * Full increments are taken as long as the residual comes below its best
-   * value now and then: in bending it first grows by orders of magnitude and
-   * is then gone within a few iterations, which a monotone method would take
-   * for ages. When it does not for several iterations, or is not finite, the
+   * Full increments are taken although the residual grows: in bending it first
+   * grows by orders of magnitude and is then gone within a few iterations,
+   * where a monotone method would take ages. When it has grown several times
+   * without coming below its best value in between, or is not finite, the
    * method returns to its best point and searches along the increment from
    * there (the watchdog technique of Chamberlain, Powell, Lemarechal, Pedersen,
    * 1982): for the zero of r . dx where there is an energy (Matthies, Strang,
@@ -149,7 +149,7 @@ namespace corotet
     double       residual_tolerance  = 1e-8;
     double       increment_tolerance = 1e-8;
     unsigned int max_iterations      = 50;
-    std::string  tangent             = "frozen rotation";
+    std::string  tangent             = "consistent";
     bool         linearly_implicit   = false;
     bool         always_log          = false;
 
