@@ -15,17 +15,6 @@ namespace corotet
 {
   using dealii::Tensor;
 
-  namespace
-  {
-    Tensor<2, 3>
-    deformation_gradient(Tensor<2, 3> grad_u)
-    {
-      for (unsigned int a = 0; a < 3; ++a)
-        grad_u[a][a] += 1;
-      return grad_u;
-    }
-  } // namespace
-
   Elasticity::Elasticity(
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
@@ -118,19 +107,16 @@ namespace corotet
   ElasticData
   Elasticity::elastic_data()
   {
-    return {discretization.batches(),
-            shapes.data(),
-            cell_coefficients.data(),
-            placement,
-            cell_coefficients.data()};
+    ElasticData data      = std::as_const(*this).elastic_data();
+    data.new_coefficients = cell_coefficients.data();
+    return data;
   }
 
   Tensor<2, 3>
   Elasticity::rotation(const unsigned int cell) const
   {
-    Tensor<2, 3> R(dealii::unit_symmetric_tensor<3>());
     if (placement == Rotation::none)
-      return R;
+      return Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
     const auto [batch, lane] = discretization.batches().place(cell);
     // Rows: R grad xi_k.
     Tensor<2, 3> rotated;
@@ -138,9 +124,8 @@ namespace corotet
       for (unsigned int a = 0; a < 3; ++a)
         rotated[k][a] = cell_coefficients[batch].gradients[3 * k + a][lane] /
                         shapes[batch].scale[lane];
-    R = transpose(rotated) *
-        transpose(invert(discretization.geometry(cell).inverse_jacobian));
-    return R;
+    return transpose(rotated) *
+           transpose(invert(discretization.geometry(cell).inverse_jacobian));
   }
 
   void
@@ -222,12 +207,14 @@ namespace corotet
     ElasticData        data    = elastic_data();
     cell_sweep(f, u, force.sweep, data, force.scale);
     counts = data.counts;
-    if (placement == Rotation::cell_centre)
-      rotate(data, batches.n_owned_batches(), batches.n_batches(), u);
-    else if (placement != Rotation::none)
-      // Of owned and ghost cells by one function: where rotations are not
-      // unique, round-off chooses, and ranks must agree.
-      rotate(data, 0, batches.n_batches(), u);
+    // Where rotations are not unique, round-off chooses: those of owned and of
+    // ghost cells must come from one function.
+    const bool by_cell = placement == Rotation::cell_centre;
+    if (placement != Rotation::none)
+      rotate(data,
+             by_cell ? batches.n_owned_batches() : 0,
+             batches.n_batches(),
+             u);
   }
 
   void
@@ -375,8 +362,9 @@ namespace corotet
     for (unsigned int c = 0; c < n; ++c)
       {
         const Tensor<2, 3> grad_u = centre_gradient(c, u);
-        const Tensor<2, 3> F      = deformation_gradient(grad_u);
-        const Tensor<2, 3> R      = rotation(c);
+        const Tensor<2, 3> F =
+          grad_u + Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
+        const Tensor<2, 3> R = rotation(c);
         // Also linear elasticity shows how far its cells rotate: that is what
         // it neglects.
         result.rotation_angle[c] = rotation_angle(
