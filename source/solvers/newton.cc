@@ -56,8 +56,18 @@ namespace corotet
   {
     std::string residuals  = fmt::format("{:.1e}", first_residual);
     std::string increments = "";
-    for (const NewtonIteration &step : history)
+    // Of long histories the start and the end.
+    constexpr std::size_t shown = 8;
+    for (std::size_t k = 0; k < history.size(); ++k)
       {
+        const NewtonIteration &step = history[k];
+        if (k == shown && history.size() > 2 * shown)
+          {
+            k = history.size() - shown - 1;
+            residuals += " ..";
+            increments += " ..";
+            continue;
+          }
         residuals += fmt::format(" {:.1e}", step.residual);
         increments += fmt::format("{}{:.1e}",
                                   increments.empty() ? "" : " ",
