@@ -5,11 +5,11 @@
 #define corotet_solvers_newton_h
 
 #include <corotet/base/vector.h>
+#include <corotet/solvers/newton_report.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
-#include <vector>
 
 namespace corotet
 {
@@ -68,41 +68,6 @@ namespace corotet
     {
       return false;
     }
-  };
-
-  /**
-   * One iteration of Newton's method.
-   */
-  struct NewtonIteration
-  {
-    /// Residual after it, relative to the forces.
-    double residual;
-    /// |dx| / |x|.
-    double increment;
-    /// Part of the increment that a line search took; 1 without one.
-    double length;
-    /// Whether the definite tangent stood in for the one asked for.
-    bool         definite;
-    unsigned int linear_iterations;
-  };
-
-  struct NewtonReport
-  {
-    unsigned int                 iterations        = 0;
-    unsigned int                 linear_iterations = 0;
-    unsigned int                 line_searches     = 0;
-    double                       first_residual    = 0;
-    std::vector<NewtonIteration> history;
-
-    /// log(e_k / e_k-1) / log(e_k-1 / e_k-2) with the last three increments e
-    /// above round-off. NaN if there are none, or if these do not at least
-    /// halve or were shortened.
-    double
-    observed_order() const;
-
-    /// The history as a line of text.
-    std::string
-    text() const;
   };
 
   /**

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_newton_report_h
+#define corotet_solvers_newton_report_h
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * One iteration of Newton's method.
+   */
+  struct NewtonIteration
+  {
+    /// Residual after it, relative to the forces.
+    double residual;
+    /// |dx| / |x|.
+    double increment;
+    /// Part of the increment that a line search took; 1 without one.
+    double length;
+    /// Whether the definite tangent stood in for the one asked for.
+    bool         definite;
+    unsigned int linear_iterations;
+  };
+
+  struct NewtonReport
+  {
+    unsigned int                 iterations        = 0;
+    unsigned int                 linear_iterations = 0;
+    unsigned int                 line_searches     = 0;
+    double                       first_residual    = 0;
+    std::vector<NewtonIteration> history;
+
+    /// log(e_k / e_k-1) / log(e_k-1 / e_k-2) with the last three increments e
+    /// above round-off. NaN if there are none, or if these do not at least
+    /// halve or were shortened.
+    double
+    observed_order() const;
+
+    /// The history as a line of text.
+    std::string
+    text() const;
+  };
+} // namespace corotet
+
+#endif
