@@ -12,12 +12,6 @@ namespace corotet
   {
     using V = Simd<double>;
 
-    COROTET_ALWAYS_INLINE V
-    lanes(const double *values)
-    {
-      return load_aligned<batch_size>(values);
-    }
-
     // Stores numbers, one register after another.
     struct Writer
     {
@@ -69,11 +63,7 @@ namespace corotet
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u;
           typename Kernel::Geometry    g;
-          gather_differences<Kernel::n_nodes>(data.batches,
-                                              batch,
-                                              displacement,
-                                              u);
-          Kernel::load(shapes, g);
+          Kernel::load(data, batch, displacement, g, u);
           const V      mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
           Writer       numbers{linearization + size * std::size_t(batch)};
           unsigned int clamped = 0;

@@ -12,12 +12,6 @@ namespace corotet
   {
     using V = Simd<double>;
 
-    COROTET_ALWAYS_INLINE V
-    lanes(const double *values)
-    {
-      return load_aligned<batch_size>(values);
-    }
-
     // Strain sym(R^T F) - I from grad u: xx, yy, zz, yz, xz, xy.
     COROTET_ALWAYS_INLINE void
     corotational_strain(const V (&grad_u)[3][3], const V (&R)[3][3], V (&e)[6])
@@ -73,11 +67,7 @@ namespace corotet
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u;
           typename Kernel::Geometry    g;
-          gather_differences<Kernel::n_nodes>(data.batches,
-                                              batch,
-                                              displacement,
-                                              u);
-          Kernel::load(shapes, g);
+          Kernel::load(data, batch, displacement, g, u);
           V R[3][3], grad_u[3][3];
           if constexpr (!at_points)
             rotations_of(data, batch, R);
@@ -126,11 +116,7 @@ namespace corotet
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u, f{};
           typename Kernel::Geometry    g;
-          gather_differences<Kernel::n_nodes>(data.batches,
-                                              batch,
-                                              displacement,
-                                              u);
-          Kernel::load(shapes, g);
+          Kernel::load(data, batch, displacement, g, u);
           PolarLanes found;
           const V    mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
           const auto stress =
@@ -166,11 +152,7 @@ namespace corotet
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u, f{};
           typename Kernel::Geometry    g;
-          gather_differences<Kernel::n_nodes>(data.batches,
-                                              batch,
-                                              displacement,
-                                              u);
-          Kernel::load(shapes, g);
+          Kernel::load(data, batch, displacement, g, u);
           V R[3][3], F[3][3];
           Kernel::gradient(reference.centre, 0, g, u, F);
           add_identity(F);

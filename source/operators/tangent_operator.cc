@@ -22,11 +22,9 @@ namespace corotet
                           const double  time,
                           const double  load_factor)
   {
-    with_pressures =
-      tangent == Tangent::consistent && loads.has_follower_pressure();
-    symmetric         = elasticity.is_symmetric(tangent) && !with_pressures;
+    this->tangent     = tangent;
     this->load_factor = load_factor;
-    if (with_pressures)
+    if (has_pressures(loads, tangent))
       loads.linearize(time, u);
     return elasticity.linearize(u, tangent);
   }
@@ -34,7 +32,8 @@ namespace corotet
   void
   TangentOperator::vmult(Vector &dst, const Vector &src) const
   {
-    const unsigned int n_owned = src.locally_owned_size();
+    const unsigned int n_owned        = src.locally_owned_size();
+    const bool         with_pressures = has_pressures(loads, tangent);
     source.copy_locally_owned_data_from(src);
     for (const unsigned int i : prescribed)
       if (i < n_owned)

@@ -12,12 +12,6 @@ namespace corotet
   {
     using V = Simd<double>;
 
-    COROTET_ALWAYS_INLINE V
-    lanes(const double *values)
-    {
-      return load_aligned<batch_size>(values);
-    }
-
     // Numbers of a linearization, one register after another.
     struct Reader
     {

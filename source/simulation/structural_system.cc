@@ -76,10 +76,9 @@ namespace corotet
                        Tangent::frozen_rotation)
     , tangent(wanted_tangent)
   {
-    if (needs_tangent_operator(tangent))
+    if (!elastic.is_by_cell(tangent))
       parameters.linear_solver.check_fit(
-        elastic.is_symmetric(tangent) &&
-        !(tangent == Tangent::consistent && loads.has_follower_pressure()));
+        TangentOperator::is_symmetric(elastic, loads, tangent));
     for (Vector *vector : {&forces.external,
                            &forces.internal,
                            &forces.damping,
@@ -170,19 +169,13 @@ namespace corotet
     return forces;
   }
 
-  bool
-  StructuralSystem::needs_tangent_operator(const Tangent tangent) const
-  {
-    return !elastic.is_by_cell(tangent);
-  }
-
   void
   StructuralSystem::make_operators()
   {
     ScopedTimer timer(wall_times.assembly);
     effective_operator = std::make_unique<EffectiveOperator>(
       discretization, elastic, mass_matrix, motion.is_prescribed());
-    if (needs_tangent_operator(wanted_tangent))
+    if (!elastic.is_by_cell(wanted_tangent))
       tangent_operator =
         std::make_unique<TangentOperator>(*effective_operator, elastic, loads);
   }
@@ -244,7 +237,7 @@ namespace corotet
         operator_c_M = c_M;
       }
     const TangentOperator *J = nullptr;
-    if (needs_tangent_operator(tangent))
+    if (!elastic.is_by_cell(tangent))
       {
         ScopedTimer timer(wall_times.assembly);
         clamped_cells = std::max(clamped_cells,

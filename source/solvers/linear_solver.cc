@@ -49,7 +49,9 @@ namespace corotet
                       dealii::Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       max_iterations,
-                      "A solve that needs more has failed [-].",
+                      "A solve that needs more has failed [-]. With an exact "
+                      "tangent 1,000 are enough to fail: then the frozen one "
+                      "is asked.",
                       dealii::Patterns::Integer(1));
   }
 
@@ -95,16 +97,16 @@ namespace corotet
 
   template <typename Matrix>
   unsigned int
-  LinearSolver::minimal_residuals(const Matrix &A,
-                                  Vector       &x,
-                                  const Vector &b) const
+  LinearSolver::minimal_residuals(const Matrix      &A,
+                                  const unsigned int limit,
+                                  Vector            &x,
+                                  const Vector      &b) const
   {
     // MINRES measures residuals in the norm of the preconditioner, and a
     // preconditioner in single precision blurs them: it starts again from the
     // residual proper until that is small.
-    const unsigned int limit = std::min(max_iterations, 1000u);
-    Vector             r(b), dx(b);
-    unsigned int       iterations = 0;
+    Vector       r(b), dx(b);
+    unsigned int iterations = 0;
     for (unsigned int round = 0; round < 10; ++round)
       {
         A.vmult(r, x);
@@ -152,7 +154,7 @@ namespace corotet
         return control.last_step();
       }
     if (method == "minres")
-      return minimal_residuals(A, x, b);
+      return minimal_residuals(A, limit, x, b);
     dealii::SolverCG<Vector> cg(control);
     if (method == "conjugate gradients" ||
         !std::is_same_v<Matrix, TangentOperator>)
@@ -167,7 +169,8 @@ namespace corotet
       }
     catch (const NegativeCurvature &)
       {
-        return control.last_step() + minimal_residuals(A, x, b);
+        const unsigned int done = control.last_step();
+        return done + minimal_residuals(A, limit - done, x, b);
       }
   }
 

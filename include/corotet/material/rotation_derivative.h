@@ -150,8 +150,9 @@ namespace corotet
     static_for<3>([&](auto s) { G[s + 3] = -S[s + 3]; });
   }
 
-  /// @p inverse = G^{-1} of the stretch @p S, clamped. Returns the lanes where
-  /// that made a difference, a bit each.
+  /// @p inverse = G^{-1} of the stretch @p S, clamped. S is that of a polar
+  /// decomposition, so no two of its eigenvalues have a negative sum. Returns
+  /// the lanes where that made a difference, a bit each.
   COROTET_ALWAYS_INLINE unsigned int
   inverse_spin_tensor(const Simd<double> (&S)[6], Simd<double> (&inverse)[6])
   {

@@ -181,7 +181,8 @@ namespace corotet
     }
 
     /// Whether that tangent is the one of the cells' frozen rotations, which
-    /// apply_tangent() and the effective operator know without linearize().
+    /// apply_tangent() and the effective operator know without linearize():
+    /// then there is no linearization to apply.
     bool
     is_by_cell(const Tangent tangent) const
     {

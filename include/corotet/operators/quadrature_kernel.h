@@ -7,6 +7,7 @@
 #include <corotet/discretization/reference_element.h>
 #include <corotet/material/corotational_simd.h>
 #include <corotet/operators/bernstein.h>
+#include <corotet/operators/gather.h>
 #include <corotet/operators/sweep.h>
 
 namespace corotet
@@ -36,6 +37,18 @@ namespace corotet
       static_for<9>([&](auto i) {
         g[i] = load_aligned<batch_size>(shapes.inverse_jacobian[i]);
       });
+    }
+
+    /// The geometry at rest and @p displacement, less that of the first node.
+    static COROTET_ALWAYS_INLINE void
+    load(const ElasticData &data,
+         const unsigned int batch,
+         const double      *displacement,
+         Geometry          &g,
+         NodalValues       &u)
+    {
+      gather_differences<n_nodes>(data.batches, batch, displacement, u);
+      load(data.shapes[batch], g);
     }
 
     /// grad u at point @p q of @p rule: row a is the gradient of component a.

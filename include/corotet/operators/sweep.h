@@ -32,6 +32,13 @@ namespace corotet
     double mu[batch_size];
   };
 
+  /// A number of each cell of a batch.
+  COROTET_ALWAYS_INLINE Simd<double>
+                        lanes(const double *values)
+  {
+    return load_aligned<batch_size>(values);
+  }
+
   /// The terms of a linear form.
   enum class Terms
   {

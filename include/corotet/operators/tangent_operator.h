@@ -44,21 +44,36 @@ namespace corotet
     void
     vmult(Vector &dst, const Vector &src) const;
 
-    /// Whether J is symmetric; it need not be definite.
+    /// Whether J is symmetric with that tangent; it need not be definite.
+    static bool
+    is_symmetric(const Elasticity &elasticity,
+                 const Loads      &loads,
+                 const Tangent     tangent)
+    {
+      return elasticity.is_symmetric(tangent) && !has_pressures(loads, tangent);
+    }
+
+    /// The same for that of the last update().
     bool
     is_symmetric() const
     {
-      return symmetric;
+      return is_symmetric(elasticity, loads, tangent);
     }
 
   private:
+    /// Whether the derivative of pressures is part of J.
+    static bool
+    has_pressures(const Loads &loads, const Tangent tangent)
+    {
+      return tangent == Tangent::consistent && loads.has_follower_pressure();
+    }
+
     const EffectiveOperator  &A;
     Elasticity               &elasticity;
     Loads                    &loads;
     std::vector<unsigned int> prescribed;
-    bool                      symmetric      = true;
-    bool                      with_pressures = false;
-    double                    load_factor    = 1;
+    Tangent                   tangent     = Tangent::consistent;
+    double                    load_factor = 1;
     /// The source without prescribed entries, with ghosts.
     mutable Vector source;
   };

@@ -130,9 +130,6 @@ namespace corotet
     bool
     use_definite_tangent(const bool use) override;
 
-    /// Whether the tangent asked for is not the effective operator.
-    bool
-    needs_tangent_operator(const Tangent tangent) const;
     void
     make_operators();
 

@@ -74,7 +74,10 @@ namespace corotet
             const Vector &b) const;
     template <typename Matrix>
     unsigned int
-    minimal_residuals(const Matrix &A, Vector &x, const Vector &b) const;
+    minimal_residuals(const Matrix      &A,
+                      const unsigned int limit,
+                      Vector            &x,
+                      const Vector      &b) const;
 
     Selectable<Preconditioner> preconditioner;
     std::string                method         = "automatic";
