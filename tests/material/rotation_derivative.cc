@@ -22,7 +22,7 @@ namespace
   using namespace corotet::tests;
   using dealii::Tensor;
 
-  constexpr int lanes = n_lanes<double>;
+  constexpr int width = n_lanes<double>;
 
   // A symmetric tensor per lane.
   struct Stretches
@@ -131,8 +131,8 @@ TEST(RotationDerivative, InverseOfOrdinaryStretches)
   for (unsigned int k = 0; k < 1000; ++k)
     {
       Stretches    stretches;
-      Tensor<2, 3> S[lanes];
-      for (int lane = 0; lane < lanes; ++lane)
+      Tensor<2, 3> S[width];
+      for (int lane = 0; lane < width; ++lane)
         {
           const Tensor<2, 3> Q = random.rotation();
           S[lane]              = symmetrize(
@@ -142,7 +142,7 @@ TEST(RotationDerivative, InverseOfOrdinaryStretches)
         }
       stretches.invert();
       EXPECT_EQ(stretches.clamped, 0u);
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < width; ++lane)
         largest =
           std::max(largest,
                    (stretches.result(lane) - invert(spin(S[lane]))).norm() /
@@ -159,11 +159,11 @@ TEST(RotationDerivative, ClampedWhereStretchesSumToZero)
 {
   Random random;
   for (const double sum : {-0.2, -1e-9, 0., 1e-9, 0.009})
-    for (int bad = 0; bad < lanes; ++bad)
+    for (int bad = 0; bad < width; ++bad)
       {
         Stretches          clean, mixed;
         const Tensor<2, 3> Q = random.rotation();
-        for (int lane = 0; lane < lanes; ++lane)
+        for (int lane = 0; lane < width; ++lane)
           {
             const Tensor<2, 3> P = random.rotation();
             const Tensor<2, 3> S =
@@ -185,7 +185,7 @@ TEST(RotationDerivative, ClampedWhereStretchesSumToZero)
         EXPECT_LE((mixed.result(bad) - expected).norm(),
                   1e-13 * expected.norm())
           << sum;
-        for (int lane = 0; lane < lanes; ++lane)
+        for (int lane = 0; lane < width; ++lane)
           if (lane != bad)
             {
               const Tensor<2, 3> a = clean.result(lane), b = mixed.result(lane);
@@ -201,7 +201,7 @@ TEST(RotationDerivative, NotClampedAboveThat)
     {
       Stretches          stretches;
       const Tensor<2, 3> S = diagonal(1.5, 0.8, sum - 0.8);
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < width; ++lane)
         stretches.set(lane, S);
       stretches.invert();
       EXPECT_EQ(stretches.clamped, 0u) << sum;
@@ -214,11 +214,11 @@ TEST(RotationDerivative, NotClampedAboveThat)
 TEST(RotationDerivative, Collapsed)
 {
   Stretches stretches;
-  for (int lane = 0; lane < lanes; ++lane)
+  for (int lane = 0; lane < width; ++lane)
     stretches.set(lane, Tensor<2, 3>());
   stretches.invert();
-  EXPECT_EQ(stretches.clamped, (1u << lanes) - 1);
-  EXPECT_LE((stretches.result(lanes - 1) -
+  EXPECT_EQ(stretches.clamped, (1u << width) - 1);
+  EXPECT_LE((stretches.result(width - 1) -
              identity() / smallest_sum_of_stretches)
               .norm(),
             1e-11);
@@ -232,7 +232,7 @@ TEST(RotationDerivative, NotFinite)
     for (unsigned int s = 0; s < 6; ++s)
       {
         Stretches stretches;
-        for (int lane = 0; lane < lanes; ++lane)
+        for (int lane = 0; lane < width; ++lane)
           stretches.set(lane, identity());
         stretches.S[s][1] = bad;
         stretches.invert();
@@ -278,7 +278,7 @@ TEST(RotationDerivative, DifferencesOfPolarDecompositions)
           const Tensor<2, 3> S = transpose(R) * F, A = transpose(R) * dF;
           Stretches          stretches;
           Simd<double>       A_lanes[3][3], a[3], w[3], W[3][3] = {};
-          for (int lane = 0; lane < lanes; ++lane)
+          for (int lane = 0; lane < width; ++lane)
             stretches.set(lane, symmetrize(S));
           for (unsigned int i = 0; i < 3; ++i)
             for (unsigned int j = 0; j < 3; ++j)
