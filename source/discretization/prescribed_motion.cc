@@ -73,8 +73,10 @@ namespace corotet
   double
   PrescribedMotion::value(const Entry &entry, const double time) const
   {
-    return expression(entry).value(discretization.node_position(entry.dof / 3),
-                                   time);
+    const Expression &formula = expression(entry);
+    return formula.is_zero() ?
+             0. :
+             formula.value(discretization.node_position(entry.dof / 3), time);
   }
 
   void

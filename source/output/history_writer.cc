@@ -78,6 +78,7 @@ namespace corotet
     row["clamped_cells"]    = record.clamped_cells;
     row["parts"]            = record.parts;
     add_vector(row, "internal_moment", record.internal_moment);
+    row["rejected_steps"] = record.rejected_steps;
     return row;
   }
 

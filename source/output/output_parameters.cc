@@ -95,6 +95,13 @@ namespace corotet
       "step. The first and the last state are always written.",
       dealii::Patterns::Double(0));
     prm.add_parameter(
+      "Steps between rows",
+      steps_between_rows,
+      "Every how many steps a row goes into history.csv and a state may go into "
+      "solution.vtkhdf [-]: for explicit runs, whose steps are many. Steps that "
+      "reach a multiple of 'Time between results' have a row in any case.",
+      dealii::Patterns::Integer(1));
+    prm.add_parameter(
       "Probes",
       probes,
       "Points of the undeformed body [m] whose displacement goes into "

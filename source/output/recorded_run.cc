@@ -47,7 +47,8 @@ namespace corotet
     prepare_output_directory(directory, output.overwrite, comm);
     log.open(directory + "/log.txt");
     on_root(comm, [&] { file.write_effective(directory + "/parameters.prm"); });
-    simulation.run(observers);
+    simulation.run(observers,
+                   {output.steps_between_rows, output.time_between_results});
     log.line("Results are in " + directory);
   }
 } // namespace corotet

@@ -17,72 +17,150 @@ namespace corotet
                  const Discretization &discretization,
                  const State          &initial_state,
                  const double          time,
-                 const double          load_factor)
+                 const double          load_factor,
+                 const double          staggered_step)
     : system(system)
     , discretization(discretization)
+    , is_staggered(staggered_step > 0)
+    , dt(staggered_step)
   {
-    for (Vector *vector : {&force,
-                           &damping,
-                           &displacement,
-                           &last_force,
-                           &last_damping,
-                           &last_displacement,
-                           &momentum})
-      discretization.initialize_vector(*vector);
-    evaluate(initial, initial_state, time, load_factor);
-    initial.time = time;
+    const std::size_t n_prescribed =
+      system.prescribed_motion().unknowns().size();
+    for (Forces *forces : {&last, &now})
+      {
+        discretization.initialize_vector(forces->external);
+        discretization.initialize_vector(forces->damping);
+        forces->carried.resize(n_prescribed);
+      }
+    discretization.initialize_vector(momentum);
+    velocity.resize(n_prescribed);
+    system.evaluate(initial_state, time, load_factor);
+    take_forces(last);
+    last_displacement = initial_state.u;
+    for (std::size_t k = 0; k < n_prescribed; ++k)
+      velocity[k] =
+        initial_state.v.local_element(system.prescribed_motion().unknowns()[k]);
+    last_velocity = velocity;
+    record(initial, initial_state, time);
   }
 
   void
-  Budget::evaluate(StepRecord  &record,
-                   const State &state,
-                   const double time,
-                   const double load_factor)
+  Budget::take_forces(Forces &forces) const
   {
-    const StructuralSystem::Forces &forces =
-      system.evaluate(state, time, load_factor);
-    const MPI_Comm comm = discretization.communicator();
-    displacement        = state.u;
-    damping             = forces.damping;
-    force               = forces.external;
+    const StructuralSystem::Forces &terms = system.last_forces();
+    forces.time                           = system.last_time();
+    forces.external                       = terms.external;
+    forces.damping                        = terms.damping;
+    const auto &prescribed = system.prescribed_motion().unknowns();
+    for (std::size_t k = 0; k < prescribed.size(); ++k)
+      {
+        const unsigned int i             = prescribed[k];
+        forces.external.local_element(i) = terms.internal.local_element(i);
+        forces.carried[k] =
+          terms.inertia.local_element(i) + terms.damping.local_element(i);
+      }
+  }
 
+  void
+  Budget::account(const State &state, const double time, const double dt)
+  {
+    take_forces(now);
+    const auto &prescribed = system.prescribed_motion().unknowns();
+    for (std::size_t k = 0; k < prescribed.size(); ++k)
+      velocity[k] = state.v.local_element(prescribed[k]);
+
+    // Forces at the middle: c of now, 1 - c of last.
+    const double c = (time - 0.5 * dt - last.time) / (now.time - last.time);
+    // The displacement of the step, and for what is prescribed that of the
+    // velocities.
+    Tensor<1, 2> sums;
+    const auto   n = state.u.locally_owned_size();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double du =
+          state.u.local_element(i) - last_displacement.local_element(i);
+        sums[0] += (c * now.external.local_element(i) +
+                    (1 - c) * last.external.local_element(i)) *
+                   du;
+        sums[1] += (c * now.damping.local_element(i) +
+                    (1 - c) * last.damping.local_element(i)) *
+                   du;
+      }
+    for (std::size_t k = 0; k < prescribed.size(); ++k)
+      {
+        const unsigned int i = prescribed[k];
+        const double       du =
+          state.u.local_element(i) - last_displacement.local_element(i);
+        const double dv = 0.5 * dt * (velocity[k] + last_velocity[k]);
+        sums[0] += (c * now.carried[k] + (1 - c) * last.carried[k]) * dv;
+        sums[1] += (c * now.damping.local_element(i) +
+                    (1 - c) * last.damping.local_element(i)) *
+                   (dv - du);
+      }
+    sums = dealii::Utilities::MPI::sum(sums, discretization.communicator());
+    if (!std::isfinite(sums[0] + sums[1]))
+      throw ComputationError(
+        "the forces at the end of the step are not finite");
+
+    work += sums[0];
+    dissipation += sums[1];
+    this->dt = dt;
+    std::swap(last, now);
+    last_velocity.swap(velocity);
+    last_displacement = state.u;
+  }
+
+  void
+  Budget::record(StepRecord &record, const State &state, const double time)
+  {
+    const StructuralSystem::Forces &terms = system.last_forces();
+    const MPI_Comm                  comm  = discretization.communicator();
+
+    // Where the equation of motion holds.
     Tensor<1, 3> reaction;
     for (const unsigned int i : system.prescribed_motion().unknowns())
-      {
-        const double r =
-          forces.inertia.local_element(i) + forces.damping.local_element(i) +
-          forces.internal.local_element(i) - forces.external.local_element(i);
-        force.local_element(i) += r;
-        reaction[i % 3] += r;
-      }
+      reaction[i % 3] +=
+        terms.inertia.local_element(i) + terms.damping.local_element(i) +
+        terms.internal.local_element(i) - terms.external.local_element(i);
     record.reaction = dealii::Utilities::MPI::sum(reaction, comm);
 
+    const auto vector_at = [](const Vector &vector, const unsigned int n) {
+      return Tensor<1, 3>({vector.local_element(3 * n),
+                           vector.local_element(3 * n + 1),
+                           vector.local_element(3 * n + 2)});
+    };
+    Tensor<1, 3> moment;
+    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+      moment += cross_product_3d(discretization.node_position(n) +
+                                   vector_at(system.displacement(), n),
+                                 vector_at(terms.internal, n));
+    record.internal_moment = dealii::Utilities::MPI::sum(moment, comm);
+
+    // At the end of the step.
+    system.set_state(state);
     system.mass().apply(momentum, system.velocity());
     record.kinetic_energy = 0.5 * (momentum * state.v);
-    Tensor<1, 3> linear, angular, moment;
+    if (is_staggered)
+      record.kinetic_energy -= 0.125 * dt * dt * (terms.inertia * state.a);
+    Tensor<1, 3> linear, angular;
     double       largest_square = 0;
     for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
       {
-        Tensor<1, 3> p, u, f;
-        for (unsigned int a = 0; a < 3; ++a)
-          {
-            p[a] = momentum.local_element(3 * n + a);
-            f[a] = forces.internal.local_element(3 * n + a);
-            u[a] = state.u.local_element(3 * n + a);
-          }
+        const Tensor<1, 3> p = vector_at(momentum, n);
+        const Tensor<1, 3> u = vector_at(state.u, n);
         linear += p;
         angular += cross_product_3d(discretization.node_position(n) + u, p);
-        moment += cross_product_3d(discretization.node_position(n) + u, f);
         largest_square = std::max(largest_square, u.norm_square());
       }
     record.momentum         = dealii::Utilities::MPI::sum(linear, comm);
     record.angular_momentum = dealii::Utilities::MPI::sum(angular, comm);
-    record.internal_moment  = dealii::Utilities::MPI::sum(moment, comm);
     record.max_displacement =
       std::sqrt(dealii::Utilities::MPI::max(largest_square, comm));
 
     const ElasticState elastic =
       system.elasticity().state(system.displacement());
+    if (!std::isfinite(elastic.energy + record.kinetic_energy))
+      throw ComputationError("the energy is not finite");
     record.elastic_energy   = elastic.energy;
     record.min_det_F        = elastic.min_det_F;
     record.inverted_cells   = elastic.inverted_cells;
@@ -91,35 +169,6 @@ namespace corotet
     record.volume           = displaced_volume(discretization,
                                      system.reference_element(),
                                      system.displacement());
-  }
-
-  void
-  Budget::update(StepRecord  &record,
-                 const State &state,
-                 const double time,
-                 const double load_factor)
-  {
-    last_force.swap(force);
-    last_damping.swap(damping);
-    last_displacement.swap(displacement);
-    evaluate(record, state, time, load_factor);
-    if (!std::isfinite(norm(force) + norm(damping) + record.elastic_energy +
-                       record.kinetic_energy))
-      {
-        // As if this call had not been.
-        last_force.swap(force);
-        last_damping.swap(damping);
-        last_displacement.swap(displacement);
-        throw ComputationError(
-          "the forces at the end of the step are not finite");
-      }
-
-    // Mean forces times the displacement of the step.
-    last_force.sadd(0.5, 0.5, force);
-    last_damping.sadd(0.5, 0.5, damping);
-    last_displacement.sadd(-1., displacement);
-    work += last_force * last_displacement;
-    dissipation += last_damping * last_displacement;
 
     record.time              = time;
     record.external_work     = work;

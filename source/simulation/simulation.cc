@@ -19,30 +19,8 @@ namespace corotet
     , mesh(parameters.mesh, folder, comm, log)
     , disc(mesh, parameters.degree)
     , system(disc, parameters, wall_times, log)
+    , stepper(parameters, disc, system, log)
   {
-    const double duration = parameters.end_time - parameters.start_time;
-    if (!(duration > 0))
-      throw InputError("Time integration/End time",
-                       fmt::format("found {}; allowed: a time after the start "
-                                   "time {}",
-                                   parameters.end_time,
-                                   parameters.start_time));
-    if (parameters.newton.linearly_implicit &&
-        !parameters.time_integrator.selected().is_dynamic())
-      throw InputError("Newton/Linearly implicit",
-                       "found true; allowed with Time integration/Type = "
-                       "static: false, as nothing would correct the error of "
-                       "a load step");
-    n_steps =
-      parameters.time_integrator.selected().n_steps(duration,
-                                                    parameters.time_step);
-
-    // Boundaries that disagree show themselves before the run starts.
-    system.initialize(present);
-    for (const double part : {0., 0.5, 1.})
-      system.prescribe(present, parameters.start_time + part * duration, 1.);
-    system.initialize(present);
-
     log.line(fmt::format(
       "Discretization: degree {}, {} cells, {} nodes, {} unknowns on {} rank{}",
       disc.degree(),
@@ -56,21 +34,22 @@ namespace corotet
   }
 
   void
-  Simulation::run(const std::vector<std::unique_ptr<Observer>> &observers)
+  Simulation::run(const std::vector<std::unique_ptr<Observer>> &observers,
+                  const Recording                              &recording)
   {
     StepRecord record;
     try
       {
-        compute(observers, record);
+        compute(observers, recording, record);
       }
     catch (const ComputationError &error)
       {
         const std::string message =
           fmt::format("step {} (t = {:.6g}): {}",
-                      static_cast<unsigned int>(done * n_steps + 1e-6) + 1,
-                      time(done),
+                      record.step + (stepper.has_partial_step() ? 0 : 1),
+                      stepper.time(),
                       error.what());
-        if (budget)
+        if (is_started)
           save(observers, record);
         finish(observers, record, "failed", message);
         throw ComputationError(message);
@@ -78,130 +57,29 @@ namespace corotet
     finish(observers, record, "done", "");
   }
 
-  double
-  Simulation::time(const double done) const
-  {
-    // Not a sum of steps: no round-off accumulates.
-    return parameters.start_time +
-           done * (parameters.end_time - parameters.start_time);
-  }
-
-  void
-  Simulation::start(StepRecord &record)
-  {
-    const double          time       = parameters.start_time;
-    const TimeIntegrator &integrator = parameters.time_integrator.selected();
-    if (integrator.is_dynamic())
-      {
-        system.prescribe(present, time, 1.);
-        system.solve_acceleration(present, time);
-      }
-    else
-      present.v = 0;
-    budget = std::make_unique<Budget>(
-      system, disc, present, time, integrator.load_factor(0.));
-    record           = budget->initial_record();
-    record.wall_time = seconds();
-    report_inversions(record);
-  }
-
   void
   Simulation::compute(const std::vector<std::unique_ptr<Observer>> &observers,
+                      const Recording                              &recording,
                       StepRecord                                   &record)
   {
-    start(record);
+    record           = stepper.start(recording);
+    is_started       = true;
+    record.wall_time = seconds();
+    report_inversions(record);
     for (const auto &observer : observers)
       {
         ScopedTimer timer(wall_times.output);
         observer->start(snapshot(record, false));
       }
-
-    for (unsigned int step = 1; step <= n_steps; ++step)
+    while (!stepper.is_done())
       {
-        StepRecord next        = record;
-        next.step              = step;
-        next.dt                = 0;
-        next.parts             = 0;
-        next.newton_iterations = 0;
-        next.linear_iterations = 0;
-        try
-          {
-            advance(static_cast<double>(step - 1) / n_steps,
-                    static_cast<double>(step) / n_steps,
-                    parameters.max_halvings,
-                    next);
-          }
-        catch (const ComputationError &)
-          {
-            if (next.parts > 0)
-              // Part of the step is done: what is saved has its record.
-              record = next;
-            throw;
-          }
-        record = next;
+        stepper.next(record);
+        record.wall_time = seconds();
         report_inversions(record);
-        if (record.parts > 1)
-          log.line(
-            fmt::format("step {}: made in {} parts", step, record.parts));
-
         ScopedTimer timer(wall_times.output);
         for (const auto &observer : observers)
-          observer->step(snapshot(record, step == n_steps));
+          observer->step(snapshot(record, stepper.is_done()));
       }
-  }
-
-  void
-  Simulation::advance(const double       from,
-                      const double       to,
-                      const unsigned int halvings,
-                      StepRecord        &record)
-  {
-    before_step = present;
-    try
-      {
-        make_step(from, to, record);
-        return;
-      }
-    catch (const ComputationError &error)
-      {
-        present = before_step;
-        if (halvings == 0)
-          {
-            if (parameters.max_halvings == 0)
-              throw;
-            throw ComputationError(
-              fmt::format("{}; the step has been halved {} times",
-                          error.what(),
-                          parameters.max_halvings));
-          }
-        log.line(fmt::format("t = {:.6g}: {}; trying half the step",
-                             time(to),
-                             error.what()));
-      }
-    const double middle = 0.5 * (from + to);
-    advance(from, middle, halvings - 1, record);
-    advance(middle, to, halvings - 1, record);
-  }
-
-  void
-  Simulation::make_step(const double from, const double to, StepRecord &record)
-  {
-    TimeIntegrator   &integrator = parameters.time_integrator.selected();
-    const StageReport report =
-      integrator.step(system,
-                      {time(from),
-                       (to - from) *
-                         (parameters.end_time - parameters.start_time),
-                       to},
-                      present);
-    budget->update(record, present, time(to), integrator.load_factor(to));
-    done = to;
-    ++record.parts;
-    record.newton_iterations += report.newton_iterations;
-    record.linear_iterations += report.linear_iterations;
-    record.dt += time(to) - time(from);
-    record.clamped_cells = system.take_clamped_cells();
-    record.wall_time     = seconds();
   }
 
   void
@@ -238,16 +116,13 @@ namespace corotet
                    StepRecord                                   &record)
   {
     // What the failed step has left in the system is not the state.
-    system.evaluate(present,
-                    record.time,
-                    parameters.time_integrator.selected().load_factor(done));
+    system.set_state(stepper.state());
     ScopedTimer timer(wall_times.output);
-    const bool  is_shown = record.step <= done * n_steps + 1e-6;
     for (const auto &observer : observers)
-      if (is_shown)
-        observer->save(snapshot(record, true));
-      else
+      if (stepper.has_partial_step())
         observer->step(snapshot(record, true));
+      else
+        observer->save(snapshot(record, true));
   }
 
   Snapshot

@@ -80,8 +80,10 @@ namespace corotet
       prm.add_parameter("Time step",
                         time_step,
                         "In s. It is shortened a little if the duration is not "
-                        "a multiple of it.",
-                        Double(1e-300));
+                        "a multiple of it. 0: the program's choice, with "
+                        "'central difference' only. With an adaptive step the "
+                        "first one.",
+                        Double(0));
       prm.add_parameter("Maximum halvings",
                         max_halvings,
                         "How often a step that fails is halved before the run "
@@ -89,6 +91,9 @@ namespace corotet
                         "for are what is recorded, in how many parts ever a "
                         "step was made.",
                         Integer(0, 30));
+      section(prm, "Adaptive step", [&] {
+        adaptive_step.declare_parameters(prm);
+      });
     });
     section(prm, "Newton", [&] { newton.declare_parameters(prm); });
     section(prm, "Linear solver", [&] {

@@ -3,9 +3,9 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/simulation/structural_system.h>
+#include <corotet/solvers/largest_eigenvalue.h>
 
-#include <deal.II/lac/diagonal_matrix.h>
-#include <deal.II/lac/solver_cg.h>
+#include <deal.II/base/mpi.h>
 
 #include <fmt/format.h>
 
@@ -25,22 +25,12 @@ namespace corotet
       return result;
     }
 
-    // The mass matrix of the unknowns that are not prescribed.
-    struct FreeMass
+    void
+    copy_with_ghosts(Vector &copy, const Vector &vector)
     {
-      const Mass             &mass;
-      const PrescribedMotion &motion;
-      Vector                 &ghosted;
-
-      void
-      vmult(Vector &dst, const Vector &src) const
-      {
-        ghosted.copy_locally_owned_data_from(src);
-        ghosted.update_ghost_values();
-        mass.apply(dst, ghosted);
-        motion.set_zero(dst);
-      }
-    };
+      copy.copy_locally_owned_data_from(vector);
+      copy.update_ghost_values();
+    }
   } // namespace
 
   StructuralSystem::StructuralSystem(const Discretization &discretization,
@@ -70,7 +60,12 @@ namespace corotet
             parameters.loads,
             parameters.material.rotation_placement() != Rotation::none,
             log)
-    , motion(discretization, reference, conditions, parameters.time_step)
+    , motion(discretization,
+             reference,
+             conditions,
+             std::max(parameters.time_step,
+                      1e-4 * (parameters.end_time - parameters.start_time)))
+    , mass_solver(discretization, mass_matrix, motion)
     , wanted_tangent(parameters.newton.tangent == "consistent" ?
                        Tangent::consistent :
                        Tangent::frozen_rotation)
@@ -86,8 +81,14 @@ namespace corotet
                            &u_ghosted,
                            &v_ghosted,
                            &a_ghosted,
+                           &free_residual,
+                           &free_acceleration,
                            &positions})
       discretization.initialize_vector(*vector);
+
+    // Three unknowns of each node have its mass.
+    mass_diagonal_sum =
+      mass_matrix.diagonal().mean_value() * mass_matrix.diagonal().size() / 3;
   }
 
   StructuralSystem::~StructuralSystem()
@@ -128,16 +129,33 @@ namespace corotet
     motion.apply(time, load_factor, state.u, state.v, state.a);
   }
 
-  const StructuralSystem::Forces &
+  void
+  StructuralSystem::set_state(const State &state)
+  {
+    ScopedTimer timer(wall_times.assembly);
+    copy_with_ghosts(u_ghosted, state.u);
+    copy_with_ghosts(v_ghosted, state.v);
+    elastic.update_rotations(u_ghosted);
+  }
+
+  void
+  StructuralSystem::apply_rotated_stiffness(Vector &f, const Vector &v)
+  {
+    if (elastic.is_by_cell(Tangent::frozen_rotation))
+      elastic.apply_tangent(f, v);
+    else
+      elastic.apply_linearization(f, v, 1., 0., nullptr, nullptr);
+  }
+
+  void
   StructuralSystem::evaluate(const State &state,
                              const double time,
                              const double load_factor)
   {
     ScopedTimer timer(wall_times.assembly);
-    u_ghosted.copy_locally_owned_data_from(state.u);
-    u_ghosted.update_ghost_values();
-    v_ghosted.copy_locally_owned_data_from(state.v);
-    v_ghosted.update_ghost_values();
+    forces_time = time;
+    copy_with_ghosts(u_ghosted, state.u);
+    copy_with_ghosts(v_ghosted, state.v);
 
     elastic.update_rotations_and_force(forces.internal, u_ghosted);
     loads.force(forces.external, time, u_ghosted);
@@ -146,14 +164,9 @@ namespace corotet
     if (parameters.damping_stiffness > 0)
       {
         // C turns with the rotations that the material has.
-        if (elastic.is_by_cell(Tangent::frozen_rotation))
-          elastic.apply_tangent(forces.damping, v_ghosted);
-        else
-          {
-            elastic.linearize(u_ghosted, Tangent::frozen_rotation);
-            elastic.apply_linearization(
-              forces.damping, v_ghosted, 1., 0., nullptr, nullptr);
-          }
+        if (!elastic.is_by_cell(Tangent::frozen_rotation))
+          elastic.linearize(u_ghosted, Tangent::frozen_rotation);
+        apply_rotated_stiffness(forces.damping, v_ghosted);
         forces.damping *= parameters.damping_stiffness;
       }
     else
@@ -163,10 +176,8 @@ namespace corotet
         mass_matrix.apply(forces.inertia, v_ghosted);
         forces.damping.add(parameters.damping_mass, forces.inertia);
       }
-    a_ghosted.copy_locally_owned_data_from(state.a);
-    a_ghosted.update_ghost_values();
+    copy_with_ghosts(a_ghosted, state.a);
     mass_matrix.apply(forces.inertia, a_ghosted);
-    return forces;
   }
 
   void
@@ -198,6 +209,9 @@ namespace corotet
         log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
         throw;
       }
+    if (parameters.newton.linearly_implicit)
+      // Newton's method ends before it looks at the forces again.
+      evaluate(state, stage.time, stage.load_factor);
     if (statics || parameters.newton.always_log || report.line_searches > 0)
       log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
     return {report.iterations,
@@ -293,43 +307,72 @@ namespace corotet
            elastic.rotation_placement() != Rotation::none;
   }
 
-  void
-  StructuralSystem::solve_acceleration(State &state, const double time)
+  StageReport
+  StructuralSystem::solve_acceleration(State       &state,
+                                       const double time,
+                                       const double velocity_factor)
   {
     // Free accelerations from those that are prescribed: M_ff a_f = r_f.
     for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
       if (!motion.is_prescribed()[i])
         state.a.local_element(i) = 0;
     evaluate(state, time, 1.);
-    Vector r(forces.external);
+    Vector &r = free_residual;
+    Vector &a = free_acceleration;
+    r         = forces.external;
     r -= forces.internal;
     r -= forces.damping;
     r -= forces.inertia;
     motion.set_zero(r);
-    Vector inverse(r);
-    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
-      inverse.local_element(i) = 1 / mass_matrix.diagonal().local_element(i);
-    const dealii::DiagonalMatrix<Vector> inverse_diagonal(inverse);
-    Vector                               a_free(r);
-    a_free              = 0;
-    const double r_norm = norm(r);
-    if (!std::isfinite(r_norm))
-      throw ComputationError("the forces at the start are not finite");
-    // One iteration if the mass is lumped; else few, as the scaled mass matrix
-    // is well conditioned whatever the mesh. So round-off is the only limit.
-    dealii::SolverControl    control(500, 1e-13 * r_norm);
-    dealii::SolverCG<Vector> cg(control);
-    try
+
+    ScopedTimer timer(wall_times.solve);
+    StageReport report;
+    report.linear_iterations = mass_solver.solve(a, r);
+    // Of damping by mass, a part is in the velocity to come.
+    const double c = velocity_factor * parameters.damping_mass;
+    a *= 1 / (1 + c);
+    state.a += a;
+    state.v.add(velocity_factor, a);
+    copy_with_ghosts(a_ghosted, state.a);
+    mass_matrix.apply(forces.inertia, a_ghosted);
+    if (c > 0)
       {
-        cg.solve(FreeMass{mass_matrix, motion, a_ghosted},
-                 a_free,
-                 r,
-                 inverse_diagonal);
+        copy_with_ghosts(a_ghosted, a);
+        mass_matrix.apply(r, a_ghosted);
+        forces.damping.add(c, r);
       }
-    catch (const dealii::SolverControl::NoConvergence &)
-      {
-        throw ComputationError("the initial acceleration did not converge");
-      }
-    state.a += a_free;
+    return report;
+  }
+
+  double
+  StructuralSystem::largest_frequency(const State &state)
+  {
+    set_state(state);
+    if (!elastic.is_by_cell(Tangent::frozen_rotation))
+      elastic.linearize(u_ghosted, Tangent::frozen_rotation);
+    const SymmetricPencil pencil{
+      [&](Vector &f, const Vector &v) {
+        copy_with_ghosts(a_ghosted, v);
+        apply_rotated_stiffness(f, a_ghosted);
+        motion.set_zero(f);
+      },
+      [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },
+      [&](Vector &v, const Vector &f) { mass_solver.solve(v, f); }};
+    Vector start(state.u);
+    set_without_pattern(start);
+    motion.set_zero(start);
+    return std::sqrt(largest_eigenvalue(pencil, start, 0.02));
+  }
+
+  double
+  StructuralSystem::mean_size(const Vector &field) const
+  {
+    double sum = 0;
+    for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
+      sum += mass_matrix.diagonal().local_element(i) * field.local_element(i) *
+             field.local_element(i);
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(sum, discretization.communicator()) /
+      mass_diagonal_sum);
   }
 } // namespace corotet

@@ -2,45 +2,13 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/solvers/chebyshev.h>
-
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/vector.h>
+#include <corotet/solvers/largest_eigenvalue.h>
 
 #include <cmath>
 #include <vector>
 
 namespace corotet
 {
-  namespace
-  {
-    // Largest eigenvalue of the symmetric matrix with this diagonal and these
-    // numbers beside it.
-    double
-    largest_of_tridiagonal(const std::vector<double> &diagonal,
-                           const std::vector<double> &beside)
-    {
-      const unsigned int               n = diagonal.size();
-      dealii::LAPACKFullMatrix<double> T(n);
-      double                           norm = 0;
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          T(k, k) = diagonal[k];
-          norm += std::abs(diagonal[k]);
-          if (k + 1 < n)
-            {
-              T(k, k + 1) = T(k + 1, k) = beside[k];
-              norm += 2 * beside[k];
-            }
-        }
-      dealii::Vector<double>     eigenvalues;
-      dealii::FullMatrix<double> eigenvectors;
-      T.compute_eigenvalues_symmetric(
-        -norm, norm, 1e-6 * norm, eigenvalues, eigenvectors);
-      return eigenvalues.linfty_norm();
-    }
-  } // namespace
-
   Chebyshev::Chebyshev(const MatrixFree<float> &A,
                        const unsigned int       degree,
                        const double             range)
@@ -72,13 +40,11 @@ namespace corotet
     constexpr double   safety = 1.1;
     const unsigned int n      = inverse_diagonal.locally_owned_size();
     FloatVector        v(inverse_diagonal), previous(v), w(v);
-    const auto         first = A.nodes().partitioner()->local_range().first;
+    // A start without pattern, the same in every run.
+    set_without_pattern(v);
     for (unsigned int i = 0; i < n; ++i)
       {
-        // A start without pattern, the same in every run.
-        const double s = std::sin(12.9898 * (first + i) + 78.233) * 43758.5453;
-        v.local_element(i) = (s - std::floor(s) - 0.5) *
-                             std::sqrt(inverse_diagonal.local_element(i));
+        v.local_element(i) *= std::sqrt(inverse_diagonal.local_element(i));
         previous.local_element(i) = 0;
       }
     const auto norm = [&](const FloatVector &x) {
@@ -117,7 +83,7 @@ namespace corotet
         previous.swap(v);
         v.swap(w);
       }
-    max_eigenvalue = safety * largest_of_tridiagonal(alphas, betas);
+    max_eigenvalue = safety * largest_of_tridiagonal(alphas, betas).first;
   }
 
   void

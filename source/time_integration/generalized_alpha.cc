@@ -16,10 +16,8 @@ namespace corotet
                       dealii::Patterns::Double(0, 1));
   }
 
-  StageReport
-  GeneralizedAlpha::step(SecondOrderSystem &system,
-                         const TimeStep    &step,
-                         State             &state)
+  NewmarkFamily::Coefficients
+  GeneralizedAlpha::coefficients() const
   {
     const double rho     = spectral_radius;
     const double alpha_m = (2 * rho - 1) / (rho + 1);
@@ -27,6 +25,14 @@ namespace corotet
     const double gamma   = 0.5 - alpha_m + alpha_f;
     const double beta =
       0.25 * (1 - alpha_m + alpha_f) * (1 - alpha_m + alpha_f);
-    return family.step(system, step, {beta, gamma, alpha_m, alpha_f}, state);
+    return {beta, gamma, alpha_m, alpha_f};
+  }
+
+  StageReport
+  GeneralizedAlpha::step(SecondOrderSystem &system,
+                         const TimeStep    &step,
+                         State             &state)
+  {
+    return family.step(system, step, coefficients(), state);
   }
 } // namespace corotet

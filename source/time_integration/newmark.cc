@@ -22,6 +22,6 @@ namespace corotet
   StageReport
   Newmark::step(SecondOrderSystem &system, const TimeStep &step, State &state)
   {
-    return family.step(system, step, {beta, gamma, 0., 0.}, state);
+    return family.step(system, step, coefficients(), state);
   }
 } // namespace corotet

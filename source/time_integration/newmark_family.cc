@@ -3,8 +3,16 @@
 
 #include <corotet/time_integration/newmark_family.h>
 
+#include <cmath>
+
 namespace corotet
 {
+  double
+  NewmarkFamily::error_constant(const Coefficients &c)
+  {
+    return std::abs(1. / 6 - c.beta - 0.5 * (c.alpha_m - c.alpha_f));
+  }
+
   StageReport
   NewmarkFamily::step(SecondOrderSystem  &system,
                       const TimeStep     &step,
@@ -24,11 +32,14 @@ namespace corotet
     stage.v.add(dt, state.a);
     stage.a = state.a;
     system.prescribe(stage, step.time + dt, 1.);
+    end_acceleration = stage.a;
 
-    // From the end of the step to the intermediate times.
+    // From the end of the step to the intermediate times. The guess of free
+    // accelerations does not change; those that are prescribed, other than a_n
+    // of the method, belong to the time t_n, so they have to go to t_f.
     stage.u.sadd(1 - alpha_f, alpha_f, state.u);
     stage.v.sadd(1 - alpha_f, alpha_f, state.v);
-    stage.a.sadd(1 - alpha_m, alpha_m, state.a);
+    stage.a.sadd(1 - alpha_f, alpha_f, state.a);
 
     // How v_f and a_m change with u_f.
     const double      c_v = gamma / (beta * dt);
@@ -37,13 +48,15 @@ namespace corotet
       system.solve_stage(stage, {step.time + (1 - alpha_f) * dt, c_v, c_a});
 
     // And back to the end of the step.
-    const auto extrapolate =
-      [](Vector &end, const Vector &middle, const double alpha) {
-        end.sadd(-alpha / (1 - alpha), 1 / (1 - alpha), middle);
-      };
-    extrapolate(state.u, stage.u, alpha_f);
-    extrapolate(state.v, stage.v, alpha_f);
-    extrapolate(state.a, stage.a, alpha_m);
+    const auto extrapolate = [&](Vector &end, const Vector &middle) {
+      end.sadd(-alpha_f / (1 - alpha_f), 1 / (1 - alpha_f), middle);
+    };
+    extrapolate(state.u, stage.u);
+    extrapolate(state.v, stage.v);
+    // What is free has changed by (a_m - a_0) / (1 - alpha_m), what is
+    // prescribed not at all since the guess.
+    state.a.sadd(-alpha_f / (1 - alpha_m), 1 / (1 - alpha_m), stage.a);
+    state.a.add((alpha_f - alpha_m) / (1 - alpha_m), end_acceleration);
     return report;
   }
 } // namespace corotet

@@ -27,7 +27,7 @@ namespace
     "angular_momentum_z,max_displacement,min_det_F,inverted_cells,wall_time,"
     "corner_x,corner_y,corner_z,volume,reaction_x,reaction_y,reaction_z,"
     "degenerate_cells,robust_rotations,clamped_cells,parts,"
-    "internal_moment_x,internal_moment_y,internal_moment_z";
+    "internal_moment_x,internal_moment_y,internal_moment_z,rejected_steps";
 
   const std::vector<ProbePoint> corner{{"corner", {1, 0.5, 0.25}}};
 

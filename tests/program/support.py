@@ -19,7 +19,7 @@ COLUMNS = ("step time dt newton_iterations linear_iterations kinetic_energy elas
            "energy_balance momentum_x momentum_y momentum_z angular_momentum_x angular_momentum_y angular_momentum_z "
            "max_displacement min_det_F inverted_cells wall_time").split()
 COLUMNS_AFTER_PROBES = ("volume reaction_x reaction_y reaction_z degenerate_cells robust_rotations clamped_cells parts "
-                        "internal_moment_x internal_moment_y internal_moment_z").split()
+                        "internal_moment_x internal_moment_y internal_moment_z rejected_steps").split()
 SUMMARY_KEYS = ("status version git_revision dealii_version ranks cells nodes dofs degree mesh_volume total_mass steps end_time "
                 "final wall_time peak_memory_bytes").split()
 WALL_TIME_KEYS = "setup assembly solve output total".split()

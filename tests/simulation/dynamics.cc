@@ -33,7 +33,8 @@ namespace
         integrator.step(body.system,
                         {i * end / n, end / n, (i + 1.) / n},
                         body.state);
-        budget.update(record, body.state, (i + 1) * end / n, 1.);
+        budget.account(body.state, (i + 1) * end / n, end / n);
+        budget.record(record, body.state, (i + 1) * end / n);
       }
     return record;
   }

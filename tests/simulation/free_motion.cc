@@ -77,7 +77,8 @@ namespace
         integrator.step(body.system,
                         {i * end / n_steps, end / n_steps, (i + 1.) / n_steps},
                         body.state);
-        budget.update(record, body.state, (i + 1) * end / n_steps, 1.);
+        budget.account(body.state, (i + 1) * end / n_steps, end / n_steps);
+        budget.record(record, body.state, (i + 1) * end / n_steps);
         drift.momentum = std::max(drift.momentum,
                                   (record.momentum - start.momentum).norm() /
                                     start.momentum.norm());

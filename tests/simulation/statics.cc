@@ -210,7 +210,8 @@ TEST(Statics, Reactions)
         Budget budget(body.system, body.discretization, body.state, 0., 0.);
         solve_static(body);
         StepRecord record;
-        budget.update(record, body.state, 1., 1.);
+        budget.account(body.state, 1., 1.);
+        budget.record(record, body.state, 1.);
         // Equilibrium holds to Newton's tolerance.
         EXPECT_LE((record.reaction + Tensor<1, 3>({1., 2., -3.})).norm(), 1e-10)
           << record.reaction;
@@ -241,7 +242,8 @@ TEST(Statics, PrescribedStretch)
   Budget budget(body.system, body.discretization, body.state, 0., 0.);
   solve_static(body);
   StepRecord record;
-  budget.update(record, body.state, 1., 1.);
+  budget.account(body.state, 1., 1.);
+  budget.record(record, body.state, 1.);
   EXPECT_NEAR(record.elastic_energy, 0.5 * 1000 * 0.1 * 0.1 * 2, 1e-7);
   EXPECT_NEAR(record.external_work, record.elastic_energy, 1e-7);
   EXPECT_NEAR(record.volume, 2.2, 1e-7);

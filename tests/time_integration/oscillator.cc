@@ -5,7 +5,11 @@
 // solution: measured orders, energy, numerical dissipation, prescribed motion.
 
 #include <corotet/time_integration/backward_euler.h>
+#include <corotet/time_integration/bdf2.h>
+#include <corotet/time_integration/central_difference.h>
 #include <corotet/time_integration/generalized_alpha.h>
+#include <corotet/time_integration/hht_alpha.h>
+#include <corotet/time_integration/implicit_midpoint.h>
 #include <corotet/time_integration/load_stepping.h>
 #include <corotet/time_integration/newmark.h>
 #include <corotet/time_integration/time_integrators.h>
@@ -42,11 +46,17 @@ namespace
       return {1, 0};
     }
 
-    void
-    solve_acceleration(State &s, const double time) override
+    StageReport
+    solve_acceleration(State       &s,
+                       const double time,
+                       const double velocity_factor = 0) override
     {
-      s.a.local_element(0) =
-        (load(time) - c * s.v.local_element(0) - k * s.u.local_element(0)) / m;
+      const double a =
+        (load(time) - c * s.v.local_element(0) - k * s.u.local_element(0)) /
+        (m + velocity_factor * c);
+      s.a.local_element(0) = a;
+      s.v.local_element(0) += velocity_factor * a;
+      return {};
     }
 
     double
@@ -119,6 +129,18 @@ TEST(Oscillator, Orders)
       generalized_alpha.spectral_radius = rho;
       EXPECT_NEAR(measured_order(generalized_alpha), 2, 0.1) << rho;
     }
+  for (const double alpha : {0., -0.1, -1. / 3})
+    {
+      HHTAlpha hht_alpha;
+      hht_alpha.alpha = alpha;
+      EXPECT_NEAR(measured_order(hht_alpha), 2, 0.1) << alpha;
+    }
+  BDF2 bdf2;
+  EXPECT_NEAR(measured_order(bdf2), 2, 0.1);
+  ImplicitMidpoint midpoint;
+  EXPECT_NEAR(measured_order(midpoint), 2, 0.1);
+  CentralDifference central_difference;
+  EXPECT_NEAR(measured_order(central_difference), 2, 0.1);
 }
 
 // Whatever the list has: dynamic integrators are at least of first order.
@@ -134,8 +156,8 @@ TEST(Oscillator, EveryIntegratorConverges)
     }
 }
 
-// Without loads and damping the trapezoidal rule and generalized-alpha with
-// spectral radius 1 keep m v^2 + k u^2: 10,000 steps of round-off.
+// Without loads and damping these keep m v^2 + k u^2: 10,000 steps of
+// round-off.
 TEST(Oscillator, EnergyIsKept)
 {
   const auto energy_change = [](TimeIntegrator &integrator) {
@@ -147,10 +169,127 @@ TEST(Oscillator, EnergyIsKept)
   };
   Newmark newmark;
   EXPECT_NEAR(energy_change(newmark), 0, 1e-11);
+  ImplicitMidpoint midpoint;
+  EXPECT_NEAR(energy_change(midpoint), 0, 1e-11);
+  HHTAlpha hht_alpha;
+  hht_alpha.alpha = 0;
+  EXPECT_NEAR(energy_change(hht_alpha), 0, 1e-11);
   GeneralizedAlpha generalized_alpha;
   generalized_alpha.spectral_radius = 1;
-  // It keeps energy in a norm that differs from this one by a bounded O(dt^2).
-  EXPECT_NEAR(energy_change(generalized_alpha), 0, 0.1 * 0.1);
+  EXPECT_NEAR(energy_change(generalized_alpha), 0, 1e-11);
+}
+
+// At w dt < 2 the central difference method keeps m v^2 + k u^2 - dt^2 m a^2 /
+// 4; beyond, the motion grows.
+TEST(Oscillator, CentralDifference)
+{
+  CentralDifference integrator;
+  Oscillator        system; // of angular frequency 2
+  EXPECT_NEAR(integrator.stable_step(2., 0.), 1, 1e-15);
+  const auto energy = [&](const State &s, const double dt) {
+    const double u = s.u.local_element(0), v = s.v.local_element(0),
+                 a = s.a.local_element(0);
+    return system.m * v * v + system.k * u * u -
+           0.25 * dt * dt * system.m * a * a;
+  };
+  const State start = initial_state(system, 1., 2.);
+  for (const double dt : {0.1, 0.9, 0.99})
+    {
+      const State end = integrate(integrator, system, start, 10000 * dt, 10000);
+      // In this norm an error of u counts 1 / (1 - (w dt / 2)^2), 50, times.
+      EXPECT_NEAR(energy(end, dt) / energy(start, dt), 1, 1e-9) << dt;
+    }
+  const State grown = integrate(integrator, system, start, 1000 * 1.01, 1000);
+  EXPECT_GT(std::abs(grown.u.local_element(0)), 1e3);
+}
+
+// Damping by mass, c = alpha m, is centred: the motion decays with second
+// order, and stability does not suffer.
+TEST(Oscillator, CentralDifferenceWithDamping)
+{
+  CentralDifference integrator;
+  Oscillator        system;
+  system.c         = 0.4 * system.m;
+  const double end = 2;
+  const double w   = std::sqrt(4 - 0.04);
+  const double exact =
+    std::exp(-0.2 * end) * (std::cos(w * end) + 0.2 / w * std::sin(w * end));
+  double error[2];
+  for (const unsigned int i : {0, 1})
+    error[i] = std::abs(
+      integrate(
+        integrator, system, initial_state(system, 1., 0.), end, 500 << i)
+        .u.local_element(0) -
+      exact);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 2, 0.1);
+  const State s = integrate(
+    integrator, system, initial_state(system, 1., 0.), 0.99 * 1000, 1000);
+  EXPECT_LE(std::abs(s.u.local_element(0)), 1e-10);
+}
+
+// Steps of changing length: BDF2 takes their ratio into account, also when a
+// step is tried again with another length.
+TEST(Oscillator, BDF2WithUnequalSteps)
+{
+  double error[2];
+  for (const unsigned int i : {0, 1})
+    {
+      const unsigned int n = 200 << i;
+      BDF2               integrator;
+      Oscillator         system;
+      State              state = initial_state(system, 1., 0.);
+      double             time  = 0;
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          // Of 2 / 3 and 4 / 3 of the mean.
+          const double dt = 2. / n * (k % 2 == 0 ? 2. / 3 : 4. / 3);
+          State        trial(state);
+          integrator.step(system, {time, 1.7 * dt, 1.}, trial);
+          integrator.step(system, {time, dt, 1.}, state);
+          time += dt;
+        }
+      error[i] = std::abs(state.u.local_element(0) - std::cos(2 * time));
+    }
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 2, 0.1);
+}
+
+// The estimate of the local error of u: that of a step with the acceleration
+// that the method has at its start. Exact motion on both sides.
+TEST(Oscillator, ErrorEstimate)
+{
+  Newmark          newmark;
+  HHTAlpha         hht_alpha;
+  GeneralizedAlpha generalized_alpha;
+  for (TimeIntegrator *integrator : std::initializer_list<TimeIntegrator *>{
+         &newmark, &hht_alpha, &generalized_alpha})
+    {
+      Oscillator   system;
+      const double dt       = 1e-3;
+      const auto   state_at = [&](const double t) {
+        return initial_state(system,
+                             std::cos(2 * t) + 0.5 * std::sin(2 * t),
+                             -2 * std::sin(2 * t) + std::cos(2 * t));
+      };
+      // a_n has its place in time after some steps.
+      const unsigned int n = 100;
+      State before = integrate(*integrator, system, state_at(0.), n * dt, n);
+      State after  = before;
+      integrator->step(system, {n * dt, dt, 1.}, after);
+      const double estimate =
+        integrator->error_constant() * dt * dt *
+        std::abs(after.a.local_element(0) - before.a.local_element(0));
+      // From the same u and v.
+      const double u = before.u.local_element(0), v = before.v.local_element(0);
+      const double exact = u * std::cos(2 * dt) + 0.5 * v * std::sin(2 * dt);
+      const double error = std::abs(after.u.local_element(0) - exact);
+      // First term of a series in dt w = 2e-3.
+      EXPECT_NEAR(estimate / error, 1, 2e-2);
+    }
+  for (const auto &candidate : time_integrators())
+    EXPECT_EQ(candidate.make()->error_constant() > 0,
+              candidate.name == "Newmark" || candidate.name == "HHT-alpha" ||
+                candidate.name == "generalized-alpha")
+      << candidate.name;
 }
 
 // Motion far too fast for the step shrinks by the spectral radius per step.

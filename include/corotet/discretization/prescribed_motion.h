@@ -17,18 +17,19 @@ namespace corotet
    * The unknowns whose displacement is prescribed, and their motion in time.
    *
    * Velocity and acceleration are the time derivatives of the expression, by
-   * central differences of fourth order with a tenth of the time step: their
-   * error is about (omega h)^4 / 30, some 1e-10 for a motion that the step
-   * resolves. (Derivatives by the integrator's own formulas would oscillate
-   * from step to step.) So an expression is also evaluated shortly before the
-   * start and after the end.
+   * central differences of fourth order with a tenth of a time scale: their
+   * error is about (omega h)^4 / 30, some 1e-10 for a motion that the time
+   * scale resolves, and round-off makes 1e-16 / (omega h)^2 of it. (Derivatives
+   * by the integrator's own formulas would oscillate from step to step.) So an
+   * expression is also evaluated shortly before the start and after the end.
    *
    * @p discretization and @p conditions must outlive this object.
    */
   class PrescribedMotion
   {
   public:
-    /// @p time_scale: the time step [s]. Collective.
+    /// @p time_scale [s]: the time step, unless that is far below what the
+    /// motion needs. Collective.
     PrescribedMotion(const Discretization     &discretization,
                      const ReferenceElement   &reference,
                      const BoundaryConditions &conditions,

@@ -49,8 +49,9 @@ namespace corotet
     std::string directory;
     bool        overwrite = false;
     /// In s; 0: a result after every step.
-    double      time_between_results = 0;
-    std::string probes;
+    double       time_between_results = 0;
+    unsigned int steps_between_rows   = 1;
+    std::string  probes;
   };
 } // namespace corotet
 

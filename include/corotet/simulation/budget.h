@@ -10,36 +10,52 @@
 namespace corotet
 {
   /**
-   * Energies, works and momenta, step by step.
+   * Energies, works and momenta, step by step, as the integrator sees them.
    *
-   * Works are sums of the mean of the forces at both ends of a step times the
-   * displacement in it: second order, and what makes the balance of the
-   * trapezoidal rule zero for linear problems. Supports work through their
-   * reactions M a + C v + f_int - f_ext.
+   * The equation of motion holds at one time in each step: at its end, in its
+   * middle, or wherever the integrator puts it. Forces are known at these
+   * times. The work of a step is that of the forces at its middle, interpolated
+   * linearly between the last two of these times: second order for every
+   * integrator, and exactly the change of energy for those that keep it (linear
+   * elasticity; implicit midpoint, trapezoidal rule, generalized-alpha with
+   * spectral radius 1, central difference). The motion of what is prescribed
+   * has velocities of its own: there, inertia and damping work along dt (v_0 +
+   * v_1) / 2, elastic forces along u_1 - u_0.
+   *
+   * Supports act by their reactions M a + C v + f_int - f_ext.
    *
    * @p system must outlive this object. Members are collective.
    */
   class Budget
   {
   public:
+    /// @p staggered_step: if not zero, the step [s] of an integrator that keeps
+    /// the kinetic energy v_-1/2 . M v_1/2 / 2 = v . M v / 2 - dt^2 a . M a / 8
+    /// with the velocities half a step before and after.
     Budget(StructuralSystem     &system,
            const Discretization &discretization,
            const State          &initial_state,
            const double          time,
-           const double          load_factor);
+           const double          load_factor,
+           const double          staggered_step = 0);
 
     /**
-     * Accounts for the step that led to @p state at @p time. Throws
-     * ComputationError, and accounts for nothing, if there the forces are not
-     * finite. The fields of the
-     * record that only the driver knows (step, dt, iterations, wall time) are
-     * left as they are.
+     * Accounts for the work of the step of length @p dt that led to @p state at
+     * @p time, with the forces of the system's last evaluation. Throws
+     * ComputationError, and accounts for nothing, if they are not finite.
      */
     void
-    update(StepRecord  &record,
-           const State &state,
-           const double time,
-           const double load_factor);
+    account(const State &state, const double time, const double dt);
+
+    /**
+     * Fills in the budget of the state that was accounted for last. Throws
+     * ComputationError if an energy is not finite. The fields of the record
+     * that only the driver knows (step, dt, iterations, wall time) are left as
+     * they are. The system is left with the displacement and rotations of
+     * @p state.
+     */
+    void
+    record(StepRecord &record, const State &state, const double time);
 
     /// The record of the initial state.
     const StepRecord &
@@ -49,26 +65,35 @@ namespace corotet
     }
 
   private:
+    /// Forces at one time, owned entries.
+    struct Forces
+    {
+      double time;
+      /// Work along the displacement: loads on free unknowns, elastic forces on
+      /// prescribed ones.
+      Vector external;
+      /// Damping, on all unknowns.
+      Vector damping;
+      /// Inertia and damping of prescribed unknowns, in their order.
+      std::vector<double> carried;
+    };
+
     void
-    evaluate(StepRecord  &record,
-             const State &state,
-             const double time,
-             const double load_factor);
+    take_forces(Forces &forces) const;
 
     StructuralSystem     &system;
     const Discretization &discretization;
-    /// Per owned node, local numbers: forces of loads and supports together,
-    /// damping forces and displacement, now and at the last call.
-    Vector     force;
-    Vector     damping;
-    Vector     displacement;
-    Vector     last_force;
-    Vector     last_damping;
-    Vector     last_displacement;
-    Vector     momentum;
-    double     work        = 0;
-    double     dissipation = 0;
-    StepRecord initial;
+    const bool            is_staggered;
+    /// Of the last step.
+    double dt;
+    Forces last, now;
+    Vector last_displacement;
+    /// Of prescribed unknowns.
+    std::vector<double> last_velocity, velocity;
+    Vector              momentum;
+    double              work        = 0;
+    double              dissipation = 0;
+    StepRecord          initial;
   };
 } // namespace corotet
 

@@ -50,6 +50,8 @@ namespace corotet
     unsigned int clamped_cells = 0;
     /// Parts that the step was made in: 1 unless it failed at first.
     unsigned int parts = 1;
+    /// Steps up to now that were too inaccurate and were repeated.
+    unsigned int rejected_steps = 0;
     /// Since the start of the run [s].
     double wall_time = 0;
 

@@ -5,8 +5,8 @@
 #define corotet_simulation_simulation_h
 
 #include <corotet/base/log.h>
-#include <corotet/simulation/budget.h>
 #include <corotet/simulation/observer.h>
+#include <corotet/simulation/stepper.h>
 #include <corotet/simulation/structural_system.h>
 
 #include <chrono>
@@ -46,37 +46,27 @@ namespace corotet
     }
 
     /**
-     * Computes all steps and shows each to the observers. If the computation
-     * fails, observers are told so before the ComputationError goes on.
+     * Computes all steps and shows observers those that @p recording names. If
+     * the computation fails, observers are told so before the ComputationError
+     * goes on.
      */
     void
-    run(const std::vector<std::unique_ptr<Observer>> &observers);
+    run(const std::vector<std::unique_ptr<Observer>> &observers,
+        const Recording                              &recording = {});
 
     /// The state after the last step.
     const State &
     state() const
     {
-      return present;
+      return stepper.state();
     }
 
   private:
     /// Records of the steps that are done, and what is left to observers.
     void
     compute(const std::vector<std::unique_ptr<Observer>> &observers,
+            const Recording                              &recording,
             StepRecord                                   &record);
-    void
-    start(StepRecord &record);
-    /// Makes the part (from, to] of the run, in [0, 1], in one step, or in two
-    /// halves if that fails, each with one halving less.
-    void
-    advance(const double       from,
-            const double       to,
-            const unsigned int halvings,
-            StepRecord        &record);
-    void
-    make_step(const double from, const double to, StepRecord &record);
-    double
-    time(const double done) const;
     void
     report_inversions(const StepRecord &record);
     /// Shows the observers the last good state, as far as they have not seen
@@ -97,18 +87,14 @@ namespace corotet
     const std::chrono::steady_clock::time_point started =
       std::chrono::steady_clock::now();
 
-    SimulationParameters   &parameters;
-    Log                    &log;
-    WallTimes               wall_times;
-    const Mesh              mesh;
-    const Discretization    disc;
-    StructuralSystem        system;
-    unsigned int            n_steps;
-    State                   present;
-    State                   before_step;
-    std::unique_ptr<Budget> budget;
-    /// Part of the run that the present state has reached.
-    double done = 0;
+    SimulationParameters &parameters;
+    Log                  &log;
+    WallTimes             wall_times;
+    const Mesh            mesh;
+    const Discretization  disc;
+    StructuralSystem      system;
+    Stepper               stepper;
+    bool                  is_started = false;
     /// Of the last report.
     unsigned int reported_inverted   = 0;
     unsigned int reported_degenerate = 0;

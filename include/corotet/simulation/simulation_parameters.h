@@ -9,6 +9,7 @@
 #include <corotet/material/material_parameters.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/operators/loads.h>
+#include <corotet/simulation/adaptive_step.h>
 #include <corotet/solvers/linear_solver.h>
 #include <corotet/solvers/newton.h>
 #include <corotet/time_integration/time_integrator.h>
@@ -46,6 +47,7 @@ namespace corotet
     double                     end_time     = 1;
     double                     time_step    = 0.01;
     unsigned int               max_halvings = 8;
+    AdaptiveStepParameters     adaptive_step;
     Newton                     newton;
     LinearSolver               linear_solver;
   };

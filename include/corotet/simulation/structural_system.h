@@ -12,6 +12,7 @@
 #include <corotet/operators/mass.h>
 #include <corotet/operators/tangent_operator.h>
 #include <corotet/simulation/simulation_parameters.h>
+#include <corotet/solvers/mass_solver.h>
 #include <corotet/solvers/newton.h>
 #include <corotet/time_integration/second_order_system.h>
 
@@ -59,17 +60,51 @@ namespace corotet
     StageReport
     solve_stage(State &state, const Stage &stage) override;
 
-    void
-    solve_acceleration(State &state, const double time) override;
+    StageReport
+    solve_acceleration(State       &state,
+                       const double time,
+                       const double velocity_factor = 0) override;
 
-    /**
-     * Evaluates all terms at a state, with the rotations of its displacement.
-     * The result is valid until the next call. Collective.
-     */
-    const Forces &
+    /// Evaluates all terms at a state, with the rotations of its displacement.
+    /// Collective.
+    void
     evaluate(const State &state, const double time, const double load_factor);
 
-    /// Displacement and velocity of the last evaluation with ghost entries.
+    /// Takes displacement, velocity and rotations from a state, no forces.
+    /// Collective.
+    void
+    set_state(const State &state);
+
+    /**
+     * The terms of the last evaluation: after a step, those for which the
+     * equation of motion holds (for linearly implicit steps, up to the error of
+     * the linearization).
+     */
+    const Forces &
+    last_forces() const
+    {
+      return forces;
+    }
+
+    /// When that was [s].
+    double
+    last_time() const
+    {
+      return forces_time;
+    }
+
+    /// Upper bound, by up to one percent, of the largest angular frequency of
+    /// M^-1 K at @p state [rad/s]. Collective.
+    double
+    largest_frequency(const State &state);
+
+    /// Root mean square of a vector field over the body, weighted by mass.
+    /// Collective.
+    double
+    mean_size(const Vector &field) const;
+
+    /// Displacement and velocity of the last evaluation, or of the last
+    /// set_state(), with ghost entries.
     const Vector &
     displacement() const
     {
@@ -132,6 +167,10 @@ namespace corotet
 
     void
     make_operators();
+    /// f = K v with the rotations that the material has, at the last
+    /// displacement.
+    void
+    apply_rotated_stiffness(Vector &f, const Vector &v);
 
     const Discretization &discretization;
     SimulationParameters &parameters;
@@ -144,6 +183,7 @@ namespace corotet
     Elasticity               elastic;
     Loads                    loads;
     const PrescribedMotion   motion;
+    const MassSolver         mass_solver;
     const Tangent            wanted_tangent;
     Tangent                  tangent;
 
@@ -161,10 +201,14 @@ namespace corotet
     unsigned int clamped_cells = 0;
 
     Forces forces;
+    double forces_time = 0;
     Vector u_ghosted;
     Vector v_ghosted;
     Vector a_ghosted;
     Vector positions;
+    double mass_diagonal_sum = 0;
+    /// Work space of solve_acceleration().
+    Vector free_residual, free_acceleration;
   };
 } // namespace corotet
 

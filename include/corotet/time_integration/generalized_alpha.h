@@ -28,9 +28,18 @@ namespace corotet
          const TimeStep    &step,
          State             &state) override;
 
+    double
+    error_constant() const override
+    {
+      return family.error_constant(coefficients());
+    }
+
     double spectral_radius = 0.8;
 
   private:
+    NewmarkFamily::Coefficients
+    coefficients() const;
+
     NewmarkFamily family;
   };
 } // namespace corotet

@@ -25,10 +25,22 @@ namespace corotet
          const TimeStep    &step,
          State             &state) override;
 
+    double
+    error_constant() const override
+    {
+      return family.error_constant(coefficients());
+    }
+
     double beta  = 0.25;
     double gamma = 0.5;
 
   private:
+    NewmarkFamily::Coefficients
+    coefficients() const
+    {
+      return {beta, gamma, 0., 0.};
+    }
+
     NewmarkFamily family;
   };
 } // namespace corotet

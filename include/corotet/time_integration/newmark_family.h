@@ -29,6 +29,13 @@ namespace corotet
       double alpha_f;
     };
 
+    /// C in the local error C dt^2 |a_1 - a_0| of the displacement: a_n is the
+    /// acceleration at t_n + (alpha_m - alpha_f) dt [Zienkiewicz and Xie, A
+    /// simple error estimator and adaptive time stepping procedure for dynamic
+    /// analysis, 1991, for alpha_m = alpha_f = 0].
+    static double
+    error_constant(const Coefficients &coefficients);
+
     StageReport
     step(SecondOrderSystem  &system,
          const TimeStep     &step,
@@ -38,6 +45,8 @@ namespace corotet
   private:
     /// The state at the intermediate times.
     State stage;
+    /// At the end: of the guess, and as prescribed.
+    Vector end_acceleration;
   };
 } // namespace corotet
 

@@ -72,10 +72,17 @@ namespace corotet
     virtual StageReport
     solve_stage(State &state, const Stage &stage) = 0;
 
-    /// Sets a of @p state such that the equation holds at @p time with its u
-    /// and v. Prescribed entries of a do not change.
-    virtual void
-    solve_acceleration(State &state, const double time) = 0;
+    /**
+     * Sets a of @p state such that the equation holds at @p time with its u,
+     * and adds @p velocity_factor times a to v, both but for prescribed
+     * entries. Damping is that of the v that comes in; of damping that is
+     * proportional to the mass, that of the v that goes out. Throws
+     * ComputationError.
+     */
+    virtual StageReport
+    solve_acceleration(State       &state,
+                       const double time,
+                       const double velocity_factor = 0) = 0;
   };
 } // namespace corotet
 

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <limits>
+
 namespace corotet
 {
   /**
@@ -19,6 +21,19 @@ namespace corotet
     double dt;
     /// Part of the whole run that is done after this step, in (0, 1].
     double done;
+  };
+
+  /**
+   * What a method that is stable for short steps only does about that.
+   */
+  struct StabilityControl
+  {
+    /// Part of the stable step that is taken if the step is not given.
+    double safety_factor = 0.9;
+    /// After so many steps the stable step is estimated anew.
+    unsigned int steps_between_estimates = 1000;
+    /// Whether steps above the stable one are refused.
+    bool refuse = true;
   };
 
   /**
@@ -52,6 +67,38 @@ namespace corotet
     load_factor(const double /*done*/) const
     {
       return 1;
+    }
+
+    /// Null if the method is stable for steps of any length, on linear
+    /// problems.
+    virtual const StabilityControl *
+    stability() const
+    {
+      return nullptr;
+    }
+
+    /// Longest stable step [s] for the largest angular frequency @p omega
+    /// [rad/s] with stiffness-proportional damping @p alpha_K [s].
+    virtual double
+    stable_step(const double /*omega*/, const double /*alpha_K*/) const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
+    /// Whether the kinetic energy that the method keeps is that of velocities
+    /// half a step before and after.
+    virtual bool
+    is_staggered() const
+    {
+      return false;
+    }
+
+    /// C in the local error C dt^2 |a_1 - a_0| of the displacement; 0 if the
+    /// method has no such estimate.
+    virtual double
+    error_constant() const
+    {
+      return 0;
     }
 
     /// Number of equal steps for a run of @p duration when the parameters ask

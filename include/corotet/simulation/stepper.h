@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_stepper_h
+#define corotet_simulation_stepper_h
+
+#include <corotet/base/log.h>
+#include <corotet/simulation/adaptive_step.h>
+#include <corotet/simulation/budget.h>
+#include <corotet/simulation/structural_system.h>
+
+#include <memory>
+
+namespace corotet
+{
+  /**
+   * Which steps are shown to observers, beside the last one.
+   */
+  struct Recording
+  {
+    /// Every so many steps.
+    unsigned int steps_between_rows = 1;
+    /// And those that reach a multiple of this time [s], if it is not zero.
+    /// Where the run chooses the length of its steps they end there exactly.
+    double time_between_results = 0;
+  };
+
+  /**
+   * Moves the body from step to step, from the start time to the end time:
+   * in equal steps, by their error, or by stability, as the parameters say.
+   * Steps that fail are made in halves.
+   *
+   * The arguments of the constructor must outlive this object. Members are
+   * collective.
+   */
+  class Stepper
+  {
+  public:
+    /// Throws InputError.
+    Stepper(SimulationParameters &parameters,
+            const Discretization &discretization,
+            StructuralSystem     &system,
+            Log                  &log);
+
+    /// Makes the initial state complete. Returns its record.
+    const StepRecord &
+    start(const Recording &recording);
+
+    /**
+     * Goes on to the next step that is to be recorded. @p record, that of the
+     * last one, becomes its record, but for the wall time. Throws
+     * ComputationError; then record, state and time are the last good ones.
+     */
+    void
+    next(StepRecord &record);
+
+    bool
+    is_done() const
+    {
+      return done == 1;
+    }
+
+    /// Whether the last record is that of a part of a step that then failed.
+    bool
+    has_partial_step() const
+    {
+      return is_partial;
+    }
+
+    /// Of the state [s].
+    double
+    time() const
+    {
+      return time(done);
+    }
+
+    const State &
+    state() const
+    {
+      return present;
+    }
+
+  private:
+    /// Throw InputError.
+    void
+    check_parameters() const;
+    void
+    choose_step();
+    /// Estimates the stable step and takes it, or compares the given one.
+    void
+    follow_stable_step();
+
+    /// Time when that part of the run, in [0, 1], is done.
+    double
+    time(const double part) const;
+    /// Part of the run that is done after the next step.
+    double
+    end_of_step(const unsigned int step) const;
+    /// Whether the last step is to be recorded.
+    bool
+    is_recorded(const unsigned int step) const;
+
+    /// Makes the part (from, to] of the run in one step, or in two halves if
+    /// that fails, each with one halving less.
+    void
+    advance(const double       from,
+            const double       to,
+            const unsigned int halvings,
+            StepRecord        &record);
+    /// Makes a step as long as its error allows.
+    void
+    advance_adaptively(StepRecord &record);
+    void
+    advance_explicitly(StepRecord &record);
+
+    /// One step, without any account of it.
+    void
+    integrate(const double from, const double to, StepRecord &record);
+    /// Accounts for the step that integrate() has made.
+    void
+    account(const double from, const double to, StepRecord &record);
+    /// Fills in the record of the present state.
+    void
+    complete(StepRecord &record);
+    /// Throws ComputationError if energy has come out of nothing.
+    void
+    check_growth(const StepRecord &record);
+
+    SimulationParameters   &parameters;
+    const Discretization   &discretization;
+    StructuralSystem       &system;
+    Log                    &log;
+    TimeIntegrator         &integrator;
+    Recording               recording;
+    State                   present;
+    std::unique_ptr<Budget> budget;
+    /// Parts of the run that the present state has reached, and that the last
+    /// step started from.
+    double done = 0;
+    double from = 0;
+
+    /// To return to when a step fails: the state before it, or with explicit
+    /// methods, whose steps are many and cheap, that of the last record.
+    State  good_state;
+    double good_done = 0;
+
+    /// Number of equal steps; 0 if the run chooses their length.
+    unsigned int n_steps = 0;
+    /// Of the equal steps, or what stability allows [s].
+    double step_length = 0;
+    /// Null if the length of steps does not follow their error.
+    std::unique_ptr<AdaptiveStep> adaptive;
+    Vector                        acceleration_change;
+
+    bool is_partial = false;
+    /// Largest energy that went into the body [J].
+    double energy_supply = 0;
+  };
+} // namespace corotet
+
+#endif

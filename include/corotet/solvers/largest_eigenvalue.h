@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_largest_eigenvalue_h
+#define corotet_solvers_largest_eigenvalue_h
+
+#include <corotet/base/vector.h>
+
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The generalized eigenvalue problem K x = lambda M x with symmetric K and
+   * positive definite M, by what they do to a vector: first argument is the
+   * result, complete on owned entries. All collective.
+   */
+  struct SymmetricPencil
+  {
+    using Operator = std::function<void(Vector &, const Vector &)>;
+
+    Operator stiffness;
+    Operator mass;
+    Operator inverse_mass;
+  };
+
+  /**
+   * Upper bound of the largest eigenvalue, by the Lanczos method in the inner
+   * product of M: the largest Ritz value theta plus its residual norm, as soon
+   * as that is below @p tolerance theta [Parlett, The symmetric eigenvalue
+   * problem, 1998, theorem 4.5.1 and section 13.2]. @p start needs a part in
+   * the direction of the eigenvector; it comes out changed. Throws
+   * ComputationError if there is no convergence or a number is not finite.
+   * Collective.
+   */
+  double
+  largest_eigenvalue(const SymmetricPencil &pencil,
+                     Vector                &start,
+                     const double           tolerance);
+
+  /// The largest eigenvalue of the symmetric tridiagonal matrix with these
+  /// entries, and the absolute value of the last entry of its unit eigenvector.
+  std::pair<double, double>
+  largest_of_tridiagonal(const std::vector<double> &diagonal,
+                         const std::vector<double> &beside);
+
+  /// Owned entries without a pattern, in [-1/2, 1/2], the same in every run and
+  /// on any number of ranks that numbers unknowns alike.
+  template <typename T>
+  void
+  set_without_pattern(dealii::LinearAlgebra::distributed::Vector<T> &x)
+  {
+    const auto first = x.get_partitioner()->local_range().first;
+    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+      {
+        const double s = std::sin(12.9898 * (first + i) + 78.233) * 43758.5453;
+        x.local_element(i) = s - std::floor(s) - 0.5;
+      }
+  }
+} // namespace corotet
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_mass_solver_h
+#define corotet_solvers_mass_solver_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/prescribed_motion.h>
+#include <corotet/operators/mass.h>
+
+#include <deal.II/lac/diagonal_matrix.h>
+
+namespace corotet
+{
+  /**
+   * Solves M a = r for the unknowns that are not prescribed. A division if the
+   * mass is lumped; else conjugate gradients with the diagonal as
+   * preconditioner: the scaled mass matrix is well conditioned, with bounds
+   * that depend on the degree only [Wathen, Realistic eigenvalue bounds for the
+   * Galerkin mass matrix, 1987], so the number of iterations does not grow with
+   * the mesh.
+   *
+   * The arguments of the constructor must outlive this object.
+   */
+  class MassSolver
+  {
+  public:
+    MassSolver(const Discretization   &discretization,
+               const Mass             &mass,
+               const PrescribedMotion &motion);
+
+    /// Prescribed entries of @p a come out as zero, those of @p r must be zero.
+    /// If r is not finite, neither is a. Returns the number of iterations.
+    /// Throws ComputationError if the residual does not fall to 1e-13 of r.
+    /// Collective.
+    unsigned int
+    solve(Vector &a, const Vector &r) const;
+
+    /// dst = M src for the free unknowns. Collective.
+    void
+    vmult(Vector &dst, const Vector &src) const;
+
+  private:
+    const Mass             &mass;
+    const PrescribedMotion &motion;
+    /// 1 / M_ii, zero where prescribed.
+    dealii::DiagonalMatrix<Vector> inverse_diagonal;
+    mutable Vector                 ghosted;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/simulation/adaptive_step.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corotet
+{
+  void
+  AdaptiveStepParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using dealii::Patterns::Double;
+    prm.add_parameter("Enabled",
+                      enabled,
+                      "Whether the length of steps follows the error that they "
+                      "make, with Newmark, HHT-alpha and generalized-alpha. "
+                      "Steps end at all multiples of 'Output/Time between "
+                      "results'.");
+    prm.add_parameter(
+      "Target error",
+      target_error,
+      "Error of the displacement that a step may make, relative "
+      "to the largest displacement so far, both as root mean "
+      "squares over the body [-]. A step that makes more is "
+      "repeated with a shorter one.",
+      Double(1e-15, 1));
+    prm.add_parameter("Smallest step",
+                      smallest_step,
+                      "In s. A step of this length is taken whatever error it "
+                      "makes. 0: a millionth of 'Time step'.",
+                      Double(0));
+    prm.add_parameter("Largest step",
+                      largest_step,
+                      "In s. 0: no limit.",
+                      Double(0));
+  }
+
+  void
+  AdaptiveStepParameters::check() const
+  {
+    if (largest_step > 0 && smallest_step > largest_step)
+      throw InputError("Time integration/Adaptive step/Smallest step",
+                       fmt::format("found {}; allowed: at most the largest "
+                                   "step, {}",
+                                   smallest_step,
+                                   largest_step));
+  }
+
+  AdaptiveStep::AdaptiveStep(const AdaptiveStepParameters &parameters,
+                             const double                  first_step)
+    : parameters(parameters)
+  {
+    smallest = parameters.smallest_step > 0 ? parameters.smallest_step :
+                                              1e-6 * first_step;
+    largest  = parameters.largest_step > 0 ?
+                 parameters.largest_step :
+                 std::numeric_limits<double>::infinity();
+    set_length(first_step);
+  }
+
+  void
+  AdaptiveStep::set_length(const double wanted)
+  {
+    dt = std::clamp(wanted, smallest, largest);
+  }
+
+  bool
+  AdaptiveStep::accept(const double taken,
+                       const double error,
+                       const double size)
+  {
+    // What the step would have to be for the target, with a margin.
+    const double scale  = std::max(largest_size, size);
+    const double ratio  = error > 0 ? parameters.target_error * scale / error :
+                                      std::numeric_limits<double>::infinity();
+    const double factor = std::clamp(0.9 * std::cbrt(ratio), 0.2, 2.);
+    if (ratio < 1 && taken > smallest * (1 + 1e-12))
+      {
+        ++rejected;
+        set_length(factor * taken);
+        return false;
+      }
+    if (ratio < 1)
+      ++too_inaccurate;
+    largest_size = scale;
+    // A step that was shortened to end at a result says nothing against the
+    // length that was planned. Growth of a few percent is not worth a new
+    // preconditioner.
+    if (factor < 0.95)
+      set_length(factor * taken);
+    else if (factor > 1.2)
+      set_length(std::max(factor * taken, dt));
+    return true;
+  }
+
+  bool
+  AdaptiveStep::reduce(const double taken)
+  {
+    if (taken <= smallest * (1 + 1e-12))
+      return false;
+    ++rejected;
+    set_length(0.5 * taken);
+    return true;
+  }
+} // namespace corotet

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/simulation/stepper.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace corotet
+{
+  Stepper::Stepper(SimulationParameters &parameters,
+                   const Discretization &discretization,
+                   StructuralSystem     &system,
+                   Log                  &log)
+    : parameters(parameters)
+    , discretization(discretization)
+    , system(system)
+    , log(log)
+    , integrator(parameters.time_integrator.selected())
+  {
+    check_parameters();
+
+    // Boundaries that disagree show themselves before the run starts.
+    system.initialize(present);
+    for (const double part : {0.5, 1., 0.})
+      system.prescribe(present, time(part), 1.);
+    choose_step();
+  }
+
+  void
+  Stepper::check_parameters() const
+  {
+    const std::string section = "Time integration/";
+    if (!(parameters.end_time > parameters.start_time))
+      throw InputError(section + "End time",
+                       fmt::format("found {}; allowed: a time after the start "
+                                   "time {}",
+                                   parameters.end_time,
+                                   parameters.start_time));
+    if (parameters.newton.linearly_implicit && !integrator.is_dynamic())
+      throw InputError("Newton/Linearly implicit",
+                       "found true; allowed with Time integration/Type = "
+                       "static: false, as nothing would correct the error of "
+                       "a load step");
+    if (parameters.time_step == 0 && integrator.is_dynamic() &&
+        !integrator.stability())
+      throw InputError(section + "Time step",
+                       "found 0; allowed: a positive number (0, the program's "
+                       "choice, with Type = central difference)");
+    parameters.adaptive_step.check();
+    if (parameters.adaptive_step.enabled && integrator.error_constant() == 0)
+      throw InputError(section + "Adaptive step/Enabled",
+                       "found true; allowed with Type = Newmark (beta other "
+                       "than 1/6), HHT-alpha and generalized-alpha, which "
+                       "estimate their error");
+  }
+
+  void
+  Stepper::choose_step()
+  {
+    const double duration = parameters.end_time - parameters.start_time;
+    if (parameters.adaptive_step.enabled)
+      {
+        adaptive = std::make_unique<AdaptiveStep>(parameters.adaptive_step,
+                                                  parameters.time_step);
+        discretization.initialize_vector(acceleration_change);
+      }
+    else if (parameters.time_step > 0)
+      {
+        n_steps     = integrator.n_steps(duration, parameters.time_step);
+        step_length = duration / n_steps;
+      }
+    if (!integrator.stability())
+      return;
+    try
+      {
+        follow_stable_step();
+      }
+    catch (const ComputationError &error)
+      {
+        throw InputError("Time integration/Time step", error.what());
+      }
+  }
+
+  void
+  Stepper::follow_stable_step()
+  {
+    const StabilityControl &control = *integrator.stability();
+    const double            stable =
+      integrator.stable_step(system.largest_frequency(present),
+                             parameters.damping_stiffness);
+    if (n_steps == 0)
+      {
+        step_length = control.safety_factor * stable;
+        if (done == 0)
+          log.line(fmt::format("Stable step: {:.6g} s; steps of {:.6g} s",
+                               stable,
+                               step_length));
+        return;
+      }
+    if (step_length <= stable)
+      return;
+    const std::string text = fmt::format(
+      "found a step of {:.6g} s at t = {:.6g}, which is unstable; allowed: up "
+      "to the stable step, {:.6g} s{}, or 0 for the program's choice",
+      step_length,
+      time(done),
+      stable,
+      done == 0 ? "" : " now that the body has deformed");
+    if (control.refuse)
+      throw ComputationError(text);
+    log.warning(text);
+  }
+
+  double
+  Stepper::time(const double part) const
+  {
+    // Not a sum of steps: no round-off accumulates.
+    return parameters.start_time +
+           part * (parameters.end_time - parameters.start_time);
+  }
+
+  double
+  Stepper::end_of_step(const unsigned int step) const
+  {
+    if (n_steps > 0)
+      return static_cast<double>(step) / n_steps;
+
+    const double duration = parameters.end_time - parameters.start_time;
+    const double interval = recording.time_between_results;
+    const double now      = time(done);
+    // A multiple that is reached but for round-off is reached.
+    const double target =
+      interval > 0 ?
+        std::min((std::floor(now / interval + 1e-6) + 1) * interval,
+                 parameters.end_time) :
+        parameters.end_time;
+    const double end = target >= parameters.end_time - 1e-6 * interval ?
+                         1. :
+                         (target - parameters.start_time) / duration;
+    const double dt  = adaptive ? adaptive->length() : step_length;
+    const double n   = std::ceil((end - done) * duration / dt * (1 - 1e-10));
+    if (n <= 1)
+      return end;
+    // Steps of stability are all equal; those of an error keep their length,
+    // and none is left over that is very short.
+    return adaptive && n > 2 ? done + dt / duration : done + (end - done) / n;
+  }
+
+  bool
+  Stepper::is_recorded(const unsigned int step) const
+  {
+    const double interval = recording.time_between_results;
+    const auto   results  = [&](const double part) {
+      return std::floor(time(part) / interval + 1e-6);
+    };
+    return step % recording.steps_between_rows == 0 || done == 1 ||
+           (interval > 0 && results(done) > results(from));
+  }
+
+  const StepRecord &
+  Stepper::start(const Recording &wanted)
+  {
+    recording               = wanted;
+    const double start_time = parameters.start_time;
+    if (integrator.is_dynamic())
+      {
+        system.prescribe(present, start_time, 1.);
+        const StageReport report =
+          system.solve_acceleration(present, start_time);
+        if (integrator.stability() && !system.mass().is_lumped())
+          log.line(fmt::format("Consistent mass: {} iterations of conjugate "
+                               "gradients a step; a lumped mass needs none",
+                               report.linear_iterations));
+        if (!std::isfinite(system.mean_size(present.a)))
+          throw ComputationError("the forces at the start are not finite");
+      }
+    else
+      present.v = 0;
+    budget =
+      std::make_unique<Budget>(system,
+                               discretization,
+                               present,
+                               start_time,
+                               integrator.load_factor(0.),
+                               integrator.is_staggered() ?
+                                 end_of_step(1) * (parameters.end_time -
+                                                   parameters.start_time) :
+                                 0.);
+    const StepRecord &record = budget->initial_record();
+    energy_supply            = record.kinetic_energy + record.elastic_energy;
+    good_state               = present;
+    return record;
+  }
+
+  void
+  Stepper::next(StepRecord &record)
+  {
+    StepRecord next = record;
+    do
+      {
+        ++next.step;
+        next.dt                = 0;
+        next.parts             = 0;
+        next.newton_iterations = 0;
+        next.linear_iterations = 0;
+        from                   = done;
+        try
+          {
+            if (integrator.stability())
+              advance_explicitly(next);
+            else if (adaptive)
+              advance_adaptively(next);
+            else
+              advance(done,
+                      end_of_step(next.step),
+                      parameters.max_halvings,
+                      next);
+          }
+        catch (const ComputationError &)
+          {
+            if (integrator.stability())
+              {
+                present = good_state;
+                done    = good_done;
+              }
+            else if (next.parts > 0)
+              {
+                // Part of the step is done: what is saved has its record.
+                record     = next;
+                is_partial = true;
+              }
+            throw;
+          }
+      }
+    while (!is_recorded(next.step));
+    record = next;
+    if (record.parts > 1)
+      log.line(
+        fmt::format("step {}: made in {} parts", record.step, record.parts));
+    if (is_done() && adaptive)
+      log.line(fmt::format(
+        "Adaptive step: {} steps were too inaccurate and repeated, {} were too "
+        "inaccurate with the smallest step",
+        adaptive->n_rejected(),
+        adaptive->n_too_inaccurate()));
+  }
+
+  void
+  Stepper::advance_explicitly(StepRecord &record)
+  {
+    const double to = end_of_step(record.step);
+    integrate(done, to, record);
+    account(done, to, record);
+    if (is_recorded(record.step))
+      {
+        complete(record);
+        check_growth(record);
+        good_state = present;
+        good_done  = done;
+      }
+    if (record.step % integrator.stability()->steps_between_estimates == 0)
+      follow_stable_step();
+  }
+
+  void
+  Stepper::advance(const double       from,
+                   const double       to,
+                   const unsigned int halvings,
+                   StepRecord        &record)
+  {
+    good_state = present;
+    try
+      {
+        integrate(from, to, record);
+        account(from, to, record);
+        complete(record);
+        return;
+      }
+    catch (const ComputationError &error)
+      {
+        present = good_state;
+        if (halvings == 0)
+          {
+            if (parameters.max_halvings == 0)
+              throw;
+            throw ComputationError(
+              fmt::format("{}; the step has been halved {} times",
+                          error.what(),
+                          parameters.max_halvings));
+          }
+        log.line(fmt::format("t = {:.6g}: {}; trying half the step",
+                             time(to),
+                             error.what()));
+      }
+    const double middle = 0.5 * (from + to);
+    advance(from, middle, halvings - 1, record);
+    advance(middle, to, halvings - 1, record);
+  }
+
+  void
+  Stepper::advance_adaptively(StepRecord &record)
+  {
+    const double from     = done;
+    const double duration = parameters.end_time - parameters.start_time;
+    good_state            = present;
+    for (;;)
+      {
+        const double to = end_of_step(record.step);
+        const double dt = (to - from) * duration;
+        try
+          {
+            integrate(from, to, record);
+            acceleration_change = present.a;
+            acceleration_change -= good_state.a;
+            const double error = integrator.error_constant() * dt * dt *
+                                 system.mean_size(acceleration_change);
+            if (adaptive->accept(dt, error, system.mean_size(present.u)))
+              {
+                account(from, to, record);
+                complete(record);
+                record.rejected_steps = adaptive->n_rejected();
+                return;
+              }
+          }
+        catch (const ComputationError &error)
+          {
+            if (!adaptive->reduce(dt))
+              {
+                present = good_state;
+                throw;
+              }
+            log.line(fmt::format("t = {:.6g}: {}; trying half the step",
+                                 time(to),
+                                 error.what()));
+          }
+        present = good_state;
+      }
+  }
+
+  void
+  Stepper::integrate(const double from, const double to, StepRecord &record)
+  {
+    const StageReport report =
+      integrator.step(system,
+                      {time(from),
+                       (to - from) *
+                         (parameters.end_time - parameters.start_time),
+                       to},
+                      present);
+    record.newton_iterations += report.newton_iterations;
+    record.linear_iterations += report.linear_iterations;
+  }
+
+  void
+  Stepper::account(const double from, const double to, StepRecord &record)
+  {
+    const double dt =
+      (to - from) * (parameters.end_time - parameters.start_time);
+    budget->account(present, time(to), dt);
+    done = to;
+    record.dt += dt;
+    ++record.parts;
+  }
+
+  void
+  Stepper::complete(StepRecord &record)
+  {
+    budget->record(record, present, time(done));
+    record.clamped_cells = system.take_clamped_cells();
+  }
+
+  void
+  Stepper::check_growth(const StepRecord &record)
+  {
+    // Far more than the errors of a stable step may make of what was put in.
+    constexpr double factor = 100;
+    energy_supply           = std::max({energy_supply,
+                                        std::abs(record.external_work),
+                                        record.dissipated_energy});
+    if (record.kinetic_energy + record.elastic_energy > factor * energy_supply)
+      throw ComputationError(fmt::format(
+        "the motion is unstable: the energy is {:.3g} J, and {:.3g} "
+        "J have been put in; the time step is too long",
+        record.kinetic_energy + record.elastic_energy,
+        energy_supply));
+  }
+} // namespace corotet

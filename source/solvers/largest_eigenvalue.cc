@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/solvers/largest_eigenvalue.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  std::pair<double, double>
+  largest_of_tridiagonal(const std::vector<double> &diagonal,
+                         const std::vector<double> &beside)
+  {
+    const unsigned int               n = diagonal.size();
+    dealii::LAPACKFullMatrix<double> T(n);
+    double                           norm = 0;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        T(k, k) = diagonal[k];
+        norm += std::abs(diagonal[k]);
+        if (k + 1 < n)
+          {
+            T(k, k + 1) = T(k + 1, k) = beside[k];
+            norm += 2 * beside[k];
+          }
+      }
+    dealii::Vector<double>     eigenvalues;
+    dealii::FullMatrix<double> eigenvectors;
+    T.compute_eigenvalues_symmetric(
+      -norm, norm, 1e-6 * norm, eigenvalues, eigenvectors);
+    // In ascending order.
+    return {eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
+  }
+
+  double
+  largest_eigenvalue(const SymmetricPencil &pencil,
+                     Vector                &start,
+                     const double           tolerance)
+  {
+    // Some 30 steps are enough for a hundredth.
+    constexpr unsigned int max_steps = 300;
+    // The small eigenvalue problem is not solved after every step.
+    constexpr unsigned int steps_between_checks = 4;
+
+    Vector    &v = start;
+    Vector     previous(v), w(v), z(v);
+    const auto scale = [&](Vector &x) {
+      pencil.mass(z, x);
+      const double norm = std::sqrt(std::max(x * z, 0.));
+      if (!std::isfinite(norm))
+        throw ComputationError(
+          "the largest eigenvalue: a vector is not finite");
+      if (norm > 0)
+        x *= 1 / norm;
+      return norm;
+    };
+    scale(v);
+    previous = 0;
+
+    std::vector<double> alphas, betas;
+    double              beta = 0;
+    for (unsigned int k = 0; k < max_steps; ++k)
+      {
+        pencil.stiffness(z, v);
+        const double alpha = v * z;
+        alphas.push_back(alpha);
+        pencil.inverse_mass(w, z);
+        w.add(-alpha, v, -beta, previous);
+        beta = scale(w);
+        // A space of no more dimensions: the mesh has few free unknowns.
+        const bool is_exhausted = beta <= 1e-10 * std::abs(alpha);
+        if (is_exhausted || (k + 1) % steps_between_checks == 0)
+          {
+            const auto [theta, last] = largest_of_tridiagonal(alphas, betas);
+            if (is_exhausted || beta * last <= tolerance * theta)
+              return theta + beta * last;
+          }
+        betas.push_back(beta);
+        previous.swap(v);
+        v.swap(w);
+      }
+    throw ComputationError("the largest eigenvalue did not converge");
+  }
+} // namespace corotet

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/time_integration/central_difference.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  void
+  CentralDifference::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Safety factor",
+                      control.safety_factor,
+                      "Part of the stable step that is taken if 'Time step' is "
+                      "0 [-].",
+                      dealii::Patterns::Double(0.01, 1));
+    prm.add_parameter(
+      "Steps between estimates",
+      control.steps_between_estimates,
+      "The stable step is estimated at the start and then every "
+      "so many steps [-], from the largest eigenvalue of M^-1 "
+      "K with the rotations of that moment.",
+      dealii::Patterns::Integer(1));
+    prm.add_parameter("Refuse unstable steps",
+                      control.refuse,
+                      "Whether a 'Time step' above the stable one is refused. "
+                      "If not, there is only a warning, and the run ends when "
+                      "the motion has grown beyond all bounds.");
+  }
+
+  StageReport
+  CentralDifference::step(SecondOrderSystem &system,
+                          const TimeStep    &step,
+                          State             &state)
+  {
+    state.v.add(0.5 * step.dt, state.a);
+    state.u.add(step.dt, state.v);
+    system.prescribe(state, step.time + step.dt, 1.);
+    return system.solve_acceleration(state, step.time + step.dt, 0.5 * step.dt);
+  }
+
+  double
+  CentralDifference::stable_step(const double omega, const double alpha_K) const
+  {
+    // The amplification matrix of the mode has an eigenvalue -1 where (omega
+    // dt)^2 + 2 alpha_K omega^2 dt = 4.
+    const double c = alpha_K * omega;
+    return (std::sqrt(c * c + 4) - c) / omega;
+  }
+} // namespace corotet
