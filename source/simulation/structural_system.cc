@@ -139,9 +139,11 @@ namespace corotet
   }
 
   void
-  StructuralSystem::apply_rotated_stiffness(Vector &f, const Vector &v)
+  StructuralSystem::apply_stiffness(Vector       &f,
+                                    const Vector &v,
+                                    const Tangent tangent)
   {
-    if (elastic.is_by_cell(Tangent::frozen_rotation))
+    if (elastic.is_by_cell(tangent))
       elastic.apply_tangent(f, v);
     else
       elastic.apply_linearization(f, v, 1., 0., nullptr, nullptr);
@@ -166,7 +168,7 @@ namespace corotet
         // C turns with the rotations that the material has.
         if (!elastic.is_by_cell(Tangent::frozen_rotation))
           elastic.linearize(u_ghosted, Tangent::frozen_rotation);
-        apply_rotated_stiffness(forces.damping, v_ghosted);
+        apply_stiffness(forces.damping, v_ghosted, Tangent::frozen_rotation);
         forces.damping *= parameters.damping_stiffness;
       }
     else
@@ -348,12 +350,16 @@ namespace corotet
   StructuralSystem::largest_frequency(const State &state)
   {
     set_state(state);
-    if (!elastic.is_by_cell(Tangent::frozen_rotation))
-      elastic.linearize(u_ghosted, Tangent::frozen_rotation);
+    // The exact tangent where it is symmetric: tension stiffens.
+    const Tangent tangent = elastic.is_symmetric(Tangent::consistent) ?
+                              Tangent::consistent :
+                              Tangent::frozen_rotation;
+    if (!elastic.is_by_cell(tangent))
+      elastic.linearize(u_ghosted, tangent);
     const SymmetricPencil pencil{
       [&](Vector &f, const Vector &v) {
         copy_with_ghosts(a_ghosted, v);
-        apply_rotated_stiffness(f, a_ghosted);
+        apply_stiffness(f, a_ghosted, tangent);
         motion.set_zero(f);
       },
       [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },
@@ -361,7 +367,7 @@ namespace corotet
     Vector start(state.u);
     set_without_pattern(start);
     motion.set_zero(start);
-    return std::sqrt(largest_eigenvalue(pencil, start, 0.02));
+    return std::sqrt(largest_eigenvalue(pencil, start, 2e-3));
   }
 
   double

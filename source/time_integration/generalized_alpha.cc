@@ -16,7 +16,7 @@ namespace corotet
                       dealii::Patterns::Double(0, 1));
   }
 
-  NewmarkFamily::Coefficients
+  GeneralizedAlpha::Coefficients
   GeneralizedAlpha::coefficients() const
   {
     const double rho     = spectral_radius;
@@ -26,13 +26,5 @@ namespace corotet
     const double beta =
       0.25 * (1 - alpha_m + alpha_f) * (1 - alpha_m + alpha_f);
     return {beta, gamma, alpha_m, alpha_f};
-  }
-
-  StageReport
-  GeneralizedAlpha::step(SecondOrderSystem &system,
-                         const TimeStep    &step,
-                         State             &state)
-  {
-    return family.step(system, step, coefficients(), state);
   }
 } // namespace corotet

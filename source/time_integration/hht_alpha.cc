@@ -15,10 +15,4 @@ namespace corotet
                       "trapezoidal rule.",
                       dealii::Patterns::Double(-1. / 3, 0));
   }
-
-  StageReport
-  HHTAlpha::step(SecondOrderSystem &system, const TimeStep &step, State &state)
-  {
-    return family.step(system, step, coefficients(), state);
-  }
 } // namespace corotet

@@ -18,10 +18,4 @@ namespace corotet
                       "gamma [-]; above 0.5 it damps and is of first order.",
                       dealii::Patterns::Double(0.5, 1.5));
   }
-
-  StageReport
-  Newmark::step(SecondOrderSystem &system, const TimeStep &step, State &state)
-  {
-    return family.step(system, step, coefficients(), state);
-  }
 } // namespace corotet

@@ -8,18 +8,18 @@
 namespace corotet
 {
   double
-  NewmarkFamily::error_constant(const Coefficients &c)
+  NewmarkFamily::error_constant() const
   {
+    const Coefficients c = coefficients();
     return std::abs(1. / 6 - c.beta - 0.5 * (c.alpha_m - c.alpha_f));
   }
 
   StageReport
-  NewmarkFamily::step(SecondOrderSystem  &system,
-                      const TimeStep     &step,
-                      const Coefficients &coefficients,
-                      State              &state)
+  NewmarkFamily::step(SecondOrderSystem &system,
+                      const TimeStep    &step,
+                      State             &state)
   {
-    const auto &[beta, gamma, alpha_m, alpha_f] = coefficients;
+    const auto [beta, gamma, alpha_m, alpha_f] = coefficients();
 
     const double dt = step.dt;
     if (stage.u.size() != state.u.size())

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../body.h"
+#include "complete_run.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -37,15 +37,6 @@ namespace
         budget.record(record, body.state, (i + 1) * end / n);
       }
     return record;
-  }
-
-  // Thousands of steps of a few cells: two ranks would only wait for each
-  // other. That runs on several ranks agree is tested with the whole
-  // simulation.
-  bool
-  on_one_rank()
-  {
-    return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
   }
 
   const std::string exact_solvers = R"(

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../body.h"
+#include "complete_run.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -91,13 +91,6 @@ namespace
                    std::abs(record.energy_balance) / start.elastic_energy);
       }
     return drift;
-  }
-
-  // Hundreds of steps of a few cells: two ranks would only wait for each other.
-  bool
-  on_one_rank()
-  {
-    return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
   }
 } // namespace
 

@@ -3,85 +3,25 @@
 
 // Steps that fail and are made in halves.
 
-#include <corotet/simulation/simulation.h>
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../body.h"
+#include "complete_run.h"
 
 using namespace corotet;
 using namespace corotet::tests;
 
 namespace
 {
-  // What an observer was shown, by way.
-  class Recorder : public Observer
+  // A run that has been made.
+  struct FinishedRun : public CompleteRun
   {
-  public:
-    void
-    step(const Snapshot &state) override
-    {
-      shown.push_back(state.record);
-      keep(state);
-    }
+    explicit FinishedRun(const std::string &text)
+      : CompleteRun(text)
+      , message(run())
+    {}
 
-    void
-    save(const Snapshot &state) override
-    {
-      saved.push_back(state.record);
-      keep(state);
-    }
-
-    void
-    finish(const RunSummary &run_summary) override
-    {
-      summary = run_summary;
-    }
-
-    std::vector<StepRecord> shown, saved;
-    Vector                  displacement;
-    bool                    last = false;
-    RunSummary              summary;
-
-  private:
-    void
-    keep(const Snapshot &state)
-    {
-      displacement = state.displacement;
-      last         = state.last;
-    }
-  };
-
-  struct CompleteRun
-  {
-    explicit CompleteRun(const std::string &text)
-      : parameters(text)
-      , log(MPI_COMM_WORLD, true)
-      , simulation(parameters, "", MPI_COMM_WORLD, log)
-    {
-      observers.push_back(std::make_unique<Recorder>());
-      try
-        {
-          simulation.run(observers);
-        }
-      catch (const ComputationError &error)
-        {
-          message = error.what();
-        }
-    }
-
-    const Recorder &
-    recorder() const
-    {
-      return static_cast<const Recorder &>(*observers.front());
-    }
-
-    Parameters                             parameters;
-    Log                                    log;
-    Simulation                             simulation;
-    std::vector<std::unique_ptr<Observer>> observers;
-    std::string                            message;
+    const std::string message;
   };
 
   // A bar of 1 x 0.1 x 0.1 that is bent far. Too few iterations for large
@@ -149,11 +89,11 @@ namespace
 // end; what is recorded are the steps that were asked for.
 TEST(Halving, Statics)
 {
-  const CompleteRun small(bar(statics(32, 0), 50, "5000"));
-  const CompleteRun halved(bar(statics(2, 8), 5, "5000"));
+  const FinishedRun small(bar(statics(32, 0), 50, "5000"));
+  const FinishedRun halved(bar(statics(2, 8), 5, "5000"));
   EXPECT_EQ(small.message, "");
   EXPECT_EQ(halved.message, "");
-  const auto &records = halved.recorder().shown;
+  const auto &records = halved.recorder().steps;
   ASSERT_EQ(records.size(), 2u);
   EXPECT_EQ(records[0].time, 0.5);
   EXPECT_EQ(records[1].time, 1.);
@@ -167,10 +107,10 @@ TEST(Halving, Statics)
     }
   report("parts of two load steps", parts);
   EXPECT_GE(parts, 3u);
-  for (const StepRecord &record : small.recorder().shown)
+  for (const StepRecord &record : small.recorder().steps)
     EXPECT_EQ(record.parts, 1u);
   // The path does not matter in statics.
-  const StepRecord &last = small.recorder().shown.back();
+  const StepRecord &last = small.recorder().steps.back();
   EXPECT_GE(last.max_displacement, 0.3);
   EXPECT_LE(largest_difference(halved.simulation.state().u,
                                small.simulation.state().u),
@@ -186,17 +126,17 @@ TEST(Halving, Statics)
 // and works included.
 TEST(Halving, Dynamics)
 {
-  const CompleteRun halved(bar(dynamics(0.2), 6, "8"));
-  const CompleteRun half(bar(dynamics(0.1), 6, "8"));
+  const FinishedRun halved(bar(dynamics(0.2), 6, "8"));
+  const FinishedRun half(bar(dynamics(0.1), 6, "8"));
   EXPECT_EQ(half.message, "");
   EXPECT_EQ(halved.message, "");
-  const auto &records = halved.recorder().shown;
+  const auto &records = halved.recorder().steps;
   ASSERT_EQ(records.size(), 1u);
   EXPECT_EQ(records[0].parts, 2u);
   EXPECT_NEAR(records[0].dt, 0.2, 1e-15);
   EXPECT_EQ(records[0].time, 0.2);
-  ASSERT_EQ(half.recorder().shown.size(), 2u);
-  const StepRecord &last = half.recorder().shown.back();
+  ASSERT_EQ(half.recorder().steps.size(), 2u);
+  const StepRecord &last = half.recorder().steps.back();
   EXPECT_EQ(last.parts, 1u);
   const State &a = halved.simulation.state(), &b = half.simulation.state();
   EXPECT_GT(b.u.linfty_norm(), 5e-4);
@@ -212,14 +152,14 @@ TEST(Halving, Dynamics)
 // the fourth as far as halves go, t = 0.75 + 0.25 (1/8).
 TEST(Halving, GivesUp)
 {
-  const CompleteRun run(bar(statics(4, 3), 50, "if(t > 0.8, 1/(t-t), 100)"));
+  const FinishedRun run(bar(statics(4, 3), 50, "if(t > 0.8, 1/(t-t), 100)"));
   EXPECT_EQ(run.message.find("step 4 (t = 0.78125): the forces are not finite"),
             0u)
     << run.message;
   EXPECT_NE(run.message.find("; the step has been halved 3 times"),
             std::string::npos)
     << run.message;
-  const auto &shown = run.recorder().shown;
+  const auto &shown = run.recorder().steps;
   ASSERT_EQ(shown.size(), 4u);
   EXPECT_EQ(shown[2].time, 0.75);
   EXPECT_EQ(shown[3].step, 4u);
@@ -232,7 +172,7 @@ TEST(Halving, GivesUp)
   EXPECT_EQ(run.recorder().summary.message, run.message);
   EXPECT_EQ(run.recorder().summary.end_time, 0.78125);
   // Good: the equilibrium of that load, a factor of 0.78125.
-  const CompleteRun good(
+  const FinishedRun good(
     bar(statics(1, 0), 50, fmt::format("{}", 100 * 0.78125)));
   EXPECT_LE(largest_difference(run.recorder().displacement,
                                good.recorder().displacement),
@@ -243,19 +183,19 @@ TEST(Halving, GivesUp)
 // what is saved.
 TEST(Halving, FailsAtOnceWithoutHalvings)
 {
-  const CompleteRun run(bar(statics(4, 0), 50, "if(t > 0.8, 1/(t-t), 100)"));
+  const FinishedRun run(bar(statics(4, 0), 50, "if(t > 0.8, 1/(t-t), 100)"));
   EXPECT_EQ(run.message.find("step 4 (t = 0.75): the forces are not finite"),
             0u)
     << run.message;
   EXPECT_EQ(run.message.find("halved"), std::string::npos);
-  ASSERT_EQ(run.recorder().shown.size(), 3u);
+  ASSERT_EQ(run.recorder().steps.size(), 3u);
   ASSERT_EQ(run.recorder().saved.size(), 1u);
   EXPECT_EQ(run.recorder().saved[0].step, 3u);
   EXPECT_EQ(run.recorder().saved[0].time, 0.75);
   EXPECT_TRUE(run.recorder().last);
   EXPECT_EQ(run.recorder().summary.status, "failed");
   EXPECT_EQ(run.recorder().summary.steps, 3u);
-  const CompleteRun good(bar(statics(1, 0), 50, "75"));
+  const FinishedRun good(bar(statics(1, 0), 50, "75"));
   EXPECT_LE(largest_difference(run.recorder().displacement,
                                good.recorder().displacement),
             1e-10 * good.recorder().displacement.linfty_norm());

@@ -3,47 +3,15 @@
 
 // Whole runs: the same on any number of ranks, and a failure that says so.
 
-#include <corotet/simulation/simulation.h>
-
 #include <gtest/gtest.h>
 
-#include "../body.h"
+#include "complete_run.h"
 
 using namespace corotet;
 using namespace corotet::tests;
 
 namespace
 {
-  // Keeps all records.
-  class Recorder : public Observer
-  {
-  public:
-    void
-    start(const Snapshot &initial) override
-    {
-      records.push_back(initial.record);
-    }
-
-    void
-    step(const Snapshot &state) override
-    {
-      records.push_back(state.record);
-      cells = state.cell_results().det_F.size();
-      last  = state.last;
-    }
-
-    void
-    finish(const RunSummary &run_summary) override
-    {
-      summary = run_summary;
-    }
-
-    std::vector<StepRecord> records;
-    RunSummary              summary;
-    std::size_t             cells = 0;
-    bool                    last  = false;
-  };
-
   const std::string swinging_beam = R"(
     subsection Mesh
       subsection box
@@ -73,29 +41,6 @@ namespace
       set Tolerance = 1e-11
     end
   )";
-
-  // The recorder and, because the observer's list owns it, the list.
-  struct CompleteRun
-  {
-    CompleteRun(const std::string &text, const MPI_Comm comm)
-      : parameters(text)
-      , log(comm, true)
-      , simulation(parameters, "", comm, log)
-    {
-      observers.push_back(std::make_unique<Recorder>());
-    }
-
-    const Recorder &
-    recorder() const
-    {
-      return static_cast<const Recorder &>(*observers.front());
-    }
-
-    Parameters                             parameters;
-    Log                                    log;
-    Simulation                             simulation;
-    std::vector<std::unique_ptr<Observer>> observers;
-  };
 
   void
   expect_close(const double a, const double b, const double scale)

@@ -93,8 +93,9 @@ namespace corotet
       return forces_time;
     }
 
-    /// Upper bound, by up to one percent, of the largest angular frequency of
-    /// M^-1 K at @p state [rad/s]. Collective.
+    /// Estimate of the largest angular frequency of M^-1 K [rad/s], from above
+    /// by less than 0.1 percent. K is the tangent at @p state, with frozen
+    /// rotations if the exact one is not symmetric. Collective.
     double
     largest_frequency(const State &state);
 
@@ -167,10 +168,9 @@ namespace corotet
 
     void
     make_operators();
-    /// f = K v with the rotations that the material has, at the last
-    /// displacement.
+    /// f = K v with that tangent, which the elasticity must have prepared.
     void
-    apply_rotated_stiffness(Vector &f, const Vector &v);
+    apply_stiffness(Vector &f, const Vector &v, const Tangent tangent);
 
     const Discretization &discretization;
     SimulationParameters &parameters;

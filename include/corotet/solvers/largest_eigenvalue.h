@@ -28,13 +28,13 @@ namespace corotet
   };
 
   /**
-   * Upper bound of the largest eigenvalue, by the Lanczos method in the inner
+   * The largest eigenvalue, from above, by the Lanczos method in the inner
    * product of M: the largest Ritz value theta plus its residual norm, as soon
-   * as that is below @p tolerance theta [Parlett, The symmetric eigenvalue
-   * problem, 1998, theorem 4.5.1 and section 13.2]. @p start needs a part in
-   * the direction of the eigenvector; it comes out changed. Throws
-   * ComputationError if there is no convergence or a number is not finite.
-   * Collective.
+   * as that is below @p tolerance theta. There is an eigenvalue so near to
+   * theta [Parlett, The symmetric eigenvalue problem, 1998, theorem 4.5.1]; it
+   * is the largest unless @p start lacks that direction. @p start comes out
+   * changed. Throws ComputationError if there is no convergence or a number is
+   * not finite. Collective.
    */
   double
   largest_eigenvalue(const SymmetricPencil &pencil,

@@ -17,30 +17,17 @@ namespace corotet
    * not resolve; 1 dissipates nothing. Assumes a consistent initial
    * acceleration.
    */
-  class GeneralizedAlpha : public TimeIntegrator
+  class GeneralizedAlpha : public NewmarkFamily
   {
   public:
     void
     declare_parameters(dealii::ParameterHandler &prm) override;
 
-    StageReport
-    step(SecondOrderSystem &system,
-         const TimeStep    &step,
-         State             &state) override;
-
-    double
-    error_constant() const override
-    {
-      return family.error_constant(coefficients());
-    }
-
     double spectral_radius = 0.8;
 
   private:
-    NewmarkFamily::Coefficients
-    coefficients() const;
-
-    NewmarkFamily family;
+    Coefficients
+    coefficients() const override;
   };
 } // namespace corotet
 

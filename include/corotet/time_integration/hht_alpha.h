@@ -16,33 +16,20 @@ namespace corotet
    * the dissipation of motion that the step does not resolve; 0 is the
    * trapezoidal rule.
    */
-  class HHTAlpha : public TimeIntegrator
+  class HHTAlpha : public NewmarkFamily
   {
   public:
     void
     declare_parameters(dealii::ParameterHandler &prm) override;
 
-    StageReport
-    step(SecondOrderSystem &system,
-         const TimeStep    &step,
-         State             &state) override;
-
-    double
-    error_constant() const override
-    {
-      return family.error_constant(coefficients());
-    }
-
     double alpha = -0.1;
 
   private:
-    NewmarkFamily::Coefficients
-    coefficients() const
+    Coefficients
+    coefficients() const override
     {
       return {0.25 * (1 - alpha) * (1 - alpha), 0.5 - alpha, 0., -alpha};
     }
-
-    NewmarkFamily family;
   };
 } // namespace corotet
 

@@ -14,34 +14,21 @@ namespace corotet
    * 2 beta >= gamma >= 1/2 on linear problems. beta = 1/4, gamma = 1/2, the
    * trapezoidal rule, keeps the energy of linear problems.
    */
-  class Newmark : public TimeIntegrator
+  class Newmark : public NewmarkFamily
   {
   public:
     void
     declare_parameters(dealii::ParameterHandler &prm) override;
 
-    StageReport
-    step(SecondOrderSystem &system,
-         const TimeStep    &step,
-         State             &state) override;
-
-    double
-    error_constant() const override
-    {
-      return family.error_constant(coefficients());
-    }
-
     double beta  = 0.25;
     double gamma = 0.5;
 
   private:
-    NewmarkFamily::Coefficients
-    coefficients() const
+    Coefficients
+    coefficients() const override
     {
       return {beta, gamma, 0., 0.};
     }
-
-    NewmarkFamily family;
   };
 } // namespace corotet
 

@@ -18,9 +18,22 @@ namespace corotet
    * with a_m = (1 - alpha_m) a_1 + alpha_m a_0 and the index f for
    * (1 - alpha_f) ()_1 + alpha_f ()_0. The unknown of the stage is u_f.
    */
-  class NewmarkFamily
+  class NewmarkFamily : public TimeIntegrator
   {
   public:
+    StageReport
+    step(SecondOrderSystem &system,
+         const TimeStep    &step,
+         State             &state) override;
+
+    /// C in the local error C dt^2 |a_1 - a_0| of the displacement: a_n is the
+    /// acceleration at t_n + (alpha_m - alpha_f) dt [Zienkiewicz and Xie, A
+    /// simple error estimator and adaptive time stepping procedure for dynamic
+    /// analysis, 1991, for alpha_m = alpha_f = 0].
+    double
+    error_constant() const override;
+
+  protected:
     struct Coefficients
     {
       double beta;
@@ -29,18 +42,8 @@ namespace corotet
       double alpha_f;
     };
 
-    /// C in the local error C dt^2 |a_1 - a_0| of the displacement: a_n is the
-    /// acceleration at t_n + (alpha_m - alpha_f) dt [Zienkiewicz and Xie, A
-    /// simple error estimator and adaptive time stepping procedure for dynamic
-    /// analysis, 1991, for alpha_m = alpha_f = 0].
-    static double
-    error_constant(const Coefficients &coefficients);
-
-    StageReport
-    step(SecondOrderSystem  &system,
-         const TimeStep     &step,
-         const Coefficients &coefficients,
-         State              &state);
+    virtual Coefficients
+    coefficients() const = 0;
 
   private:
     /// The state at the intermediate times.

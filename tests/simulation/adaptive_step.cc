@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Time steps that follow their error.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // A beam that swings far, first slowly, then pushed for a short time.
+  std::string
+  beam(const std::string &integration)
+  {
+    return fmt::format(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 4, 1, 1
+          set Cells = 4, 1, 1
+        end
+      end
+      subsection Discretization
+        set Degree = 1
+      end
+      subsection Material
+        set Rotation        = quadrature points
+        set Young's modulus = 2e4
+        set Density         = 1000
+      end
+      subsection Boundary conditions
+        set Fixed = x-min
+      end
+      subsection Loads
+        set Gravity = 0; 4*exp(-40*(t-2)^2); -0.5*sin(t)^2
+      end
+      subsection Newton
+        set Residual tolerance  = 1e-11
+        set Increment tolerance = 1e-11
+      end
+      subsection Linear solver
+        set Type      = direct
+        set Tolerance = 1e-9
+      end
+      subsection Time integration
+        set End time = 4
+        {}
+      end)",
+                       integration);
+  }
+
+  std::string
+  adaptive(const std::string &type,
+           const double       target,
+           const std::string &further = "")
+  {
+    return fmt::format("set Type = {}\n set Time step = 0.05\n subsection "
+                       "Adaptive step\n set Enabled = true\n set Target error "
+                       "= {}\n {} end\n",
+                       type,
+                       target,
+                       further);
+  }
+} // namespace
+
+class Adaptive : public testing::TestWithParam<std::string>
+{};
+
+// The local error is of third order and the global one of second: over three
+// decades of the target the error falls like its power 2/3.
+TEST_P(Adaptive, ErrorFollowsTarget)
+{
+  if (!on_one_rank())
+    GTEST_SKIP();
+  CompleteRun reference(
+    beam(fmt::format("set Type = {}\n set Time step = 2.5e-4", GetParam())));
+  ASSERT_EQ(reference.run(), "");
+  std::vector<double> errors, targets{1e-3, 1e-4, 1e-5, 1e-6};
+  for (const double target : targets)
+    {
+      CompleteRun run(beam(adaptive(GetParam(), target)));
+      ASSERT_EQ(run.run(), "");
+      errors.push_back(largest_difference(run.simulation.state().u,
+                                          reference.simulation.state().u) /
+                       reference.simulation.state().u.linfty_norm());
+      report(fmt::format("error for {:.0e}, {} steps, {} rejected",
+                         target,
+                         run.recorder().summary.steps,
+                         run.recorder().records.back().rejected_steps),
+             errors.back());
+      // Steps differ: the push is shorter than what is around it.
+      double shortest = 1, longest = 0;
+      for (const StepRecord &record : run.recorder().steps)
+        {
+          shortest = std::min(shortest, record.dt);
+          longest  = std::max(longest, record.dt);
+        }
+      EXPECT_GT(longest, 2 * shortest);
+    }
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_LT(errors[i + 1], errors[i]);
+  const double power = std::log10(errors[0] / errors[3]) / 3;
+  report("power of the target", power);
+  EXPECT_NEAR(power, 2. / 3, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Methods,
+  Adaptive,
+  testing::Values("Newmark", "HHT-alpha", "generalized-alpha"),
+  [](const auto &info) { return info.param.substr(0, info.param.find('-')); });
+
+// Results at exact times whatever the steps are, and a budget that has not
+// noticed the steps that were repeated.
+TEST(AdaptiveStep, ResultsAtExactTimes)
+{
+  CompleteRun run(beam(adaptive("Newmark", 1e-3)));
+  ASSERT_EQ(run.run({1000000, 0.3}), "");
+  const auto &records = run.recorder().records;
+  ASSERT_EQ(records.size(), 15u);
+  for (unsigned int i = 0; i < 14; ++i)
+    EXPECT_NEAR(records[i].time, 0.3 * i, 1e-14) << i;
+  EXPECT_EQ(records[14].time, 4.);
+  EXPECT_GT(records[14].rejected_steps, 0u);
+  CompleteRun every(beam(adaptive("Newmark", 1e-3)));
+  ASSERT_EQ(every.run({1, 0.3}), "");
+  double sum = 0;
+  for (const StepRecord &record : every.recorder().steps)
+    sum += record.dt;
+  EXPECT_NEAR(sum, 4, 1e-13);
+  EXPECT_EQ(every.recorder().records.back().external_work,
+            records.back().external_work);
+}
+
+// Bounds are kept; steps at the lower one are taken with the error they make.
+TEST(AdaptiveStep, Bounds)
+{
+  CompleteRun run(beam(adaptive(
+    "Newmark", 1e-9, "set Smallest step = 0.02\n set Largest step = 0.04\n")));
+  ASSERT_EQ(run.run(), "");
+  const auto &steps = run.recorder().steps;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i)
+    {
+      EXPECT_GE(steps[i].dt, 0.02 * (1 - 1e-12));
+      EXPECT_LE(steps[i].dt, 0.04 * (1 + 1e-12));
+    }
+  EXPECT_GE(steps.size(), 190u);
+  const auto text = refusal([] {
+    CompleteRun(beam(adaptive(
+      "Newmark", 1e-3, "set Smallest step = 0.2\n set Largest step = 0.1\n")));
+  });
+  EXPECT_EQ(text,
+            "Time integration/Adaptive step/Smallest step: found 0.2; allowed: "
+            "at most the largest step, 0.1");
+  EXPECT_EQ(refusal([] {
+              CompleteRun(beam(adaptive("BDF2", 1e-3)));
+            }).find("Time integration/Adaptive step/Enabled: found true;"),
+            0u);
+  EXPECT_EQ(refusal([] {
+              CompleteRun(beam("set Type = Newmark\n set Time step = 0\n"));
+            }).find("Time integration/Time step: found 0;"),
+            0u);
+}

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The central difference method: its stable step, and what happens on both
+// sides of it.
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  std::string
+  discretization(const unsigned int degree, const std::string &mass)
+  {
+    return fmt::format(
+      "subsection Discretization\n set Degree = {}\n set Mass = {}\nend\n",
+      degree,
+      mass);
+  }
+
+  // Largest angular frequency of the linear body, from the whole spectrum.
+  double
+  exact_frequency(Body &body)
+  {
+    const unsigned int               n = body.state.u.size();
+    dealii::LAPACKFullMatrix<double> K(n), M(n);
+    Vector                           unit(body.state.u), column(unit);
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        unit                  = 0;
+        unit.local_element(j) = 1;
+        const auto &fixed     = body.system.prescribed_motion();
+        fixed.set_zero(unit);
+        body.system.elasticity().apply_tangent(column, unit);
+        fixed.set_zero(column);
+        for (unsigned int i = 0; i < n; ++i)
+          K(i, j) = column.local_element(i);
+        unit.local_element(j) = 1;
+        body.system.mass().apply(column, unit);
+        // Fixed unknowns have no mass to share.
+        if (fixed.is_prescribed()[j])
+          column = 0;
+        fixed.set_zero(column);
+        if (fixed.is_prescribed()[j])
+          column.local_element(j) = 1;
+        for (unsigned int i = 0; i < n; ++i)
+          M(i, j) = column.local_element(i);
+      }
+    // The largest lambda of K x = lambda M x.
+    std::vector<dealii::Vector<double>> eigenvectors(1,
+                                                     dealii::Vector<double>(n));
+    K.compute_generalized_eigenvalues_symmetric(M, eigenvectors);
+    double largest = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      largest = std::max(largest, std::real(K.eigenvalue(i)));
+    return std::sqrt(largest);
+  }
+
+  // A free bar that is bent, twisted and stretched and spins.
+  std::string
+  spinning_bar(const unsigned int degree,
+               const std::string &mass,
+               const std::string &integration)
+  {
+    return discretization(degree, mass) + fmt::format(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 2, 1, 1
+          set Cells = 2, 1, 1
+        end
+      end
+      subsection Material
+        set Rotation        = quadrature points
+        set Young's modulus = 2e6
+      end
+      subsection Initial conditions
+        set Displacement = 0.01*x^2; 0.02*y*z; 0.02*x*y
+        set Velocity     = -3*y; 3*x; 0.5*x^2
+      end
+      subsection Time integration
+        set Type = central difference
+        {}
+      end)",
+                                                      integration);
+  }
+
+  double
+  stable_step(const std::string &bar)
+  {
+    Parameters       parameters(bar);
+    Log              log(MPI_COMM_WORLD, true);
+    const Mesh       mesh(parameters.mesh, "", MPI_COMM_WORLD, log);
+    Discretization   disc(mesh, parameters.degree);
+    WallTimes        times;
+    StructuralSystem system(disc, parameters, times, log);
+    State            state;
+    system.initialize(state);
+    return 2 / system.largest_frequency(state);
+  }
+} // namespace
+
+class StableStep
+  : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
+{};
+
+// The estimate is above the frequency, by the tolerance at most: 1e-3.
+TEST_P(StableStep, LargestFrequency)
+{
+  if (!on_one_rank())
+    GTEST_SKIP();
+  const auto &[degree, mass] = GetParam();
+  Body body(box("2, 1, 1", "2, 1, 1", 0.), discretization(degree, mass) + R"(
+    subsection Material
+      set Type = linear
+    end
+    subsection Boundary conditions
+      set Fixed = x-min
+    end)");
+  const double estimate = body.system.largest_frequency(body.state);
+  const double exact    = exact_frequency(body);
+  report("estimate / exact", estimate / exact);
+  EXPECT_GE(estimate, exact * (1 - 1e-10));
+  EXPECT_LE(estimate, exact * 1.001);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  DegreesAndMasses,
+  StableStep,
+  testing::Values(std::make_tuple(1u, "consistent"),
+                  std::make_tuple(1u, "row sum"),
+                  std::make_tuple(1u, "diagonal scaling"),
+                  std::make_tuple(2u, "consistent"),
+                  std::make_tuple(2u, "diagonal scaling"),
+                  std::make_tuple(3u, "consistent"),
+                  std::make_tuple(3u, "diagonal scaling")));
+
+class Explicit : public testing::TestWithParam<unsigned int>
+{};
+
+// 100,000 steps at 0.9 of the stable step: the energy of a free body that spins
+// and vibrates stays within a percent. What it does within is of second order
+// in the step, and moves as energy spreads to the fast modes.
+TEST_P(Explicit, EnergyDoesNotDrift)
+{
+  if (!on_one_rank())
+    GTEST_SKIP();
+#ifdef DEBUG
+  const unsigned int n_steps = 2000;
+#else
+  const unsigned int n_steps = 100000;
+#endif
+  const unsigned int degree = GetParam();
+  const std::string  mass   = "diagonal scaling";
+  const double       dt =
+    0.9 * stable_step(spinning_bar(degree, mass, "set Time step = 1e-9"));
+  CompleteRun run(spinning_bar(
+    degree,
+    mass,
+    fmt::format("set Time step = {}\n set End time = {}\n", dt, n_steps * dt)));
+  ASSERT_EQ(run.run({100, 0.}), "");
+  EXPECT_EQ(run.recorder().summary.steps, n_steps);
+  const auto  &records = run.recorder().records;
+  const double total   = records[0].kinetic_energy + records[0].elastic_energy;
+  double       largest = 0;
+  for (const StepRecord &record : records)
+    largest = std::max(largest, std::abs(record.energy_balance));
+  report(fmt::format("largest change of energy, P{}", degree), largest / total);
+  EXPECT_LE(largest, 0.01 * total);
+  // Momenta are kept by every step.
+  EXPECT_LE((records.back().momentum - records[0].momentum).norm(),
+            1e-9 * records[0].momentum.norm());
+}
+
+// Above the stable step the run is refused; where that is switched off it fails
+// and says so, just above as far above. Just below it goes on.
+TEST_P(Explicit, UnstableStep)
+{
+  if (!on_one_rank())
+    GTEST_SKIP();
+  const unsigned int degree = GetParam();
+  const auto         bar    = [&](const double dt, const bool refuse) {
+    return spinning_bar(degree,
+                        "diagonal scaling",
+                        fmt::format("set Time step = {}\n set End time = {}\n "
+                                               "subsection central difference\n set "
+                                               "Refuse unstable steps = {}\n end\n",
+                                    dt,
+                                    1e4 * dt,
+                                    refuse));
+  };
+  const double stable = stable_step(bar(1e-9, true));
+  const auto text = refusal([&] { CompleteRun run(bar(1.05 * stable, true)); });
+  EXPECT_EQ(text.find("Time integration/Time step: found a step of "), 0u)
+    << text;
+  EXPECT_NE(text.find(fmt::format("up to the stable step, {:.6g} s", stable)),
+            std::string::npos)
+    << text;
+  CompleteRun unstable(bar(1.05 * stable, false));
+  const auto  message = unstable.run({10, 0.});
+  EXPECT_NE(message.find("the motion is unstable"), std::string::npos)
+    << message;
+  // What was saved is from before.
+  EXPECT_TRUE(std::isfinite(unstable.recorder().displacement.linfty_norm()));
+  EXPECT_EQ(unstable.recorder().summary.status, "failed");
+  // The true limit is within five percent of the estimate: 0.98 is stable, 1.05
+  // was not.
+  CompleteRun just_stable(bar(0.98 * stable, true));
+  EXPECT_EQ(just_stable.run({100, 0.}), "");
+}
+
+// The program's choice: 0.9 of the stable step, or less so that results are at
+// exact times; the same motion as with such a step that is given. New estimates
+// change it a little.
+TEST_P(Explicit, OwnStep)
+{
+  const unsigned int degree = GetParam();
+  const auto         bar = [&](const double step, const unsigned int interval) {
+    return spinning_bar(
+      degree,
+      "diagonal scaling",
+      fmt::format(
+        "set Time step = {}\n set End time = 0.02\n subsection central "
+                "difference\n set Steps between estimates = {}\n end\n",
+        step,
+        interval));
+  };
+  CompleteRun own(bar(0, 1000000));
+  ASSERT_EQ(own.run({1000000, 0.005}), "");
+  const auto &records = own.recorder().records;
+  ASSERT_EQ(records.size(), 5u);
+  for (unsigned int i = 0; i < 5; ++i)
+    EXPECT_NEAR(records[i].time, 0.005 * i, 1e-15);
+  const double dt = records[1].dt;
+  EXPECT_LE(dt, 0.9 * stable_step(bar(1e-9, 1)));
+  EXPECT_NEAR(0.005 / dt, std::round(0.005 / dt), 1e-9);
+  CompleteRun given(bar(dt, 1000000));
+  ASSERT_EQ(given.run({1000000, 0.}), "");
+  const double size = given.simulation.state().u.linfty_norm();
+  EXPECT_LE(largest_difference(own.simulation.state().u,
+                               given.simulation.state().u),
+            1e-10 * size);
+  CompleteRun following(bar(0, 3));
+  ASSERT_EQ(following.run({1, 0.005}), "");
+  EXPECT_EQ(following.recorder().records.back().time, 0.02);
+  double shortest = 1, longest = 0;
+  for (const StepRecord &record : following.recorder().steps)
+    {
+      shortest = std::min(shortest, record.dt);
+      longest  = std::max(longest, record.dt);
+    }
+  EXPECT_LE(longest, 1.1 * shortest);
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, Explicit, testing::Values(1u, 2u, 3u));
+
+// The price of a consistent mass: conjugate gradients whose number does not
+// grow with the mesh [Wathen 1987].
+TEST(Explicit, ConsistentMass)
+{
+  for (const unsigned int degree : {1, 2, 3})
+    {
+      unsigned int iterations[2];
+      for (const unsigned int i : {0, 1})
+        {
+          Body body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", 3 << i), 0.2),
+                    discretization(degree, "consistent") +
+                      "subsection Loads\n set Body force = 0; y^2; x\nend\n");
+          iterations[i] =
+            body.system.solve_acceleration(body.state, 0.).linear_iterations;
+        }
+      report(fmt::format("iterations, P{}", degree), iterations[0]);
+      report(fmt::format("iterations on a finer mesh, P{}", degree),
+             iterations[1]);
+      EXPECT_LE(iterations[1], 1.15 * iterations[0] + 1);
+    }
+}
