@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace corotet
@@ -50,6 +51,7 @@ namespace corotet
     , follow(follow)
   {
     discretization.initialize_vector(scratch);
+    discretization.initialize_vector(constant_force);
     add_dead_load({DeadLoad::Kind::gravity,
                    Expression(parameters.gravity, 3, "Loads/Gravity")});
     add_dead_load({DeadLoad::Kind::body_force,
@@ -70,12 +72,13 @@ namespace corotet
       return;
     if (!load.value.depends_on_time())
       {
-        discretization.initialize_vector(load.integral);
-        integrate(load.integral, load, [&](const Point<3> &x) {
+        integrate(scratch, load, [&](const Point<3> &x) {
           return load.value.vector_value(x, 0.);
         });
+        constant_force += scratch;
+        return;
       }
-    else if (!load.value.depends_on_space())
+    if (!load.value.depends_on_space())
       {
         discretization.initialize_vector(load.integral);
         integrate(load.integral, load, [](const Point<3> &) {
@@ -88,15 +91,19 @@ namespace corotet
   void
   Loads::force(Vector &f, const double time, const Vector &u) const
   {
-    f = 0;
-    for (const auto &pressure : conditions.pressures)
-      add_pressure(f, pressure, time, u);
-    f.compress(dealii::VectorOperation::add);
+    if (conditions.pressures.empty())
+      f = constant_force;
+    else
+      {
+        f = 0;
+        for (const auto &pressure : conditions.pressures)
+          add_pressure(f, pressure, time, u);
+        f.compress(dealii::VectorOperation::add);
+        f += constant_force;
+      }
 
     for (const DeadLoad &load : dead_loads)
-      if (!load.value.depends_on_time())
-        f.add(1., load.integral);
-      else if (!load.value.depends_on_space())
+      if (!load.value.depends_on_space())
         {
           const Tensor<1, 3> value = load.value.vector_value({}, time);
           for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
@@ -226,6 +233,21 @@ namespace corotet
                                          force[a] * values[point.index][i];
                                  });
         }
+  }
+
+  bool
+  Loads::is_constant() const
+  {
+    const auto depends_on_time = [](const auto &load) {
+      return load.value.depends_on_time();
+    };
+    return !has_follower_pressure() && dead_loads.empty() &&
+           std::none_of(conditions.pressures.begin(),
+                        conditions.pressures.end(),
+                        depends_on_time) &&
+           std::none_of(point_forces.begin(),
+                        point_forces.end(),
+                        depends_on_time);
   }
 
   bool

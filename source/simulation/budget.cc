@@ -30,27 +30,25 @@ namespace corotet
       {
         discretization.initialize_vector(forces->external);
         discretization.initialize_vector(forces->damping);
+        discretization.initialize_vector(forces->displacement);
         forces->carried.resize(n_prescribed);
+        forces->velocity.resize(n_prescribed);
       }
     discretization.initialize_vector(momentum);
-    velocity.resize(n_prescribed);
     system.evaluate(initial_state, time, load_factor);
-    take_forces(last);
-    last_displacement = initial_state.u;
-    for (std::size_t k = 0; k < n_prescribed; ++k)
-      velocity[k] =
-        initial_state.v.local_element(system.prescribed_motion().unknowns()[k]);
-    last_velocity = velocity;
+    take_forces(last, initial_state);
     record(initial, initial_state, time);
   }
 
   void
-  Budget::take_forces(Forces &forces) const
+  Budget::take_forces(Forces &forces, const State &state) const
   {
     const StructuralSystem::Forces &terms = system.last_forces();
     forces.time                           = system.last_time();
     forces.external                       = terms.external;
-    forces.damping                        = terms.damping;
+    forces.displacement                   = state.u;
+    if (system.has_damping())
+      forces.damping = terms.damping;
     const auto &prescribed = system.prescribed_motion().unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
@@ -58,44 +56,39 @@ namespace corotet
         forces.external.local_element(i) = terms.internal.local_element(i);
         forces.carried[k] =
           terms.inertia.local_element(i) + terms.damping.local_element(i);
+        forces.velocity[k] = state.v.local_element(i);
       }
   }
 
   void
   Budget::account(const State &state, const double time, const double dt)
   {
-    take_forces(now);
-    const auto &prescribed = system.prescribed_motion().unknowns();
-    for (std::size_t k = 0; k < prescribed.size(); ++k)
-      velocity[k] = state.v.local_element(prescribed[k]);
-
+    take_forces(now, state);
     // Forces at the middle: c of now, 1 - c of last.
     const double c = (time - 0.5 * dt - last.time) / (now.time - last.time);
-    // The displacement of the step, and for what is prescribed that of the
-    // velocities.
-    Tensor<1, 2> sums;
-    const auto   n = state.u.locally_owned_size();
+    const auto   middle = [&](const Vector &f, const Vector &g, const auto i) {
+      return c * f.local_element(i) + (1 - c) * g.local_element(i);
+    };
+    const auto du = [&](const unsigned int i) {
+      return now.displacement.local_element(i) -
+             last.displacement.local_element(i);
+    };
+    Tensor<1, 2>       sums;
+    const unsigned int n = state.u.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
-      {
-        const double du =
-          state.u.local_element(i) - last_displacement.local_element(i);
-        sums[0] += (c * now.external.local_element(i) +
-                    (1 - c) * last.external.local_element(i)) *
-                   du;
-        sums[1] += (c * now.damping.local_element(i) +
-                    (1 - c) * last.damping.local_element(i)) *
-                   du;
-      }
+      sums[0] += middle(now.external, last.external, i) * du(i);
+    if (system.has_damping())
+      for (unsigned int i = 0; i < n; ++i)
+        sums[1] += middle(now.damping, last.damping, i) * du(i);
+    // What is prescribed moves with its own velocity.
+    const auto &prescribed = system.prescribed_motion().unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
-        const unsigned int i = prescribed[k];
-        const double       du =
-          state.u.local_element(i) - last_displacement.local_element(i);
-        const double dv = 0.5 * dt * (velocity[k] + last_velocity[k]);
+        const double dv = 0.5 * dt * (now.velocity[k] + last.velocity[k]);
         sums[0] += (c * now.carried[k] + (1 - c) * last.carried[k]) * dv;
-        sums[1] += (c * now.damping.local_element(i) +
-                    (1 - c) * last.damping.local_element(i)) *
-                   (dv - du);
+        if (system.has_damping())
+          sums[1] += middle(now.damping, last.damping, prescribed[k]) *
+                     (dv - du(prescribed[k]));
       }
     sums = dealii::Utilities::MPI::sum(sums, discretization.communicator());
     if (!std::isfinite(sums[0] + sums[1]))
@@ -106,8 +99,6 @@ namespace corotet
     dissipation += sums[1];
     this->dt = dt;
     std::swap(last, now);
-    last_velocity.swap(velocity);
-    last_displacement = state.u;
   }
 
   void

@@ -89,7 +89,7 @@ namespace corotet
                         "How often a step that fails is halved before the run "
                         "ends [-]. The states at the ends of the steps asked "
                         "for are what is recorded, in how many parts ever a "
-                        "step was made.",
+                        "step was made. Not for explicit or adaptive steps.",
                         Integer(0, 30));
       section(prm, "Adaptive step", [&] {
         adaptive_step.declare_parameters(prm);

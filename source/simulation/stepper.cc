@@ -68,7 +68,7 @@ namespace corotet
                                                   parameters.time_step);
         discretization.initialize_vector(acceleration_change);
       }
-    else if (parameters.time_step > 0)
+    else if (parameters.time_step > 0 || !integrator.is_dynamic())
       {
         n_steps     = integrator.n_steps(duration, parameters.time_step);
         step_length = duration / n_steps;
@@ -272,13 +272,13 @@ namespace corotet
                    const unsigned int halvings,
                    StepRecord        &record)
   {
-    good_state = present;
+    good_state   = present;
+    bool is_made = false;
     try
       {
         integrate(from, to, record);
         account(from, to, record);
-        complete(record);
-        return;
+        is_made = true;
       }
     catch (const ComputationError &error)
       {
@@ -296,6 +296,8 @@ namespace corotet
                              time(to),
                              error.what()));
       }
+    if (is_made)
+      return complete(record);
     const double middle = 0.5 * (from + to);
     advance(from, middle, halvings - 1, record);
     advance(middle, to, halvings - 1, record);
@@ -376,12 +378,16 @@ namespace corotet
   void
   Stepper::check_growth(const StepRecord &record)
   {
-    // Far more than the errors of a stable step may make of what was put in.
-    constexpr double factor = 100;
-    energy_supply           = std::max({energy_supply,
-                                        std::abs(record.external_work),
-                                        record.dissipated_energy});
-    if (record.kinetic_energy + record.elastic_energy > factor * energy_supply)
+    // Far more than the errors of a stable step may make of what was put in,
+    // and no noise of a body at rest.
+    constexpr double factor     = 100;
+    const bool       is_visible = record.max_displacement >
+                            1e-3 * std::cbrt(budget->initial_record().volume);
+    energy_supply = std::max({energy_supply,
+                              std::abs(record.external_work),
+                              record.dissipated_energy});
+    if (is_visible &&
+        record.kinetic_energy + record.elastic_energy > factor * energy_supply)
       throw ComputationError(fmt::format(
         "the motion is unstable: the energy is {:.3g} J, and {:.3g} "
         "J have been put in; the time step is too long",

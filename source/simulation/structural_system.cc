@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/ghosted_copy.h>
 #include <corotet/simulation/structural_system.h>
-#include <corotet/solvers/largest_eigenvalue.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -23,13 +23,6 @@ namespace corotet
       for (const auto &[region, material] : materials)
         result[region] = material.density;
       return result;
-    }
-
-    void
-    copy_with_ghosts(Vector &copy, const Vector &vector)
-    {
-      copy.copy_locally_owned_data_from(vector);
-      copy.update_ghost_values();
     }
   } // namespace
 
@@ -150,19 +143,27 @@ namespace corotet
   }
 
   void
-  StructuralSystem::evaluate(const State &state,
-                             const double time,
-                             const double load_factor)
+  StructuralSystem::evaluate_forces(const State &state,
+                                    const double time,
+                                    const double load_factor)
   {
     ScopedTimer timer(wall_times.assembly);
     forces_time = time;
     copy_with_ghosts(u_ghosted, state.u);
-    copy_with_ghosts(v_ghosted, state.v);
-
     elastic.update_rotations_and_force(forces.internal, u_ghosted);
-    loads.force(forces.external, time, u_ghosted);
-    forces.external *= load_factor;
 
+    if (load_factor != known_load_factor)
+      {
+        loads.force(forces.external, time, u_ghosted);
+        forces.external *= load_factor;
+        if (loads.is_constant())
+          known_load_factor = load_factor;
+      }
+
+    // Without damping it is zero for good.
+    if (!has_damping())
+      return;
+    copy_with_ghosts(v_ghosted, state.v);
     if (parameters.damping_stiffness > 0)
       {
         // C turns with the rotations that the material has.
@@ -178,8 +179,18 @@ namespace corotet
         mass_matrix.apply(forces.inertia, v_ghosted);
         forces.damping.add(parameters.damping_mass, forces.inertia);
       }
+  }
+
+  const StructuralSystem::Forces &
+  StructuralSystem::evaluate(const State &state,
+                             const double time,
+                             const double load_factor)
+  {
+    evaluate_forces(state, time, load_factor);
+    ScopedTimer timer(wall_times.assembly);
     copy_with_ghosts(a_ghosted, state.a);
     mass_matrix.apply(forces.inertia, a_ghosted);
+    return forces;
   }
 
   void
@@ -307,78 +318,5 @@ namespace corotet
     tangent = use ? Tangent::frozen_rotation : wanted_tangent;
     return wanted_tangent != Tangent::frozen_rotation &&
            elastic.rotation_placement() != Rotation::none;
-  }
-
-  StageReport
-  StructuralSystem::solve_acceleration(State       &state,
-                                       const double time,
-                                       const double velocity_factor)
-  {
-    // Free accelerations from those that are prescribed: M_ff a_f = r_f.
-    for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
-      if (!motion.is_prescribed()[i])
-        state.a.local_element(i) = 0;
-    evaluate(state, time, 1.);
-    Vector &r = free_residual;
-    Vector &a = free_acceleration;
-    r         = forces.external;
-    r -= forces.internal;
-    r -= forces.damping;
-    r -= forces.inertia;
-    motion.set_zero(r);
-
-    ScopedTimer timer(wall_times.solve);
-    StageReport report;
-    report.linear_iterations = mass_solver.solve(a, r);
-    // Of damping by mass, a part is in the velocity to come.
-    const double c = velocity_factor * parameters.damping_mass;
-    a *= 1 / (1 + c);
-    state.a += a;
-    state.v.add(velocity_factor, a);
-    copy_with_ghosts(a_ghosted, state.a);
-    mass_matrix.apply(forces.inertia, a_ghosted);
-    if (c > 0)
-      {
-        copy_with_ghosts(a_ghosted, a);
-        mass_matrix.apply(r, a_ghosted);
-        forces.damping.add(c, r);
-      }
-    return report;
-  }
-
-  double
-  StructuralSystem::largest_frequency(const State &state)
-  {
-    set_state(state);
-    // The exact tangent where it is symmetric: tension stiffens.
-    const Tangent tangent = elastic.is_symmetric(Tangent::consistent) ?
-                              Tangent::consistent :
-                              Tangent::frozen_rotation;
-    if (!elastic.is_by_cell(tangent))
-      elastic.linearize(u_ghosted, tangent);
-    const SymmetricPencil pencil{
-      [&](Vector &f, const Vector &v) {
-        copy_with_ghosts(a_ghosted, v);
-        apply_stiffness(f, a_ghosted, tangent);
-        motion.set_zero(f);
-      },
-      [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },
-      [&](Vector &v, const Vector &f) { mass_solver.solve(v, f); }};
-    Vector start(state.u);
-    set_without_pattern(start);
-    motion.set_zero(start);
-    return std::sqrt(largest_eigenvalue(pencil, start, 2e-3));
-  }
-
-  double
-  StructuralSystem::mean_size(const Vector &field) const
-  {
-    double sum = 0;
-    for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
-      sum += mass_matrix.diagonal().local_element(i) * field.local_element(i) *
-             field.local_element(i);
-    return std::sqrt(
-      dealii::Utilities::MPI::sum(sum, discretization.communicator()) /
-      mass_diagonal_sum);
   }
 } // namespace corotet

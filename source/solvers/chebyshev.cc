@@ -40,11 +40,13 @@ namespace corotet
     constexpr double   safety = 1.1;
     const unsigned int n      = inverse_diagonal.locally_owned_size();
     FloatVector        v(inverse_diagonal), previous(v), w(v);
-    // A start without pattern, the same in every run.
-    set_without_pattern(v);
+    const auto         first = A.nodes().partitioner()->local_range().first;
     for (unsigned int i = 0; i < n; ++i)
       {
-        v.local_element(i) *= std::sqrt(inverse_diagonal.local_element(i));
+        // A start without pattern, the same in every run.
+        const double s = std::sin(12.9898 * (first + i) + 78.233) * 43758.5453;
+        v.local_element(i) = (s - std::floor(s) - 0.5) *
+                             std::sqrt(inverse_diagonal.local_element(i));
         previous.local_element(i) = 0;
       }
     const auto norm = [&](const FloatVector &x) {

@@ -59,7 +59,8 @@ namespace corotet
         x *= 1 / norm;
       return norm;
     };
-    scale(v);
+    if (scale(v) == 0)
+      return 0;
     previous = 0;
 
     std::vector<double> alphas, betas;

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/ghosted_copy.h>
 #include <corotet/solvers/mass_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -27,8 +28,7 @@ namespace corotet
   void
   MassSolver::vmult(Vector &dst, const Vector &src) const
   {
-    ghosted.copy_locally_owned_data_from(src);
-    ghosted.update_ghost_values();
+    copy_with_ghosts(ghosted, src);
     mass.apply(dst, ghosted);
     motion.set_zero(dst);
   }

@@ -70,7 +70,8 @@ namespace
   std::string
   spinning_bar(const unsigned int degree,
                const std::string &mass,
-               const std::string &integration)
+               const std::string &integration,
+               const double       amplitude = 1)
   {
     return discretization(degree, mass) + fmt::format(R"(
       subsection Mesh
@@ -84,13 +85,14 @@ namespace
         set Young's modulus = 2e6
       end
       subsection Initial conditions
-        set Displacement = 0.01*x^2; 0.02*y*z; 0.02*x*y
-        set Velocity     = -3*y; 3*x; 0.5*x^2
+        set Displacement = {0}*0.01*x^2; {0}*0.02*y*z; {0}*0.02*x*y
+        set Velocity     = -{0}*3*y; {0}*3*x; {0}*0.5*x^2
       end
       subsection Time integration
         set Type = central difference
-        {}
+        {1}
       end)",
+                                                      amplitude,
                                                       integration);
   }
 
@@ -196,7 +198,8 @@ TEST_P(Explicit, UnstableStep)
                                                "Refuse unstable steps = {}\n end\n",
                                     dt,
                                     1e4 * dt,
-                                    refuse));
+                                    refuse),
+                        0.01);
   };
   const double stable = stable_step(bar(1e-9, true));
   const auto text = refusal([&] { CompleteRun run(bar(1.05 * stable, true)); });
@@ -212,8 +215,8 @@ TEST_P(Explicit, UnstableStep)
   // What was saved is from before.
   EXPECT_TRUE(std::isfinite(unstable.recorder().displacement.linfty_norm()));
   EXPECT_EQ(unstable.recorder().summary.status, "failed");
-  // The true limit is within five percent of the estimate: 0.98 is stable, 1.05
-  // was not.
+  // So the true limit is within five percent of the estimate. Of a body that
+  // vibrates with strains of 1e-4: these change the tangent.
   CompleteRun just_stable(bar(0.98 * stable, true));
   EXPECT_EQ(just_stable.run({100, 0.}), "");
 }

@@ -59,6 +59,10 @@ namespace corotet
     void
     force(Vector &f, const double time, const Vector &u) const;
 
+    /// Whether the force depends neither on time nor on the displacement.
+    bool
+    is_constant() const;
+
     /// Whether there are pressures on the deformed surface: loads that depend
     /// on the displacement.
     bool
@@ -88,8 +92,8 @@ namespace corotet
       Kind         kind;
       Expression   value;
       unsigned int boundary = 0;
-      /// The force itself if the load is constant in time; the force of a unit
-      /// load in each direction if it is constant in space only.
+      /// The force of a unit load in each direction if the load is constant in
+      /// space.
       Vector integral = {};
     };
 
@@ -144,6 +148,8 @@ namespace corotet
     bool                      follow;
     std::vector<DeadLoad>     dead_loads;
     std::vector<PointForce>   point_forces;
+    /// Sum of the loads that do not depend on time.
+    Vector constant_force;
     /// Of the last linearize().
     std::vector<PressurePoint> pressure_points;
     mutable Vector             scratch;

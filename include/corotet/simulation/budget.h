@@ -65,7 +65,8 @@ namespace corotet
     }
 
   private:
-    /// Forces at one time, owned entries.
+    /// Forces at the time of a step for which the equation of motion holds;
+    /// owned entries.
     struct Forces
     {
       double time;
@@ -74,26 +75,26 @@ namespace corotet
       Vector external;
       /// Damping, on all unknowns.
       Vector damping;
-      /// Inertia and damping of prescribed unknowns, in their order.
-      std::vector<double> carried;
+      /// At the end of the step.
+      Vector displacement;
+      /// Inertia with damping, and velocities at the end of the step, of
+      /// prescribed unknowns, in their order.
+      std::vector<double> carried, velocity;
     };
 
     void
-    take_forces(Forces &forces) const;
+    take_forces(Forces &forces, const State &state) const;
 
     StructuralSystem     &system;
     const Discretization &discretization;
     const bool            is_staggered;
     /// Of the last step.
-    double dt;
-    Forces last, now;
-    Vector last_displacement;
-    /// Of prescribed unknowns.
-    std::vector<double> last_velocity, velocity;
-    Vector              momentum;
-    double              work        = 0;
-    double              dissipation = 0;
-    StepRecord          initial;
+    double     dt;
+    Forces     last, now;
+    Vector     momentum;
+    double     work        = 0;
+    double     dissipation = 0;
+    StepRecord initial;
   };
 } // namespace corotet
 

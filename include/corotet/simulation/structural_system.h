@@ -16,6 +16,7 @@
 #include <corotet/solvers/newton.h>
 #include <corotet/time_integration/second_order_system.h>
 
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -67,7 +68,7 @@ namespace corotet
 
     /// Evaluates all terms at a state, with the rotations of its displacement.
     /// Collective.
-    void
+    const Forces &
     evaluate(const State &state, const double time, const double load_factor);
 
     /// Takes displacement, velocity and rotations from a state, no forces.
@@ -144,6 +145,12 @@ namespace corotet
       return mass_matrix;
     }
 
+    bool
+    has_damping() const
+    {
+      return parameters.damping_mass > 0 || parameters.damping_stiffness > 0;
+    }
+
     const PrescribedMotion &
     prescribed_motion() const
     {
@@ -168,6 +175,11 @@ namespace corotet
 
     void
     make_operators();
+    /// All terms but inertia.
+    void
+    evaluate_forces(const State &state,
+                    const double time,
+                    const double load_factor);
     /// f = K v with that tangent, which the elasticity must have prepared.
     void
     apply_stiffness(Vector &f, const Vector &v, const Tangent tangent);
@@ -202,6 +214,9 @@ namespace corotet
 
     Forces forces;
     double forces_time = 0;
+    /// Of the external forces that are constant but for it, once they are
+    /// known.
+    double known_load_factor = std::numeric_limits<double>::quiet_NaN();
     Vector u_ghosted;
     Vector v_ghosted;
     Vector a_ghosted;

@@ -6,7 +6,6 @@
 
 #include <corotet/base/vector.h>
 
-#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -46,20 +45,6 @@ namespace corotet
   std::pair<double, double>
   largest_of_tridiagonal(const std::vector<double> &diagonal,
                          const std::vector<double> &beside);
-
-  /// Owned entries without a pattern, in [-1/2, 1/2], the same in every run and
-  /// on any number of ranks that numbers unknowns alike.
-  template <typename T>
-  void
-  set_without_pattern(dealii::LinearAlgebra::distributed::Vector<T> &x)
-  {
-    const auto first = x.get_partitioner()->local_range().first;
-    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
-      {
-        const double s = std::sin(12.9898 * (first + i) + 78.233) * 43758.5453;
-        x.local_element(i) = s - std::floor(s) - 0.5;
-      }
-  }
 } // namespace corotet
 
 #endif

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What explicit steps ask of the system: accelerations and the largest
+// frequency.
+
+#include <corotet/base/ghosted_copy.h>
+#include <corotet/simulation/structural_system.h>
+#include <corotet/solvers/largest_eigenvalue.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  StageReport
+  StructuralSystem::solve_acceleration(State       &state,
+                                       const double time,
+                                       const double velocity_factor)
+  {
+    // Of damping by mass, a part is in the velocity to come.
+    const double c = velocity_factor * parameters.damping_mass;
+    StageReport  report;
+    if (mass_matrix.is_lumped())
+      {
+        evaluate_forces(state, time, 1.);
+        ScopedTimer          timer(wall_times.solve);
+        const unsigned char *is_prescribed = motion.is_prescribed().data();
+        const double        *m             = mass_matrix.diagonal().begin();
+        const double        *external      = forces.external.begin();
+        const double        *internal      = forces.internal.begin();
+        double              *damping       = forces.damping.begin();
+        double              *inertia       = forces.inertia.begin();
+        double              *a             = state.a.begin();
+        double              *v             = state.v.begin();
+        const unsigned int   n             = state.a.locally_owned_size();
+        for (unsigned int i = 0; i < n; ++i)
+          if (is_prescribed[i])
+            inertia[i] = m[i] * a[i];
+          else
+            {
+              inertia[i] = (external[i] - internal[i] - damping[i]) / (1 + c);
+              a[i]       = inertia[i] / m[i];
+              v[i] += velocity_factor * a[i];
+              damping[i] += c * inertia[i];
+            }
+        return report;
+      }
+
+    // Free accelerations from those that are prescribed: M_ff a_f = r_f.
+    for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
+      if (!motion.is_prescribed()[i])
+        state.a.local_element(i) = 0;
+    evaluate(state, time, 1.);
+    Vector &r = free_residual;
+    Vector &a = free_acceleration;
+    r         = forces.external;
+    r -= forces.internal;
+    r -= forces.damping;
+    r -= forces.inertia;
+    motion.set_zero(r);
+
+    ScopedTimer timer(wall_times.solve);
+    report.linear_iterations = mass_solver.solve(a, r);
+    a *= 1 / (1 + c);
+    state.a += a;
+    state.v.add(velocity_factor, a);
+    copy_with_ghosts(a_ghosted, state.a);
+    mass_matrix.apply(forces.inertia, a_ghosted);
+    if (c > 0)
+      {
+        copy_with_ghosts(a_ghosted, a);
+        mass_matrix.apply(r, a_ghosted);
+        forces.damping.add(c, r);
+      }
+    return report;
+  }
+
+  double
+  StructuralSystem::largest_frequency(const State &state)
+  {
+    set_state(state);
+    // The exact tangent where it is symmetric: tension stiffens.
+    const Tangent tangent = elastic.is_symmetric(Tangent::consistent) ?
+                              Tangent::consistent :
+                              Tangent::frozen_rotation;
+    if (!elastic.is_by_cell(tangent))
+      elastic.linearize(u_ghosted, tangent);
+    const SymmetricPencil pencil{
+      [&](Vector &f, const Vector &v) {
+        copy_with_ghosts(a_ghosted, v);
+        apply_stiffness(f, a_ghosted, tangent);
+        motion.set_zero(f);
+      },
+      [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },
+      [&](Vector &v, const Vector &f) { mass_solver.solve(v, f); }};
+    // A start without pattern, the same on any number of ranks.
+    Vector       start(state.u);
+    const double length = discretization.node_positions().linfty_norm();
+    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          const dealii::Point<3> x = discretization.node_position(n) / length;
+          const double           s =
+            std::sin(12.9898 * x[0] + 78.233 * x[1] + 37.719 * x[2] + a) *
+            43758.5453;
+          start.local_element(3 * n + a) = s - std::floor(s) - 0.5;
+        }
+    motion.set_zero(start);
+    return std::sqrt(largest_eigenvalue(pencil, start, 2e-3));
+  }
+
+  double
+  StructuralSystem::mean_size(const Vector &field) const
+  {
+    double sum = 0;
+    for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
+      sum += mass_matrix.diagonal().local_element(i) * field.local_element(i) *
+             field.local_element(i);
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(sum, discretization.communicator()) /
+      mass_diagonal_sum);
+  }
+} // namespace corotet
