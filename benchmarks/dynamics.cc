@@ -28,10 +28,8 @@ namespace corotet::benchmarks
         prm.parse_input_from_string(text(c, solver, dt));
         discretization =
           std::make_unique<Discretization>(mesh, parameters.degree);
-        system = std::make_unique<StructuralSystem>(*discretization,
-                                                    parameters,
-                                                    wall_times,
-                                                    log);
+        system = std::make_unique<StructuralSystem>(
+          *discretization, parameters, tables, wall_times, log);
         system->initialize(state);
         system->prescribe(state, 0, 1);
         system->solve_acceleration(state, 0);
@@ -83,6 +81,7 @@ namespace corotet::benchmarks
       SimulationParameters              parameters;
       Mesh                              mesh;
       std::unique_ptr<Discretization>   discretization;
+      const TableFunctions              tables;
       WallTimes                         wall_times;
       std::unique_ptr<StructuralSystem> system;
       State                             state;

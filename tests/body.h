@@ -76,7 +76,7 @@ namespace corotet::tests
       , parameters(text)
       , mesh(serial_mesh, 0, 1., MPI_COMM_WORLD, log)
       , discretization(mesh, parameters.degree)
-      , system(discretization, parameters, wall_times, log)
+      , system(discretization, parameters, tables, wall_times, log)
     {
       system.initialize(state);
     }
@@ -101,6 +101,7 @@ namespace corotet::tests
 
     Log            log;
     Parameters     parameters;
+    TableFunctions tables;
     Mesh           mesh;
     Discretization discretization;
     WallTimes      wall_times;

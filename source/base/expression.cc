@@ -3,39 +3,21 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/expression.h>
+#include <corotet/base/formula_functions.h>
 #include <corotet/base/text.h>
 
-#include <deal.II/base/numbers.h>
-
 #include <fmt/format.h>
+#include <muParser.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
-#include <iostream>
-#include <sstream>
 
 namespace corotet
 {
   namespace
   {
-    const std::vector<std::string> variables = {"x", "y", "z", "t"};
-    const std::vector<std::string> constants = {"pi", "_pi", "_e"};
-
-    // Those of muParser and those that deal.II adds.
-    const std::vector<std::string> functions = {
-      "abs", "acos",  "acosh", "asin", "asinh",     "atan", "atan2", "atanh",
-      "avg", "ceil",  "cos",   "cosh", "cot",       "csc",  "erf",   "erfc",
-      "exp", "floor", "if",    "int",  "ln",        "log",  "log10", "log2",
-      "max", "min",   "pow",   "rand", "rand_seed", "rint", "sec",   "sign",
-      "sin", "sinh",  "sqrt",  "sum",  "tan",       "tanh"};
-
-    bool
-    contains(const std::vector<std::string> &list, const std::string &word)
-    {
-      return std::find(list.begin(), list.end(), word) != list.end();
-    }
-
     // All names in a formula. Numbers are skipped as a whole: the e of 1e5 is
     // no name.
     std::vector<std::string>
@@ -69,10 +51,38 @@ namespace corotet
       return names;
     }
 
+    // The message about a name that @p parser does not know.
+    std::string
+    unknown_name(const std::string    &name,
+                 const mu::Parser     &parser,
+                 const TableFunctions &tables)
+    {
+      std::vector<std::string> functions;
+      for (const auto &[function, callback] : parser.GetFunDef())
+        functions.push_back(function);
+      const std::string        suggestion = nearest(name, functions);
+      std::vector<std::string> known      = formula_variables;
+      known.push_back("pi");
+      known.insert(known.end(),
+                   functions_of_time.begin(),
+                   functions_of_time.end());
+      for (const auto &[table, function] : tables)
+        known.push_back(table);
+      return fmt::format("it has the unknown name \"{}\"{}; known are {} and "
+                         "muParser's functions",
+                         name,
+                         suggestion.empty() ?
+                           "" :
+                           " (did you mean \"" + suggestion + "\"?)",
+                         join(known));
+    }
+
     // Things that muParser would accept or report in a way that helps nobody:
     // the reason, or an empty string.
     std::string
-    reason_to_refuse(const std::string &formula)
+    reason_to_refuse(const std::string    &formula,
+                     const mu::Parser     &parser,
+                     const TableFunctions &tables)
     {
       if (formula.empty())
         return "it is empty; a formula is needed, for example 0";
@@ -89,63 +99,102 @@ namespace corotet
               return "it assigns by =; comparisons are ==, !=, <, <=, > and >=";
           }
       for (const std::string &name : identifiers(formula))
-        if (!contains(variables, name) && !contains(constants, name) &&
-            !contains(functions, name))
-          {
-            const std::string suggestion = nearest(name, functions);
-            return fmt::format("it has the unknown name \"{}\"{}; known are x, "
-                               "y, z, t, pi and muParser's functions",
-                               name,
-                               suggestion.empty() ?
-                                 "" :
-                                 " (did you mean \"" + suggestion + "\"?)");
-          }
+        if (!parser.GetVar().contains(name) &&
+            !parser.GetConst().contains(name) &&
+            !parser.GetFunDef().contains(name))
+          return unknown_name(name, parser, tables);
       return "";
     }
 
-    // deal.II prints what muParser says on the error stream before it throws;
-    // here that stream is caught.
-    class CaughtErrorStream
+    // muParser wants the parenthesis right after the name of a function.
+    std::string
+    without_blanks_before_parentheses(const std::string &formula)
     {
-    public:
-      CaughtErrorStream()
-        : original(std::cerr.rdbuf(buffer.rdbuf()))
-      {}
+      std::string result;
+      for (const char c : formula)
+        {
+          if (c == '(')
+            result.erase(result.find_last_not_of(" \t") + 1);
+          result += c;
+        }
+      return result;
+    }
 
-      ~CaughtErrorStream()
-      {
-        std::cerr.rdbuf(original);
-      }
-
-      CaughtErrorStream(const CaughtErrorStream &) = delete;
-      CaughtErrorStream &
-      operator=(const CaughtErrorStream &) = delete;
-
-      // The text of "Message:  <text>", without a full stop.
-      std::string
-      message() const
-      {
-        const std::string text  = buffer.str();
-        const std::size_t begin = text.find('<');
-        const std::size_t end   = text.find(">\n", begin);
-        if (begin == std::string::npos || end == std::string::npos)
-          return "it cannot be parsed";
-        std::string message = text.substr(begin + 1, end - begin - 1);
-        while (!message.empty() && message.back() == '.')
-          message.pop_back();
-        return message;
-      }
-
-    private:
-      std::ostringstream buffer;
-      std::streambuf    *original;
-    };
+    double
+    table_value(void *const table, const double argument)
+    {
+      return static_cast<const TableFunction *>(table)->value(argument);
+    }
   } // namespace
 
-  Expression::Expression(const std::string &text,
-                         const unsigned int n_components,
-                         const std::string &entry)
-    : function(std::make_shared<dealii::FunctionParser<3>>(n_components))
+  // The compiled components and the variables that they read.
+  struct Expression::Formulas
+  {
+    Formulas(const unsigned int n_components, const TableFunctions &tables)
+      : parsers(n_components)
+      , tables(tables)
+    {
+      for (mu::Parser &parser : parsers)
+        {
+          for (unsigned int i = 0; i < variables.size(); ++i)
+            parser.DefineVar(formula_variables[i], &variables[i]);
+          define_functions(parser);
+          // muParser knows data of functions as void * only.
+          for (const auto &[name, table] : tables)
+            parser.DefineFunUserData(name,
+                                     table_value,
+                                     const_cast<TableFunction *>(table.get()));
+        }
+    }
+
+    Formulas(const Formulas &) = delete;
+    Formulas &
+    operator=(const Formulas &) = delete;
+
+    // Throws InputError.
+    void
+    compile(const unsigned int component,
+            const std::string &formula,
+            const std::string &entry)
+    {
+      std::string reason =
+        reason_to_refuse(formula, parsers[component], tables);
+      if (reason.empty())
+        try
+          {
+            parsers[component].SetExpr(
+              without_blanks_before_parentheses(formula));
+            // muParser finds most mistakes only when it evaluates for the first
+            // time.
+            variables = {{0.25, 0.5, 0.75, 0}};
+            parsers[component].Eval();
+            return;
+          }
+        catch (const mu::Parser::exception_type &error)
+          {
+            reason = error.GetMsg();
+            while (!reason.empty() && reason.back() == '.')
+              reason.pop_back();
+          }
+      throw InputError(entry,
+                       fmt::format("the expression \"{}\" is no formula: {}",
+                                   formula,
+                                   reason));
+    }
+
+    std::array<double, 4>   variables = {};
+    std::vector<mu::Parser> parsers;
+
+  private:
+    // The parsers point to these.
+    const TableFunctions tables;
+  };
+
+  Expression::Expression(const std::string    &text,
+                         const unsigned int    n_components,
+                         const std::string    &entry,
+                         const TableFunctions &tables)
+    : formulas(std::make_shared<Formulas>(n_components, tables))
   {
     const std::vector<std::string> components =
       split_outside_brackets(text, ';');
@@ -160,16 +209,10 @@ namespace corotet
                     n_components == 1 ? "1 is" :
                                         fmt::format("{} are", n_components)));
 
-    for (const std::string &component : components)
+    for (unsigned int c = 0; c < n_components; ++c)
       {
-        const std::string reason = reason_to_refuse(component);
-        if (!reason.empty())
-          throw InputError(entry,
-                           fmt::format("the expression \"{}\" is no formula: "
-                                       "{}",
-                                       component,
-                                       reason));
-        for (const std::string &name : identifiers(component))
+        formulas->compile(c, components[c], entry);
+        for (const std::string &name : identifiers(components[c]))
           {
             const bool random = name == "rand" || name == "rand_seed";
             time_dependent |= name == "t" || random;
@@ -178,44 +221,15 @@ namespace corotet
           }
       }
 
-    compile(components, entry);
-
     zero = !space_dependent && !time_dependent;
     for (unsigned int c = 0; zero && c < n_components; ++c)
       zero = value(dealii::Point<3>(), 0, c) == 0;
   }
 
-  void
-  Expression::compile(const std::vector<std::string> &components,
-                      const std::string              &entry)
+  unsigned int
+  Expression::n_components() const
   {
-    // One by one, to know which one is wrong. muParser finds most mistakes only
-    // when it evaluates for the first time.
-    for (const std::string &component : components)
-      {
-        const CaughtErrorStream caught;
-        try
-          {
-            dealii::FunctionParser<3> trial(1);
-            trial.initialize("x,y,z,t",
-                             component,
-                             {{"pi", dealii::numbers::PI}},
-                             true);
-            trial.value(dealii::Point<3>(0.25, 0.5, 0.75));
-          }
-        catch (const dealii::ExceptionBase &)
-          {
-            throw InputError(entry,
-                             fmt::format("the expression \"{}\" is no formula: "
-                                         "{}",
-                                         component,
-                                         caught.message()));
-          }
-      }
-    function->initialize("x,y,z,t",
-                         components,
-                         {{"pi", dealii::numbers::PI}},
-                         true);
+    return formulas->parsers.size();
   }
 
   double
@@ -224,18 +238,17 @@ namespace corotet
                     const unsigned int      component) const
   {
     AssertIndexRange(component, n_components());
-    function->set_time(t);
-    return function->value(p, component);
+    formulas->variables = {{p[0], p[1], p[2], t}};
+    return formulas->parsers[component].Eval();
   }
 
   dealii::Tensor<1, 3>
   Expression::vector_value(const dealii::Point<3> &p, const double t) const
   {
     AssertDimension(n_components(), 3);
-    function->set_time(t);
     dealii::Tensor<1, 3> result;
     for (unsigned int c = 0; c < 3; ++c)
-      result[c] = function->value(p, c);
+      result[c] = value(p, t, c);
     return result;
   }
 } // namespace corotet

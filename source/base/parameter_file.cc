@@ -140,19 +140,43 @@ namespace corotet
         }
     }
 
+    std::string
+    moved_file_name(const std::string &file,
+                    const fs::path    &from,
+                    const fs::path    &to)
+    {
+      const fs::path name = file;
+      return name.empty() || name.is_absolute() ?
+               file :
+               fs::relative(from / name, to).string();
+    }
+
     // File names that are relative to the folder @p from become relative to @p
-    // to.
+    // to: those of entries that are a file name, or a list "key: file name".
     void
     move_file_names(Json &section, const fs::path &from, const fs::path &to)
     {
       for (auto &[key, node] : section.items())
         if (is_entry(node))
           {
-            const fs::path name = node.at("value").get<std::string>();
-            if (node.value("pattern_description", "")
-                  .starts_with("[FileName") &&
-                !name.empty() && name.is_relative())
-              node["value"] = fs::relative(from / name, to).string();
+            const std::string value   = node.at("value");
+            const std::string pattern = node.value("pattern_description", "");
+            if (pattern.starts_with("[FileName"))
+              node["value"] = moved_file_name(value, from, to);
+            else if (pattern.starts_with("[Map of <[Anything]>:<[FileName"))
+              {
+                std::vector<std::string> items;
+                for (const std::string &item :
+                     dealii::Utilities::split_string_list(value, ','))
+                  {
+                    const auto pair =
+                      dealii::Utilities::split_string_list(item, ':');
+                    AssertDimension(pair.size(), 2);
+                    items.push_back(pair[0] + ": " +
+                                    moved_file_name(pair[1], from, to));
+                  }
+                node["value"] = join(items);
+              }
           }
         else if (node.is_object())
           move_file_names(node, from, to);

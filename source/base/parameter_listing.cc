@@ -190,6 +190,9 @@ namespace corotet
     static const std::regex list(
       R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\)(?: separated by <(.*)>)?\])");
 
+    static const std::regex map(
+      R"(\[Map of <(.*)>:<(.*)> of length 0\.\.\.\d+ \(inclusive\)\])");
+
     std::smatch match;
     if (std::regex_match(description, match, range))
       return describe_range(match[1] == "Double" ? "a number" :
@@ -204,6 +207,11 @@ namespace corotet
       }
     if (std::regex_match(description, match, list))
       return describe_list(match[1], match[2], match[3], match[4]);
+    if (std::regex_match(description, match, map))
+      return fmt::format("any number of pairs separated by \",\", each {} and "
+                         "{} separated by \":\"",
+                         describe_pattern(match[1]),
+                         describe_pattern(match[2]));
     if (description == "[Double]")
       return "a number";
     if (description == "[Integer]")

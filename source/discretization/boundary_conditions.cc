@@ -48,7 +48,8 @@ namespace corotet
       displacement,
       "Displacement [m] of boundaries: 'name: x; y; z, name: x; y; z', each "
       "component an expression in x, y, z, t or 'free'. Supports move with "
-      "the expression's own velocity and acceleration.");
+      "the expression's own velocity and acceleration: let it have no kinks, "
+      "like smooth_step and cubic tables.");
     prm.add_parameter(
       "Traction",
       traction,
@@ -64,7 +65,8 @@ namespace corotet
 
   BoundaryConditions::BoundaryConditions(
     const BoundaryConditionParameters &parameters,
-    const MeshNames                   &boundaries)
+    const MeshNames                   &boundaries,
+    const TableFunctions              &tables)
     : names(boundaries)
   {
     std::string entry = section + "Fixed";
@@ -99,7 +101,7 @@ namespace corotet
           if (components[a] != "free")
             {
               claim(condition.boundary, a, entry);
-              condition.components[a].emplace(components[a], 1, entry);
+              condition.components[a].emplace(components[a], 1, entry, tables);
             }
         displacements.push_back(condition);
       }
@@ -108,10 +110,10 @@ namespace corotet
     for (const auto &[name, value] : named_values(parameters.traction, entry))
       {
         const unsigned int boundary = names.id(name, entry);
-        tractions.push_back({boundary, Expression(value, 3, entry)});
+        tractions.push_back({boundary, Expression(value, 3, entry, tables)});
         const auto components = split_outside_brackets(value, ';');
         for (unsigned int a = 0; a < 3; ++a)
-          if (!Expression(components[a], 1, entry).is_zero())
+          if (!Expression(components[a], 1, entry, tables).is_zero())
             claim(boundary, a, entry);
       }
 
@@ -119,7 +121,7 @@ namespace corotet
     for (const auto &[name, value] : named_values(parameters.pressure, entry))
       {
         const unsigned int boundary = names.id(name, entry);
-        pressures.push_back({boundary, Expression(value, 1, entry)});
+        pressures.push_back({boundary, Expression(value, 1, entry, tables)});
         for (unsigned int a = 0; a < 3; ++a)
           claim(boundary, a, entry);
       }

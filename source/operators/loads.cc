@@ -43,7 +43,8 @@ namespace corotet
                const BoundaryConditions &conditions,
                const LoadParameters     &parameters,
                const bool                follow,
-               Log                      &log)
+               Log                      &log,
+               const TableFunctions     &tables)
     : discretization(discretization)
     , reference(reference)
     , mass(mass)
@@ -53,16 +54,17 @@ namespace corotet
     discretization.initialize_vector(scratch);
     discretization.initialize_vector(constant_force);
     add_dead_load({DeadLoad::Kind::gravity,
-                   Expression(parameters.gravity, 3, "Loads/Gravity")});
-    add_dead_load({DeadLoad::Kind::body_force,
-                   Expression(parameters.body_force, 3, "Loads/Body force")});
+                   Expression(parameters.gravity, 3, "Loads/Gravity", tables)});
+    add_dead_load(
+      {DeadLoad::Kind::body_force,
+       Expression(parameters.body_force, 3, "Loads/Body force", tables)});
     for (const auto &traction : conditions.tractions)
       add_dead_load(
         {DeadLoad::Kind::traction, traction.value, traction.boundary});
     if (!dealii::Utilities::trim(parameters.point_forces).empty())
       for (const std::string &item :
            split_outside_brackets(parameters.point_forces, ','))
-        point_forces.push_back(locate(item, log));
+        point_forces.push_back(locate(item, tables, log));
   }
 
   void
@@ -310,7 +312,9 @@ namespace corotet
   }
 
   Loads::PointForce
-  Loads::locate(const std::string &text, Log &log) const
+  Loads::locate(const std::string    &text,
+                const TableFunctions &tables,
+                Log                  &log) const
   {
     const std::string   entry = "Loads/Point forces";
     const std::size_t   colon = text.find(':');
@@ -327,7 +331,7 @@ namespace corotet
                        fmt::format("found '{}'; allowed: 'x y z: fx; fy; fz'",
                                    text));
     const Point<3> target(coordinates[0], coordinates[1], coordinates[2]);
-    Expression     value(text.substr(colon + 1), 3, entry);
+    Expression     value(text.substr(colon + 1), 3, entry, tables);
 
     // The nearest node; of several the one with the lowest number.
     unsigned int nearest  = 0;

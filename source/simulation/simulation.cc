@@ -16,9 +16,10 @@ namespace corotet
                          Log                  &log)
     : parameters(parameters)
     , log(log)
+    , tables(read_table_functions(parameters.tables, folder, comm))
     , mesh(parameters.mesh, folder, comm, log)
     , disc(mesh, parameters.degree)
-    , system(disc, parameters, wall_times, log)
+    , system(disc, parameters, tables, wall_times, log)
     , stepper(parameters, disc, system, log)
   {
     log.line(fmt::format(

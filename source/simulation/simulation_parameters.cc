@@ -43,6 +43,7 @@ namespace corotet
         Selection("consistent|diagonal scaling|row sum"));
     });
     section(prm, "Material", [&] { material.declare_parameters(prm); });
+    section(prm, "Tables", [&] { tables.declare_parameters(prm); });
     section(prm, "Boundary conditions", [&] {
       boundary_conditions.declare_parameters(prm);
     });

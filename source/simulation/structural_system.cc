@@ -28,15 +28,18 @@ namespace corotet
 
   StructuralSystem::StructuralSystem(const Discretization &discretization,
                                      SimulationParameters &parameters,
+                                     const TableFunctions &tables,
                                      WallTimes            &wall_times,
                                      Log                  &log)
     : discretization(discretization)
     , parameters(parameters)
+    , tables(tables)
     , wall_times(wall_times)
     , log(log)
     , reference(discretization.degree())
     , conditions(parameters.boundary_conditions,
-                 discretization.mesh().boundaries())
+                 discretization.mesh().boundaries(),
+                 tables)
     , mass_matrix(discretization,
                   reference,
                   densities(parameters.material.materials(
@@ -52,7 +55,8 @@ namespace corotet
             conditions,
             parameters.loads,
             parameters.material.rotation_placement() != Rotation::none,
-            log)
+            log,
+            tables)
     , motion(discretization,
              reference,
              conditions,
@@ -97,10 +101,12 @@ namespace corotet
       discretization.initialize_vector(*vector);
     const Expression u0(parameters.initial_displacement,
                         3,
-                        "Initial conditions/Displacement");
+                        "Initial conditions/Displacement",
+                        tables);
     const Expression v0(parameters.initial_velocity,
                         3,
-                        "Initial conditions/Velocity");
+                        "Initial conditions/Velocity",
+                        tables);
     for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
       {
         const dealii::Point<3> x = discretization.node_position(n);

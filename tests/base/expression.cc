@@ -32,7 +32,7 @@ namespace
         EXPECT_EQ(error.entry, "Loads/Gravity");
         message = error.what();
       }
-    // deal.II and muParser must not chat.
+    // muParser must not chat.
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(message.find('\n'), std::string::npos);
     return message;
@@ -148,9 +148,11 @@ TEST(Expression, RefusesUnknownNames)
 {
   EXPECT_EQ(refusal("2 * u", 1),
             "the expression \"2 * u\" is no formula: it has the unknown name "
-            "\"u\"; known are x, y, z, t, pi and muParser's functions");
+            "\"u\"; known are x, y, z, t, pi, ramp, smooth_step, pulse, "
+            "half_sine, triangle and muParser's functions");
   EXPECT_EQ(refusal("sine(x)", 1),
             "the expression \"sine(x)\" is no formula: it has the unknown name "
-            "\"sine\" (did you mean \"sin\"?); known are x, y, z, t, pi and "
-            "muParser's functions");
+            "\"sine\" (did you mean \"sin\"?); known are x, y, z, t, pi, ramp, "
+            "smooth_step, pulse, half_sine, triangle and muParser's "
+            "functions");
 }

@@ -263,5 +263,8 @@ TEST(ParameterListing, DescribesPatternsInWords)
             "any number of values separated by \",\", each one of a, b");
   EXPECT_EQ(describe_pattern(List(Integer(0), 1, 2).description()),
             "1 to 2 values separated by \",\", each a whole number >= 0");
+  EXPECT_EQ(describe_pattern(Map(Anything(), FileName()).description()),
+            "any number of pairs separated by \",\", each a text and a file "
+            "name separated by \":\"");
   EXPECT_EQ(describe_pattern("[Something new]"), "[Something new]");
 }

@@ -4,7 +4,8 @@
 #ifndef corotet_base_expression_h
 #define corotet_base_expression_h
 
-#include <deal.II/base/function_parser.h>
+#include <corotet/base/table_functions.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
@@ -15,8 +16,9 @@ namespace corotet
 {
   /**
    * A formula in x, y, z [m] and t [s] with one or more components, as a user
-   * writes it: muParser's syntax, components separated by semicolons, and the
-   * constant pi. Example: "0; 0; -9.81 * min(t, 1)".
+   * writes it: muParser's syntax, components separated by semicolons, the
+   * constant pi, functions of time (see define_functions()) and tables.
+   * Example: "0; 0; -9.81 * ramp(t, 0, 1)".
    *
    * Values may be infinite or not a number; whoever evaluates decides about
    * that. Copies share the compiled formula; one must not be evaluated by
@@ -26,10 +28,12 @@ namespace corotet
   {
   public:
     /// Throws an InputError that blames @p entry if @p text has not @p
-    /// n_components components or is no formula.
-    Expression(const std::string &text,
-               const unsigned int n_components,
-               const std::string &entry);
+    /// n_components components or is no formula. @p tables are functions of
+    /// one argument that formulas may use.
+    Expression(const std::string    &text,
+               const unsigned int    n_components,
+               const std::string    &entry,
+               const TableFunctions &tables = {});
 
     double
     value(const dealii::Point<3> &p,
@@ -41,10 +45,7 @@ namespace corotet
     vector_value(const dealii::Point<3> &p, const double t) const;
 
     unsigned int
-    n_components() const
-    {
-      return function->n_components;
-    }
+    n_components() const;
 
     bool
     depends_on_space() const
@@ -66,11 +67,9 @@ namespace corotet
     }
 
   private:
-    void
-    compile(const std::vector<std::string> &components,
-            const std::string              &entry);
+    struct Formulas;
 
-    std::shared_ptr<dealii::FunctionParser<3>> function;
+    std::shared_ptr<Formulas> formulas;
 
     bool space_dependent = false;
     bool time_dependent  = false;

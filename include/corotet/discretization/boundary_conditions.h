@@ -54,9 +54,10 @@ namespace corotet
     };
 
     /// Throws InputError for unknown boundaries, wrong expressions, and
-    /// components with two conditions.
+    /// components with two conditions. @p tables are for the expressions.
     BoundaryConditions(const BoundaryConditionParameters &parameters,
-                       const MeshNames                   &boundaries);
+                       const MeshNames                   &boundaries,
+                       const TableFunctions              &tables = {});
 
     std::vector<Displacement> displacements;
     std::vector<SurfaceLoad>  tractions;

@@ -46,14 +46,16 @@ namespace corotet
   class Loads
   {
   public:
-    /// @p follow: whether pressures act on the deformed surface.
+    /// @p follow: whether pressures act on the deformed surface. @p tables are
+    /// for the expressions.
     Loads(const Discretization     &discretization,
           const ReferenceElement   &reference,
           const Mass               &mass,
           const BoundaryConditions &conditions,
           const LoadParameters     &parameters,
           const bool                follow,
-          Log                      &log);
+          Log                      &log,
+          const TableFunctions     &tables = {});
 
     /// f = f_ext at @p time and displacement @p u (ghosts up to date).
     void
@@ -121,7 +123,9 @@ namespace corotet
     void
     add_dead_load(DeadLoad load);
     PointForce
-    locate(const std::string &text, Log &log) const;
+    locate(const std::string    &text,
+           const TableFunctions &tables,
+           Log                  &log) const;
 
     /// f = the load, with its value taken from @p value(x).
     template <typename Value>

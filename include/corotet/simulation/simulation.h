@@ -90,6 +90,7 @@ namespace corotet
     SimulationParameters &parameters;
     Log                  &log;
     WallTimes             wall_times;
+    const TableFunctions  tables;
     const Mesh            mesh;
     const Discretization  disc;
     StructuralSystem      system;

@@ -5,6 +5,7 @@
 #define corotet_simulation_simulation_parameters_h
 
 #include <corotet/base/selectable.h>
+#include <corotet/base/table_functions.h>
 #include <corotet/discretization/boundary_conditions.h>
 #include <corotet/material/material_parameters.h>
 #include <corotet/mesh/mesh.h>
@@ -35,6 +36,7 @@ namespace corotet
     unsigned int                degree    = 2;
     std::string                 mass_type = "consistent";
     MaterialParameters          material;
+    TableParameters             tables;
     BoundaryConditionParameters boundary_conditions;
     LoadParameters              loads;
     /// Rayleigh damping C = alpha_M M + alpha_K K: alpha_M [1/s], alpha_K [s].

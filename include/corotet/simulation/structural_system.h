@@ -45,6 +45,7 @@ namespace corotet
     /// Throws InputError. Collective.
     StructuralSystem(const Discretization &discretization,
                      SimulationParameters &parameters,
+                     const TableFunctions &tables,
                      WallTimes            &wall_times,
                      Log                  &log);
 
@@ -186,6 +187,7 @@ namespace corotet
 
     const Discretization &discretization;
     SimulationParameters &parameters;
+    const TableFunctions &tables;
     WallTimes            &wall_times;
     Log                  &log;
 

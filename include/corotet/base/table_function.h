@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_table_function_h
+#define corotet_base_table_function_h
+
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * A function of one argument given by the rows (argument, value) of a table;
+   * constant before the first and after the last row.
+   *
+   * Between rows it is linear, or cubic by Hermite's formula: continuously
+   * differentiable, monotone where the rows are, so it never overshoots, and
+   * of third order where they are smooth and monotone. Its slopes at rows are
+   * those of the parabola through three neighbours, zero where values turn,
+   * and at most three times those of the adjacent chords, which is sufficient
+   * for monotonicity @cite fritsch1980. At local extrema between rows, whose
+   * neighbours are flattened, it is of second order.
+   */
+  class TableFunction
+  {
+  public:
+    enum class Interpolation
+    {
+      linear,
+      cubic
+    };
+
+    /// There are as many arguments as values, two or more; arguments increase.
+    TableFunction(const std::vector<double> &arguments,
+                  const std::vector<double> &values,
+                  const Interpolation        interpolation);
+
+    double
+    value(const double argument) const;
+
+  private:
+    std::vector<double> arguments;
+    std::vector<double> values;
+    /// At rows; empty for linear interpolation.
+    std::vector<double> slopes;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/formula_functions.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <random>
+
+namespace corotet
+{
+  namespace
+  {
+    double
+    ramp(const double t, const double t0, const double t1)
+    {
+      if (!(t0 <= t1))
+        return std::numeric_limits<double>::quiet_NaN();
+      if (t < t0)
+        return 0;
+      if (t >= t1)
+        return 1;
+      return (t - t0) / (t1 - t0);
+    }
+
+    double
+    smooth_step(const double t, const double t0, const double t1)
+    {
+      const double s = ramp(t, t0, t1);
+      return s * s * s * (10 + s * (6 * s - 15));
+    }
+
+    double
+    pulse(const double t, const double t0, const double t1)
+    {
+      const double s = ramp(t, t0, t1);
+      return std::isnan(s) ? s : (t >= t0 && t < t1);
+    }
+
+    double
+    half_sine(const double t, const double t0, const double t1)
+    {
+      // At s = 1 the sine of the rounded pi is not zero.
+      const double s = ramp(t, t0, t1);
+      return s == 1 ? 0 : std::sin(dealii::numbers::PI * s);
+    }
+
+    double
+    triangle(const double t, const double t0, const double t1)
+    {
+      return 1 - std::abs(2 * ramp(t, t0, t1) - 1);
+    }
+
+    // Conditions are rounded, as those of muParser's own operators are exactly
+    // 0 or 1.
+    bool
+    is_true(const double condition)
+    {
+      return std::abs(condition) >= 0.5;
+    }
+
+    double
+    random_number()
+    {
+      thread_local std::mt19937 generator;
+      return std::uniform_real_distribution<>()(generator);
+    }
+
+    double
+    seeded_random_number(const double seed)
+    {
+      thread_local std::map<double, std::mt19937> generators;
+      const auto                                  place =
+        generators.try_emplace(seed, std::hash<double>()(seed)).first;
+      return std::uniform_real_distribution<>()(place->second);
+    }
+
+    using Unary  = double (*)(double);
+    using Binary = double (*)(double, double);
+
+    void
+    define_general_functions(mu::Parser &parser)
+    {
+      const std::map<std::string, Unary> unary_functions = {
+        {"int", [](const double a) { return std::round(a); }},
+        {"ceil", [](const double a) { return std::ceil(a); }},
+        {"floor", [](const double a) { return std::floor(a); }},
+        {"cot", [](const double a) { return 1 / std::tan(a); }},
+        {"csc", [](const double a) { return 1 / std::sin(a); }},
+        {"sec", [](const double a) { return 1 / std::cos(a); }},
+        {"log", [](const double a) { return std::log(a); }},
+        {"erf", [](const double a) { return std::erf(a); }},
+        {"erfc", [](const double a) { return std::erfc(a); }}};
+      for (const auto &[name, function] : unary_functions)
+        parser.DefineFun(name, function);
+      parser.DefineFun("pow", static_cast<Binary>(std::pow));
+      parser.DefineFun(
+        "if",
+        +[](const double condition, const double a, const double b) -> double {
+          return is_true(condition) ? a : b;
+        });
+      parser.DefineOprt(
+        "|",
+        [](const double a, const double b) -> double {
+          return is_true(a) || is_true(b);
+        },
+        mu::prLOR);
+      parser.DefineOprt(
+        "&",
+        [](const double a, const double b) -> double {
+          return is_true(a) && is_true(b);
+        },
+        mu::prLAND);
+      // Not to be evaluated once and for all.
+      parser.DefineFun("rand", random_number, false);
+      parser.DefineFun("rand_seed", seeded_random_number, false);
+    }
+  } // namespace
+
+  void
+  define_functions(mu::Parser &parser)
+  {
+    parser.DefineConst("pi", dealii::numbers::PI);
+    define_general_functions(parser);
+    parser.DefineFun("ramp", ramp);
+    parser.DefineFun("smooth_step", smooth_step);
+    parser.DefineFun("pulse", pulse);
+    parser.DefineFun("half_sine", half_sine);
+    parser.DefineFun("triangle", triangle);
+  }
+
+  bool
+  is_formula_name(const std::string &name)
+  {
+    mu::Parser parser;
+    define_functions(parser);
+    return parser.GetFunDef().contains(name) ||
+           parser.GetConst().contains(name) ||
+           std::find(formula_variables.begin(),
+                     formula_variables.end(),
+                     name) != formula_variables.end();
+  }
+} // namespace corotet

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/table_file.h>
+#include <corotet/base/text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+namespace corotet
+{
+  namespace
+  {
+    // A finite number, whatever the locale; nothing if @p text is none.
+    std::optional<double>
+    number(const std::string &text)
+    {
+      const std::size_t sign  = text.starts_with('+') ? 1 : 0;
+      const char *const end   = text.data() + text.size();
+      double            value = 0;
+      const auto [stop, error] =
+        std::from_chars(text.data() + sign, end, value);
+      if (error != std::errc() || stop != end || !std::isfinite(value) ||
+          text.starts_with("+-"))
+        return {};
+      return value;
+    }
+
+    std::vector<std::string>
+    fields(const std::string &line)
+    {
+      for (const char separator : {';', ','})
+        if (line.find(separator) != std::string::npos)
+          return split_outside_brackets(line, separator);
+      std::string with_blanks = line;
+      std::replace(with_blanks.begin(), with_blanks.end(), '\t', ' ');
+      std::vector<std::string> words =
+        dealii::Utilities::split_string_list(with_blanks, ' ');
+      std::erase(words, "");
+      return words;
+    }
+
+    // What is found in a file that is none of ours can be long.
+    std::string
+    shortened(const std::string &text)
+    {
+      return text.size() <= 40 ? text : text.substr(0, 40) + "...";
+    }
+
+    double
+    checked_number(const std::string &text, const std::string &place)
+    {
+      const std::optional<double> value = number(text);
+      if (!value)
+        throw InputError("",
+                         fmt::format("{}: a table consists of finite numbers, "
+                                     "with a point for decimals: found '{}'",
+                                     place,
+                                     shortened(text)));
+      return *value;
+    }
+  } // namespace
+
+  TableRows
+  read_table_file(const std::string &path)
+  {
+    std::ifstream file(path);
+    if (!file)
+      throw MachineError(path + ": cannot be read (permission?)");
+
+    TableRows    rows;
+    bool         may_be_header = true;
+    unsigned int line_number   = 0;
+    for (std::string line; std::getline(file, line);)
+      {
+        ++line_number;
+        // The mark of UTF-8 that spreadsheets write.
+        if (line_number == 1 && line.starts_with("\xEF\xBB\xBF"))
+          line.erase(0, 3);
+        line = dealii::Utilities::trim(line.substr(0, line.find('#')));
+        if (line.empty())
+          continue;
+
+        const std::vector<std::string> texts = fields(line);
+        const bool                     is_header =
+          may_be_header &&
+          std::none_of(texts.begin(), texts.end(), [](const std::string &text) {
+            return number(text).has_value();
+          });
+        may_be_header = false;
+        if (is_header)
+          continue;
+
+        const std::string place = fmt::format("{}:{}", path, line_number);
+        if (texts.size() != 2)
+          throw InputError("",
+                           fmt::format("{}: a row of a table has two numbers, "
+                                       "separated by a comma, a semicolon or "
+                                       "blanks: found {} columns, '{}'",
+                                       place,
+                                       texts.size(),
+                                       shortened(line)));
+        const double argument = checked_number(texts[0], place);
+        if (!rows.arguments.empty() && argument <= rows.arguments.back())
+          throw InputError("",
+                           fmt::format("{}: the first column of a table must "
+                                       "increase: found {} after {}",
+                                       place,
+                                       argument,
+                                       rows.arguments.back()));
+        rows.arguments.push_back(argument);
+        rows.values.push_back(checked_number(texts[1], place));
+      }
+    if (file.bad())
+      throw MachineError(path + ": cannot be read to its end");
+    if (rows.arguments.size() < 2)
+      throw InputError("",
+                       fmt::format("{}: a table has at least 2 rows: found {}",
+                                   path,
+                                   rows.arguments.size()));
+    return rows;
+  }
+} // namespace corotet

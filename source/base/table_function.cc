@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/table_function.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace corotet
+{
+  namespace
+  {
+    // The slope nearest to @p slope of a function that is monotone next to a
+    // chord.
+    double
+    limited(const double slope, const double chord)
+    {
+      return chord > 0 ? std::clamp(slope, 0., 3 * chord) :
+                         std::clamp(slope, 3 * chord, 0.);
+    }
+
+    // Slope at the first of three rows of the parabola through them, from two
+    // distances and the chords over these.
+    double
+    end_slope(const double h0,
+              const double h1,
+              const double chord0,
+              const double chord1)
+    {
+      return limited(chord0 + h0 * (chord0 - chord1) / (h0 + h1), chord0);
+    }
+
+    std::vector<double>
+    monotone_slopes(const std::vector<double> &x, const std::vector<double> &f)
+    {
+      const std::size_t   n = x.size() - 1;
+      std::vector<double> h(n), chords(n);
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          h[i]      = x[i + 1] - x[i];
+          chords[i] = (f[i + 1] - f[i]) / h[i];
+        }
+      if (n == 1)
+        return {chords[0], chords[0]};
+
+      std::vector<double> slopes(n + 1);
+      slopes[0] = end_slope(h[0], h[1], chords[0], chords[1]);
+      slopes[n] = end_slope(h[n - 1], h[n - 2], chords[n - 1], chords[n - 2]);
+      for (std::size_t i = 1; i < n; ++i)
+        {
+          const double parabola =
+            (h[i] * chords[i - 1] + h[i - 1] * chords[i]) / (h[i - 1] + h[i]);
+          slopes[i] = limited(limited(parabola, chords[i - 1]), chords[i]);
+        }
+      return slopes;
+    }
+  } // namespace
+
+  TableFunction::TableFunction(const std::vector<double> &arguments,
+                               const std::vector<double> &values,
+                               const Interpolation        interpolation)
+    : arguments(arguments)
+    , values(values)
+  {
+    Assert(arguments.size() >= 2 && arguments.size() == values.size(),
+           dealii::ExcMessage("A table has at least two rows."));
+    Assert(std::adjacent_find(arguments.begin(),
+                              arguments.end(),
+                              std::greater_equal<>()) == arguments.end(),
+           dealii::ExcMessage("The arguments of a table increase."));
+    if (interpolation == Interpolation::cubic)
+      slopes = monotone_slopes(arguments, values);
+  }
+
+  double
+  TableFunction::value(const double argument) const
+  {
+    if (argument <= arguments.front())
+      return values.front();
+    if (argument >= arguments.back())
+      return values.back();
+    if (std::isnan(argument))
+      return argument;
+
+    const std::size_t i =
+      std::upper_bound(arguments.begin(), arguments.end(), argument) -
+      arguments.begin() - 1;
+    const double h = arguments[i + 1] - arguments[i];
+    const double d = values[i + 1] - values[i];
+    const double s = (argument - arguments[i]) / h;
+    if (slopes.empty())
+      return values[i] + s * d;
+    const double a = h * slopes[i];
+    const double b = h * slopes[i + 1];
+    return values[i] + s * (a + s * (3 * d - 2 * a - b + s * (a + b - 2 * d)));
+  }
+} // namespace corotet
