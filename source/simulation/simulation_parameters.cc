@@ -48,18 +48,7 @@ namespace corotet
       boundary_conditions.declare_parameters(prm);
     });
     section(prm, "Loads", [&] { loads.declare_parameters(prm); });
-    section(prm, "Damping", [&] {
-      prm.add_parameter("Mass coefficient",
-                        damping_mass,
-                        "alpha_M [1/s] of Rayleigh damping C = alpha_M M + "
-                        "alpha_K K. It also brakes rigid motion.",
-                        Double(0));
-      prm.add_parameter("Stiffness coefficient",
-                        damping_stiffness,
-                        "alpha_K [s] of Rayleigh damping, with K rotated like "
-                        "the stiffness.",
-                        Double(0));
-    });
+    section(prm, "Damping", [&] { damping.declare_parameters(prm); });
     section(prm, "Initial conditions", [&] {
       prm.add_parameter("Displacement",
                         initial_displacement,

@@ -91,7 +91,7 @@ namespace corotet
     const StabilityControl &control = *integrator.stability();
     const double            stable =
       integrator.stable_step(system.largest_frequency(present),
-                             parameters.damping_stiffness);
+                             parameters.damping.coefficients().stiffness);
     if (n_steps == 0)
       {
         step_length = control.safety_factor * stable;

@@ -63,6 +63,7 @@ namespace corotet
              std::max(parameters.time_step,
                       1e-4 * (parameters.end_time - parameters.start_time)))
     , mass_solver(discretization, mass_matrix, motion)
+    , damping(parameters.damping.coefficients())
     , wanted_tangent(parameters.newton.tangent == "consistent" ?
                        Tangent::consistent :
                        Tangent::frozen_rotation)
@@ -71,6 +72,10 @@ namespace corotet
     if (!elastic.is_by_cell(tangent))
       parameters.linear_solver.check_fit(
         TangentOperator::is_symmetric(elastic, loads, tangent));
+    if (!parameters.damping.frequencies.empty())
+      log.line(fmt::format("Damping: alpha_M = {:.6g} 1/s, alpha_K = {:.6g} s",
+                           damping.mass,
+                           damping.stiffness));
     for (Vector *vector : {&forces.external,
                            &forces.internal,
                            &forces.damping,
@@ -170,20 +175,20 @@ namespace corotet
     if (!has_damping())
       return;
     copy_with_ghosts(v_ghosted, state.v);
-    if (parameters.damping_stiffness > 0)
+    if (damping.stiffness > 0)
       {
         // C turns with the rotations that the material has.
         if (!elastic.is_by_cell(Tangent::frozen_rotation))
           elastic.linearize(u_ghosted, Tangent::frozen_rotation);
         apply_stiffness(forces.damping, v_ghosted, Tangent::frozen_rotation);
-        forces.damping *= parameters.damping_stiffness;
+        forces.damping *= damping.stiffness;
       }
     else
       forces.damping = 0;
-    if (parameters.damping_mass > 0)
+    if (damping.mass > 0)
       {
         mass_matrix.apply(forces.inertia, v_ghosted);
-        forces.damping.add(parameters.damping_mass, forces.inertia);
+        forces.damping.add(damping.mass, forces.inertia);
       }
   }
 
@@ -258,9 +263,9 @@ namespace corotet
   unsigned int
   StructuralSystem::solve_linearized(Vector &dx, const Vector &r)
   {
-    const double c_K = 1 + stage.velocity_factor * parameters.damping_stiffness;
-    const double c_M = stage.acceleration_factor +
-                       stage.velocity_factor * parameters.damping_mass;
+    const double c_K = 1 + stage.velocity_factor * damping.stiffness;
+    const double c_M =
+      stage.acceleration_factor + stage.velocity_factor * damping.mass;
     if (elastic.rotation_placement() != Rotation::none || c_K != operator_c_K ||
         c_M != operator_c_M)
       {
@@ -314,7 +319,7 @@ namespace corotet
     // Damping by a stiffness that turns with the body is not a gradient.
     return elastic.is_symmetric(Tangent::consistent) &&
            !loads.has_follower_pressure() &&
-           (parameters.damping_stiffness == 0 ||
+           (damping.stiffness == 0 ||
             elastic.rotation_placement() == Rotation::none);
   }
 

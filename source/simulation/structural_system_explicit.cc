@@ -20,7 +20,7 @@ namespace corotet
                                        const double velocity_factor)
   {
     // Of damping by mass, a part is in the velocity to come.
-    const double c = velocity_factor * parameters.damping_mass;
+    const double c = velocity_factor * damping.mass;
     StageReport  report;
     if (mass_matrix.is_lumped())
       {

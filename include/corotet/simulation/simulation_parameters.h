@@ -11,6 +11,7 @@
 #include <corotet/mesh/mesh.h>
 #include <corotet/operators/loads.h>
 #include <corotet/simulation/adaptive_step.h>
+#include <corotet/simulation/rayleigh_damping.h>
 #include <corotet/solvers/linear_solver.h>
 #include <corotet/solvers/newton.h>
 #include <corotet/time_integration/time_integrator.h>
@@ -39,9 +40,8 @@ namespace corotet
     TableParameters             tables;
     BoundaryConditionParameters boundary_conditions;
     LoadParameters              loads;
-    /// Rayleigh damping C = alpha_M M + alpha_K K: alpha_M [1/s], alpha_K [s].
-    double                     damping_mass         = 0;
-    double                     damping_stiffness    = 0;
+    DampingParameters           damping;
+    /// Expressions of the state at the start time.
     std::string                initial_displacement = "0; 0; 0";
     std::string                initial_velocity     = "0; 0; 0";
     Selectable<TimeIntegrator> time_integrator;

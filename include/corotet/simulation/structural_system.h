@@ -149,7 +149,7 @@ namespace corotet
     bool
     has_damping() const
     {
-      return parameters.damping_mass > 0 || parameters.damping_stiffness > 0;
+      return damping.mass > 0 || damping.stiffness > 0;
     }
 
     const PrescribedMotion &
@@ -198,6 +198,7 @@ namespace corotet
     Loads                    loads;
     const PrescribedMotion   motion;
     const MassSolver         mass_solver;
+    const RayleighDamping    damping;
     const Tangent            wanted_tangent;
     Tangent                  tangent;
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/simulation/rayleigh_damping.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  namespace
+  {
+    // a - b, and zero if that is round-off of decimal numbers.
+    double
+    difference(const double a, const double b)
+    {
+      return std::abs(a - b) <= 1e-14 * (a + b) ? 0. : a - b;
+    }
+  } // namespace
+
+  void
+  DampingParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Mass coefficient",
+                      given.mass,
+                      "alpha_M [1/s] of Rayleigh damping C = alpha_M M + "
+                      "alpha_K K. It also brakes rigid motion.",
+                      Double(0));
+    prm.add_parameter("Stiffness coefficient",
+                      given.stiffness,
+                      "alpha_K [s] of Rayleigh damping, with K rotated like "
+                      "the stiffness.",
+                      Double(0));
+    const List none_or_two{Double(0), 0, 2};
+    prm.add_parameter(
+      "Frequencies",
+      frequencies,
+      "In place of the coefficients: the two frequencies [Hz] "
+      "at which damping has the ratios given below. Between them "
+      "it is below the straight line through the ratios, "
+      "outside above it.",
+      none_or_two);
+    prm.add_parameter("Ratios",
+                      ratios,
+                      "Damping ratios [-] at the two frequencies, 1 is "
+                      "critical.",
+                      none_or_two);
+  }
+
+  RayleighDamping
+  DampingParameters::coefficients() const
+  {
+    if (frequencies.empty() && ratios.empty())
+      return given;
+    if (frequencies.size() != 2 || !(frequencies[0] > 0) ||
+        !(frequencies[1] > frequencies[0]))
+      throw InputError("Damping/Frequencies",
+                       fmt::format("found '{}' with Damping/Ratios = '{}'; "
+                                   "allowed are two positive frequencies, the "
+                                   "lower one first",
+                                   fmt::join(frequencies, ", "),
+                                   fmt::join(ratios, ", ")));
+    if (ratios.size() != 2)
+      throw InputError("Damping/Ratios",
+                       fmt::format("found '{}' with Damping/Frequencies = "
+                                   "'{}'; allowed are two ratios",
+                                   fmt::join(ratios, ", "),
+                                   fmt::join(frequencies, ", ")));
+    if (given.mass != 0 || given.stiffness != 0)
+      throw InputError("Damping/Frequencies",
+                       fmt::format("damping is given twice: found frequencies "
+                                   "next to the coefficients {} and {}; "
+                                   "allowed are these or those",
+                                   given.mass,
+                                   given.stiffness));
+
+    const double omega0    = 2 * dealii::numbers::PI * frequencies[0];
+    const double omega1    = 2 * dealii::numbers::PI * frequencies[1];
+    const double divisor   = (omega1 - omega0) * (omega1 + omega0) / 2;
+    const double mass      = difference(ratios[0] * omega1, ratios[1] * omega0);
+    const double stiffness = difference(ratios[1] * omega1, ratios[0] * omega0);
+    if (mass < 0 || stiffness < 0)
+      throw InputError(
+        "Damping/Ratios",
+        fmt::format("a {} coefficient below zero would be needed: found the "
+                    "ratios {} and {} at {} and {} Hz; allowed with the first "
+                    "is a second from {:.6g} to {:.6g}",
+                    mass < 0 ? "mass" : "stiffness",
+                    ratios[0],
+                    ratios[1],
+                    frequencies[0],
+                    frequencies[1],
+                    ratios[0] * frequencies[0] / frequencies[1],
+                    ratios[0] * frequencies[1] / frequencies[0]));
+    return {omega0 * omega1 * mass / divisor, stiffness / divisor};
+  }
+} // namespace corotet
