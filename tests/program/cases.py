@@ -28,6 +28,7 @@ SHORTER = {
     "gravity_corotational": (*LOAD_STEPS, "Loads/Gravity = 0; 0; -1"),
     "gravity_linear": LOAD_STEPS,
     "ring": (*LOAD_STEPS, "Boundary conditions/Pressure = x-max: 1e6 * (z - 0.025)"),
+    "shaken_mast": ("Time integration/End time = 0.02",),
     "spring": ("Time integration/End time = 0.012",),
     "tuning_fork": ("Time integration/End time = 8e-5", "Output/Time between results = 0"),
     "twisted_beam": (*LOAD_STEPS, "Time integration/End time = 0.1"),
