@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace corotet
 {
   namespace
@@ -40,16 +42,19 @@ namespace corotet
   void
   BoundaryConditionParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Fixed",
-                      fixed,
-                      "Boundaries that do not move: 'name, name'.");
+    prm.add_parameter(
+      "Fixed",
+      fixed,
+      "Boundaries that do not move: 'name, name'. 'name & name' "
+      "is the edge where two meet, a third name makes it a "
+      "corner.");
     prm.add_parameter(
       "Displacement",
       displacement,
       "Displacement [m] of boundaries: 'name: x; y; z, name: x; y; z', each "
-      "component an expression in x, y, z, t or 'free'. Supports move with "
-      "the expression's own velocity and acceleration: let it have no kinks, "
-      "like smooth_step and cubic tables.");
+      "component an expression in x, y, z, t or 'free'; edges and corners as "
+      "in Fixed. Supports move with the expression's own velocity and "
+      "acceleration: let it have no kinks, like smooth_step and cubic tables.");
     prm.add_parameter(
       "Traction",
       traction,
@@ -74,10 +79,10 @@ namespace corotet
       for (const std::string &name :
            split_outside_brackets(parameters.fixed, ','))
         {
-          Displacement condition{names.id(name, entry), {}};
+          Displacement condition{find(name, entry), {}, entry};
           for (unsigned int a = 0; a < 3; ++a)
             {
-              claim(condition.boundary, a, entry);
+              claim(condition.boundaries, a, entry);
               condition.components[a].emplace("0", 1, entry);
             }
           displacements.push_back(condition);
@@ -87,7 +92,7 @@ namespace corotet
     for (const auto &[name, value] :
          named_values(parameters.displacement, entry))
       {
-        Displacement                   condition{names.id(name, entry), {}};
+        Displacement                   condition{find(name, entry), {}, entry};
         const std::vector<std::string> components =
           split_outside_brackets(value, ';');
         if (components.size() != 3)
@@ -100,7 +105,7 @@ namespace corotet
         for (unsigned int a = 0; a < 3; ++a)
           if (components[a] != "free")
             {
-              claim(condition.boundary, a, entry);
+              claim(condition.boundaries, a, entry);
               condition.components[a].emplace(components[a], 1, entry, tables);
             }
         displacements.push_back(condition);
@@ -114,7 +119,7 @@ namespace corotet
         const auto components = split_outside_brackets(value, ';');
         for (unsigned int a = 0; a < 3; ++a)
           if (!Expression(components[a], 1, entry, tables).is_zero())
-            claim(boundary, a, entry);
+            claim({boundary}, a, entry);
       }
 
     entry = section + "Pressure";
@@ -123,23 +128,42 @@ namespace corotet
         const unsigned int boundary = names.id(name, entry);
         pressures.push_back({boundary, Expression(value, 1, entry, tables)});
         for (unsigned int a = 0; a < 3; ++a)
-          claim(boundary, a, entry);
+          claim({boundary}, a, entry);
       }
   }
 
-  void
-  BoundaryConditions::claim(const unsigned int boundary,
-                            const unsigned int component,
-                            const std::string &entry)
+  std::string
+  BoundaryConditions::name(const std::vector<unsigned int> &boundaries) const
   {
-    std::string &owner = claims[boundary][component];
+    std::vector<std::string> words;
+    for (const unsigned int boundary : boundaries)
+      words.push_back(names.name(boundary));
+    return join(words, " & ");
+  }
+
+  std::vector<unsigned int>
+  BoundaryConditions::find(const std::string &text,
+                           const std::string &entry) const
+  {
+    std::set<unsigned int> boundaries;
+    for (const std::string &name : split_outside_brackets(text, '&'))
+      boundaries.insert(names.id(dealii::Utilities::trim(name), entry));
+    return {boundaries.begin(), boundaries.end()};
+  }
+
+  void
+  BoundaryConditions::claim(const std::vector<unsigned int> &boundaries,
+                            const unsigned int               component,
+                            const std::string               &entry)
+  {
+    std::string &owner = claims[boundaries][component];
     if (!owner.empty())
       throw InputError(
         entry,
         fmt::format("component {} of boundary '{}' has two conditions: found "
                     "'{}' and '{}', allowed is one",
                     "xyz"[component],
-                    names.name(boundary),
+                    name(boundaries),
                     owner.substr(section.size()),
                     entry.substr(section.size())));
     owner = entry;

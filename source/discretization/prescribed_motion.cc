@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corotet
@@ -34,29 +35,15 @@ namespace corotet
       dealii::Utilities::MPI::sum(volume, discretization.communicator()));
 
     std::vector<unsigned int> entry_of_dof(flags.size());
-    Vector                    marks;
-    discretization.initialize_vector(marks);
     for (unsigned int d = 0; d < conditions.displacements.size(); ++d)
       {
-        // A node may lie on a boundary with none of the owned cells that touch
-        // it having a face there: mark through the vector, whose exchange
-        // brings the news from the rank that has the face.
         const auto &condition = conditions.displacements[d];
-        marks                 = 0;
-        for (const BoundaryFace &face : discretization.boundary_faces())
-          if (face.boundary == condition.boundary)
-            for (const unsigned int i : reference.face_nodes[face.face])
-              for (unsigned int a = 0; a < 3; ++a)
-                if (condition.components[a])
-                  marks.local_element(
-                    3 * discretization.cell_nodes(face.cell)[i] + a) = 1;
-        marks.compress(dealii::VectorOperation::add);
-        marks.update_ghost_values();
-
+        const std::vector<unsigned char> is_common =
+          common_nodes(reference, condition);
         for (unsigned int dof = 0; dof < flags.size(); ++dof)
-          if (marks.local_element(dof) > 0)
+          if (is_common[dof / 3] && condition.components[dof % 3])
             {
-              const bool is_owned = dof < marks.locally_owned_size();
+              const bool is_owned = dof < 3 * discretization.n_owned_nodes();
               if (is_owned && flags[dof])
                 shared.push_back({{dof, d}, entry_of_dof[dof]});
               else if (is_owned)
@@ -68,6 +55,43 @@ namespace corotet
               flags[dof] = 1;
             }
       }
+  }
+
+  std::vector<unsigned char>
+  PrescribedMotion::common_nodes(
+    const ReferenceElement                 &reference,
+    const BoundaryConditions::Displacement &condition) const
+  {
+    std::vector<unsigned char> is_common(discretization.n_local_nodes(), 1);
+    Vector                     marks;
+    discretization.initialize_vector(marks);
+    for (const unsigned int boundary : condition.boundaries)
+      {
+        // A node may lie on a boundary with none of the owned cells that touch
+        // it having a face there: mark through the vector, whose exchange
+        // brings the news from the rank that has the face.
+        marks = 0;
+        for (const BoundaryFace &face : discretization.boundary_faces())
+          if (face.boundary == boundary)
+            for (const unsigned int i : reference.face_nodes[face.face])
+              marks.local_element(3 * discretization.cell_nodes(face.cell)[i]) =
+                1;
+        marks.compress(dealii::VectorOperation::add);
+        marks.update_ghost_values();
+        for (unsigned int n = 0; n < is_common.size(); ++n)
+          if (marks.local_element(3 * n) == 0)
+            is_common[n] = 0;
+      }
+    const bool any =
+      std::find(is_common.begin(), is_common.end(), 1) != is_common.end();
+    if (dealii::Utilities::MPI::max(any ? 1 : 0,
+                                    discretization.communicator()) == 0)
+      throw InputError(condition.entry,
+                       fmt::format("boundaries have no node in common: found "
+                                   "'{}'; allowed are those that meet in an "
+                                   "edge or a corner",
+                                   conditions.name(condition.boundaries)));
+    return is_common;
   }
 
   double
@@ -90,10 +114,9 @@ namespace corotet
         if (std::abs(u - w) >
             1e-12 * (std::abs(u) + std::abs(w) + length_scale))
           {
-            const auto &names = discretization.mesh().boundaries();
-            const auto  name  = [&](const Entry &entry) {
-              return names.name(
-                conditions.displacements[entry.condition].boundary);
+            const auto name = [&](const Entry &entry) {
+              return conditions.name(
+                conditions.displacements[entry.condition].boundaries);
             };
             const dealii::Point<3> x =
               discretization.node_position(other.dof / 3);

@@ -4,6 +4,7 @@
 // Each component of each boundary has one condition; supports move as their
 // expressions say.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "../body.h"
@@ -53,6 +54,11 @@ TEST(BoundaryConditions, Refusals)
   EXPECT_EQ(condition_refusal({{"Pressure", "1e5"}}),
             "Boundary conditions/Pressure: found '1e5'; allowed: 'boundary: "
             "value, boundary: value'");
+  EXPECT_EQ(condition_refusal({{"Fixed", "left & top, top & left"}}),
+            "Boundary conditions/Fixed: component x of boundary 'left & top' "
+            "has two conditions: found 'Fixed' and 'Fixed', allowed is one");
+  EXPECT_NE(condition_refusal({{"Fixed", "left & topp"}}).find("'topp'"),
+            std::string::npos);
   EXPECT_NE(condition_refusal({{"Fixed", "lefft"}}).find("'left'"),
             std::string::npos);
 }
@@ -63,6 +69,61 @@ TEST(BoundaryConditions, DifferentComponentsMayDiffer)
                                {"Traction", "left: 1; 2*x; 0, right: 0; 0; 1"},
                                {"Pressure", "2: 1e5"}}),
             "nothing was refused");
+  // An edge is none of its sides.
+  EXPECT_EQ(condition_refusal({{"Displacement", "left & top: 0; 0; t"},
+                               {"Traction", "left: 1; 2; 3"},
+                               {"Pressure", "top: 1e5"}}),
+            "nothing was refused");
+}
+
+// Edges and corners are the nodes on all boundaries that are named, whatever
+// rank has the faces: of 2 x 2 x 2 cuboids of degree p, an edge has 2 p + 1.
+TEST(PrescribedMotion, EdgesAndCorners)
+{
+  for (const unsigned int degree : {1u, 2u, 3u})
+    {
+      Body body(box("1, 1, 1", "2, 2, 2"),
+                fmt::format(R"(
+        subsection Discretization
+          set Degree = {}
+        end
+        subsection Boundary conditions
+          set Fixed        = x-max & y-max & z-max
+          set Displacement = x-min & z-min: free; free; 0.1
+        end)",
+                            degree));
+      body.system.prescribe(body.state, 0., 1.);
+      std::vector<unsigned int> n_found(4);
+      for (const unsigned int i : body.system.prescribed_motion().unknowns())
+        {
+          const auto x = body.discretization.node_position(i / 3);
+          if (i % 3 == 2 && x[0] < 1e-10 && x[2] < 1e-10)
+            {
+              ++n_found[3];
+              EXPECT_EQ(body.state.u.local_element(i), 0.1);
+            }
+          else
+            {
+              ++n_found[i % 3];
+              EXPECT_LT(x.distance(dealii::Point<3>(1, 1, 1)), 1e-10);
+            }
+        }
+      dealii::Utilities::MPI::sum(n_found, MPI_COMM_WORLD, n_found);
+      EXPECT_EQ(n_found, (std::vector<unsigned int>{1, 1, 1, 2 * degree + 1}));
+    }
+}
+
+TEST(PrescribedMotion, BoundariesThatDoNotMeetAreRefused)
+{
+  EXPECT_EQ(refusal([] {
+              Body body(box("1, 1, 1", "1, 1, 1"), R"(
+                subsection Boundary conditions
+                  set Fixed = x-min & x-max
+                end)");
+            }),
+            "Boundary conditions/Fixed: boundaries have no node in common: "
+            "found 'x-min & x-max'; allowed are those that meet in an edge or "
+            "a corner");
 }
 
 // Prescribed nodes carry the expression; velocity and acceleration are its

@@ -33,16 +33,20 @@ namespace corotet
   /**
    * What happens on each boundary of the body. Each component of each boundary
    * has exactly one condition: a displacement, a traction, a pressure, or none
-   * of them (free of force).
+   * of them (free of force). So has each edge and corner where boundaries meet:
+   * a displacement, or none.
    */
   class BoundaryConditions
   {
   public:
-    /// Displacement in m by component; a component without value is free.
+    /// Displacement in m, by component, of the nodes that all of these
+    /// boundaries have in common; a component without value is free.
     struct Displacement
     {
-      unsigned int                             boundary;
+      std::vector<unsigned int>                boundaries;
       std::array<std::optional<Expression>, 3> components;
+      /// The parameter that sets it.
+      std::string entry;
     };
 
     /// Dead traction in Pa (force per area at rest), three components; or
@@ -63,15 +67,23 @@ namespace corotet
     std::vector<SurfaceLoad>  tractions;
     std::vector<SurfaceLoad>  pressures;
 
+    /// "name", or "name & name" for what boundaries have in common.
+    std::string
+    name(const std::vector<unsigned int> &boundaries) const;
+
   private:
+    /// What "name & name" means, each boundary once.
+    std::vector<unsigned int>
+    find(const std::string &text, const std::string &entry) const;
+
     void
-    claim(const unsigned int boundary,
-          const unsigned int component,
-          const std::string &entry);
+    claim(const std::vector<unsigned int> &boundaries,
+          const unsigned int               component,
+          const std::string               &entry);
 
     const MeshNames &names;
-    /// Entry that sets the condition of [boundary][component].
-    std::map<unsigned int, std::array<std::string, 3>> claims;
+    /// Entry that sets the condition of [boundaries][component].
+    std::map<std::vector<unsigned int>, std::array<std::string, 3>> claims;
   };
 } // namespace corotet
 

@@ -29,7 +29,7 @@ namespace corotet
   {
   public:
     /// @p time_scale [s]: the time step, unless that is far below what the
-    /// motion needs. Collective.
+    /// motion needs. Throws InputError. Collective.
     PrescribedMotion(const Discretization     &discretization,
                      const ReferenceElement   &reference,
                      const BoundaryConditions &conditions,
@@ -80,6 +80,12 @@ namespace corotet
       return *conditions.displacements[entry.condition]
                 .components[entry.dof % 3];
     }
+
+    /// Whether all boundaries of the condition have each local node in common
+    /// (0 or 1). Throws InputError if they have none. Collective.
+    std::vector<unsigned char>
+    common_nodes(const ReferenceElement                 &reference,
+                 const BoundaryConditions::Displacement &condition) const;
 
     double
     value(const Entry &entry, const double time) const;
