@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/output/csv.h>
 #include <corotet/output/history_writer.h>
 
 #include <fmt/format.h>
@@ -25,24 +26,6 @@ namespace corotet
       row[name + "_x"] = value[0];
       row[name + "_y"] = value[1];
       row[name + "_z"] = value[2];
-    }
-
-    // The names of a row, or its values, as a line of the file.
-    std::string
-    csv_line(const nlohmann::ordered_json &row, const bool names)
-    {
-      std::string line;
-      for (const auto &[name, value] : row.items())
-        {
-          line += line.empty() ? "" : ",";
-          if (names)
-            line += name;
-          else if (value.is_number_float())
-            line += fmt::format("{}", value.get<double>());
-          else
-            line += value.dump();
-        }
-      return line + "\n";
     }
   } // namespace
 

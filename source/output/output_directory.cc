@@ -24,7 +24,7 @@ namespace corotet
     // Names of what a run writes, as regular expressions of paths relative to
     // the output directory. A folder is removed if it is empty then.
     const std::array<std::string_view, 4> own_files{
-      {R"((solution\.vtkhdf|history\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
+      {R"((solution\.vtkhdf|history\.csv|modes\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"(solution/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.tmp/[^/]+)"}};
@@ -58,7 +58,7 @@ namespace corotet
       const auto has = [&](const std::string &name) {
         return fs::exists(directory / name);
       };
-      return has("solution.vtkhdf") || has("history.csv") ||
+      return has("solution.vtkhdf") || has("history.csv") || has("modes.csv") ||
              has("summary.json") || (has("parameters.prm") && has("log.txt"));
     }
 

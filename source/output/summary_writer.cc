@@ -23,26 +23,24 @@ namespace corotet
   {
     nlohmann::ordered_json
     summary_object(const RunSummary             &summary,
-                   const nlohmann::ordered_json &last_row,
+                   const nlohmann::ordered_json &results,
                    const std::uint64_t           peak_memory_bytes)
     {
       nlohmann::ordered_json object;
       object["status"] = summary.status;
       if (!summary.message.empty())
         object["message"] = summary.message;
-      object["version"]           = version;
-      object["git_revision"]      = git_revision;
-      object["dealii_version"]    = DEAL_II_PACKAGE_VERSION;
-      object["ranks"]             = summary.ranks;
-      object["cells"]             = summary.cells;
-      object["nodes"]             = summary.nodes;
-      object["dofs"]              = summary.dofs;
-      object["degree"]            = summary.degree;
-      object["mesh_volume"]       = summary.mesh_volume;
-      object["total_mass"]        = summary.total_mass;
-      object["steps"]             = summary.steps;
-      object["end_time"]          = summary.end_time;
-      object["final"]             = last_row;
+      object["version"]        = version;
+      object["git_revision"]   = git_revision;
+      object["dealii_version"] = DEAL_II_PACKAGE_VERSION;
+      object["ranks"]          = summary.ranks;
+      object["cells"]          = summary.cells;
+      object["nodes"]          = summary.nodes;
+      object["dofs"]           = summary.dofs;
+      object["degree"]         = summary.degree;
+      object["mesh_volume"]    = summary.mesh_volume;
+      object["total_mass"]     = summary.total_mass;
+      object.update(results);
       object["wall_time"]         = {{"setup", summary.wall_times.setup},
                                      {"assembly", summary.wall_times.assembly},
                                      {"solve", summary.wall_times.solve},
@@ -76,13 +74,26 @@ namespace corotet
   SummaryWriter::SummaryWriter(const std::string   &directory,
                                const HistoryWriter &history,
                                const MPI_Comm       comm)
-    : path(directory + "/summary.json")
+    : directory(directory)
     , history(history)
     , comm(comm)
   {}
 
   void
   SummaryWriter::finish(const RunSummary &summary)
+  {
+    nlohmann::ordered_json results;
+    results["steps"]    = summary.steps;
+    results["end_time"] = summary.end_time;
+    results["final"]    = history.last_row();
+    write_summary(directory, summary, results, comm);
+  }
+
+  void
+  write_summary(const std::string            &directory,
+                const RunSummary             &summary,
+                const nlohmann::ordered_json &results,
+                const MPI_Comm                comm)
   {
     dealii::Utilities::System::MemoryStats memory;
     dealii::Utilities::System::get_memory_stats(memory);
@@ -93,8 +104,8 @@ namespace corotet
       1024;
     on_root(comm, [&] {
       write_whole_file(
-        path,
-        summary_object(summary, history.last_row(), peak)
+        directory + "/summary.json",
+        summary_object(summary, results, peak)
             .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
           "\n");
     });

@@ -26,9 +26,40 @@ namespace corotet
   {}
 
   void
+  ModesParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Number",
+                      number,
+                      "Lowest modes to be computed, rigid body modes included "
+                      "[-]; at most a quarter of the unknowns.",
+                      Integer(1));
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Largest residual |K phi - omega^2 M phi| of a mode, "
+                      "relative to |omega^2 M phi| (rigid body modes: to "
+                      "|shift M phi|) [-]. Frequencies are about as accurate "
+                      "as its square.",
+                      Double(1e-12, 0.1));
+    prm.add_parameter("Shift",
+                      shift,
+                      "s > 0 in K + s M [1/s^2], the matrix that is solved "
+                      "with; best somewhat smaller than omega^2 of the lowest "
+                      "mode that deforms the body. 0: estimated.",
+                      Double(0));
+  }
+
+  void
   SimulationParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
+    prm.add_parameter(
+      "Type",
+      type,
+      "What is computed: 'simulation', the body's motion or its response to "
+      "load steps; 'modes', its lowest natural frequencies and shapes of "
+      "vibration.",
+      Selection("simulation|modes"));
     section(prm, "Mesh", [&] { mesh.declare_parameters(prm); });
     section(prm, "Discretization", [&] {
       prm.add_parameter("Degree",
@@ -89,5 +120,6 @@ namespace corotet
     section(prm, "Linear solver", [&] {
       linear_solver.declare_parameters(prm);
     });
+    section(prm, "Modes", [&] { modes.declare_parameters(prm); });
   }
 } // namespace corotet

@@ -30,10 +30,21 @@ namespace corotet
     finish(const RunSummary &summary) override;
 
   private:
-    std::string          path;
+    std::string          directory;
     const HistoryWriter &history;
     MPI_Comm             comm;
   };
+
+  /**
+   * Writes @p directory/summary.json: what all runs have in common, with the
+   * entries of @p results in the middle. Throws MachineError if the file cannot
+   * be written. Collective.
+   */
+  void
+  write_summary(const std::string            &directory,
+                const RunSummary             &summary,
+                const nlohmann::ordered_json &results,
+                const MPI_Comm                comm);
 } // namespace corotet
 
 #endif

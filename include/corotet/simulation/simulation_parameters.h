@@ -23,6 +23,20 @@
 namespace corotet
 {
   /**
+   * The parameters of section Modes.
+   */
+  struct ModesParameters
+  {
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    unsigned int number    = 10;
+    double       tolerance = 1e-8;
+    /// In 1/s^2; 0: estimated.
+    double shift = 0;
+  };
+
+  /**
    * All parameters of a run but those of its output. Must not be moved after
    * declare_parameters().
    */
@@ -33,6 +47,8 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
+    /// "simulation" or "modes".
+    std::string                 type = "simulation";
     MeshParameters              mesh;
     unsigned int                degree    = 2;
     std::string                 mass_type = "consistent";
@@ -52,6 +68,7 @@ namespace corotet
     AdaptiveStepParameters     adaptive_step;
     Newton                     newton;
     LinearSolver               linear_solver;
+    ModesParameters            modes;
   };
 } // namespace corotet
 

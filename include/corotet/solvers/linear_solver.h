@@ -10,6 +10,7 @@
 
 #include <deal.II/lac/solver_control.h>
 
+#include <algorithm>
 #include <string>
 
 namespace corotet
@@ -54,6 +55,13 @@ namespace corotet
           const Vector            &b,
           const Vector            &positions,
           const TangentOperator   *J = nullptr);
+
+    /// Makes the tolerance no larger than @p limit.
+    void
+    limit_tolerance(const double limit)
+    {
+      tolerance = std::min(tolerance, limit);
+    }
 
     /// Forgets the operator of the last solves.
     void

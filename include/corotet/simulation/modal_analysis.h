@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_modal_analysis_h
+#define corotet_simulation_modal_analysis_h
+
+#include <corotet/base/log.h>
+#include <corotet/discretization/prescribed_motion.h>
+#include <corotet/simulation/observer.h>
+#include <corotet/simulation/simulation_parameters.h>
+#include <corotet/solvers/eigenvalue_solver.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * A mode of vibration: K phi = omega^2 M phi.
+   */
+  struct Mode
+  {
+    /// omega^2 [1/s^2], not negative.
+    double eigenvalue;
+    /// omega [rad/s].
+    double angular_frequency;
+    /// In Hz.
+    double frequency;
+    /// |K phi - omega^2 M phi| / (max(omega^2, shift) |M phi|): for rigid body
+    /// modes relative to the shift.
+    double residual;
+    /// Largest residual that round-off explains, with these units.
+    double round_off;
+    /// phi . M phi [kg].
+    double modal_mass;
+    /// (phi . M e)^2 / (phi . M phi) for the unit translation e in x, y and z
+    /// [kg].
+    dealii::Tensor<1, 3> effective_mass;
+    /// phi [m], ghost entries up to date.
+    Vector shape;
+  };
+
+  /**
+   * The lowest modes of small vibrations of the body about its state at rest,
+   * with linear elasticity: K phi = omega^2 M phi, phi = 0 where the
+   * displacement is prescribed. Loads, damping and values of prescribed
+   * displacements play no part.
+   *
+   * The constructor makes and checks everything that the parameters describe;
+   * compute() computes. @p parameters, which have been read already, and @p
+   * log must outlive this object. Members are collective.
+   */
+  class ModalAnalysis
+  {
+  public:
+    /// @p folder: of the parameter file, for relative names of mesh files.
+    /// Throws InputError.
+    ModalAnalysis(SimulationParameters &parameters,
+                  const std::string    &folder,
+                  const MPI_Comm        comm,
+                  Log                  &log);
+
+    ~ModalAnalysis();
+
+    const Discretization &
+    discretization() const
+    {
+      return disc;
+    }
+
+    /**
+     * Computes the modes. Throws ComputationError if not all of them are found,
+     * or the residual of one is too large; those that are there can be had all
+     * the same.
+     */
+    void
+    compute();
+
+    /// Those computed, lowest first. Shapes are scaled such that the largest
+    /// displacement of a node is a hundredth of the body's length, the diagonal
+    /// of its bounding box.
+    const std::vector<Mode> &
+    modes() const
+    {
+      return computed;
+    }
+
+    /// Of a displacement with ghost entries up to date.
+    CellResults
+    cell_results(const Vector &displacement) const
+    {
+      return elastic.cell_results(displacement);
+    }
+
+    /// What is known of the run at its end. The number of steps is that of the
+    /// modes.
+    RunSummary
+    summary() const;
+
+    /// Time for the results is to be added by who writes them.
+    WallTimes wall_times;
+
+  private:
+    void
+    note_what_is_ignored() const;
+    double
+    estimated_shift() const;
+    Mode
+    make_mode(const Vector &x) const;
+    void
+    check(const Mode &mode, const unsigned int number) const;
+    void
+    log_table() const;
+    double
+    seconds() const;
+
+    const std::chrono::steady_clock::time_point started =
+      std::chrono::steady_clock::now();
+
+    SimulationParameters    &parameters;
+    Log                     &log;
+    const Mesh               mesh;
+    const Discretization     disc;
+    const ReferenceElement   reference;
+    const BoundaryConditions conditions;
+    const Mass               mass;
+    const Elasticity         elastic;
+    const PrescribedMotion   motion;
+    EffectiveOperator        A;
+    EigenvalueSolver         solver;
+    double                   length = 0;
+    double                   shift  = 0;
+    std::vector<Mode>        computed;
+  };
+} // namespace corotet
+
+#endif

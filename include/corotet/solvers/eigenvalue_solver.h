@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_eigenvalue_solver_h
+#define corotet_solvers_eigenvalue_solver_h
+
+#include <corotet/solvers/linear_solver.h>
+
+#include <functional>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Solutions of K x = lambda M x, smallest lambda first.
+   */
+  struct Eigenpairs
+  {
+    /// lambda [1/s^2].
+    std::vector<double> values;
+    /// x with x . M x = 1, zero where x is prescribed. Without ghost values.
+    std::vector<Vector> vectors;
+  };
+
+  /**
+   * The smallest eigenvalues of K x = lambda M x on the unknowns that are not
+   * prescribed, by the block Krylov-Schur method (@cite stewart2001) of Anasazi
+   * for A^{-1} M with A = K + s M: with a shift s > 0, A is positive definite
+   * also where K has rigid body modes, and they come first.
+   *
+   * Several equal eigenvalues are found by blocks, and because the search is
+   * repeated among vectors orthogonal to all that were found, until what it
+   * finds is no smaller than these.
+   *
+   * The arguments of the constructor must outlive this object. Members are
+   * collective.
+   */
+  class EigenvalueSolver
+  {
+  public:
+    /**
+     * @p A is updated here, and must be the operator of a body at rest.
+     * @p tolerance: of the residuals of A^{-1} M x = x / (lambda + s), relative
+     * to 1 / (lambda + s) in the norm of M. @p progress is told the number of
+     * linear solves after each.
+     */
+    EigenvalueSolver(EffectiveOperator                       &A,
+                     LinearSolver                            &linear_solver,
+                     const double                             tolerance,
+                     const std::function<void(unsigned int)> &progress);
+
+    /// Number of unknowns that are not prescribed, over all ranks.
+    dealii::types::global_dof_index
+    n_free_unknowns() const
+    {
+      return n_free;
+    }
+
+    /// Eigenvalues that can be asked for: a quarter of the unknowns, as the
+    /// others are no properties of the body any more, but of the mesh. None of
+    /// fewer than 16 unknowns: there is no room for a search.
+    unsigned int
+    max_eigenvalues() const
+    {
+      return n_free < 16 ? 0 : n_free / 4;
+    }
+
+    /**
+     * The @p n smallest, 1 to max_eigenvalues(). @p shift is s > 0 [1/s^2],
+     * best somewhat below the smallest eigenvalue of a mode that deforms the
+     * body. Throws ComputationError if they are not found.
+     */
+    Eigenpairs
+    solve(const unsigned int n, const double shift);
+
+    /// f = K x and g = M x, zero where x is prescribed. Not for x with ghost
+    /// values.
+    void
+    apply(Vector &f, Vector &g, const Vector &x) const;
+
+    /// Of all solves so far.
+    unsigned int
+    n_linear_solves() const
+    {
+      return n_solves;
+    }
+
+    unsigned int
+    n_linear_iterations() const
+    {
+      return n_iterations;
+    }
+
+  private:
+    class ShiftedInverse;
+    class FreeMass;
+
+    /// Up to @p n pairs orthogonal to @p others.
+    Eigenpairs
+    search(const unsigned int n,
+           const double       shift,
+           const double       tolerance,
+           const Eigenpairs  &others);
+    /// Improves @p pairs by a step of inverse iteration, keeps the @p n lowest.
+    void
+    refine(Eigenpairs &pairs, const unsigned int n);
+    /// Makes @p pairs solutions of the problem in the space of their vectors.
+    void
+    rayleigh_ritz(Eigenpairs &pairs) const;
+    /// x = A^{-1} M x.
+    void
+    apply_inverse(Vector &x);
+    void
+    set_zero(Vector &x) const;
+
+    EffectiveOperator                &A;
+    LinearSolver                     &linear_solver;
+    double                            tolerance;
+    std::function<void(unsigned int)> progress;
+    dealii::types::global_dof_index   n_free;
+    /// Owned unknowns that are not prescribed.
+    std::vector<unsigned int> free;
+    unsigned int              n_solves     = 0;
+    unsigned int              n_iterations = 0;
+    mutable Vector            ghosted;
+    Vector                    right_side;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/solvers/eigenvalue_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <AnasaziBasicEigenproblem.hpp>
+#include <AnasaziBlockKrylovSchurSolMgr.hpp>
+#include <AnasaziEpetraAdapter.hpp>
+#include <Epetra_Map.h>
+#include <Epetra_MpiComm.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <Eigen/Dense>
+
+namespace corotet
+{
+  namespace
+  {
+    using MultiVector = Anasazi::MultiVec<double>;
+    using Operator    = Anasazi::Operator<double>;
+
+    // Vectors of a block: pairs of modes are what symmetric bodies have.
+    constexpr unsigned int block_size = 2;
+
+    // Vectors of the basis beyond those sought. Fewer take more solves.
+    constexpr unsigned int n_extra_vectors = 30;
+
+    // Applies f to a Vector made of each column of X, and puts the result into
+    // that of Y. Columns have the unknowns that are free.
+    template <typename Function>
+    void
+    for_each_column(const MultiVector               &X,
+                    MultiVector                     &Y,
+                    const std::vector<unsigned int> &free,
+                    Vector                          &x,
+                    const Function                  &f)
+    {
+      const auto &source =
+        *dynamic_cast<const Anasazi::EpetraMultiVec &>(X).GetEpetraMultiVec();
+      auto &result =
+        *dynamic_cast<Anasazi::EpetraMultiVec &>(Y).GetEpetraMultiVec();
+      for (int column = 0; column < source.NumVectors(); ++column)
+        {
+          x = 0;
+          for (unsigned int i = 0; i < free.size(); ++i)
+            x.local_element(free[i]) = source[column][i];
+          f(x);
+          for (unsigned int i = 0; i < free.size(); ++i)
+            result[column][i] = x.local_element(free[i]);
+        }
+    }
+  } // namespace
+
+  class EigenvalueSolver::ShiftedInverse : public Operator
+  {
+  public:
+    ShiftedInverse(EigenvalueSolver &solver)
+      : solver(solver)
+    {
+      solver.A.discretization().initialize_vector(x);
+    }
+
+    void
+    Apply(const MultiVector &X, MultiVector &Y) const override
+    {
+      for_each_column(X, Y, solver.free, x, [&](Vector &x) {
+        solver.apply_inverse(x);
+      });
+    }
+
+  private:
+    EigenvalueSolver &solver;
+    mutable Vector    x;
+  };
+
+  class EigenvalueSolver::FreeMass : public Operator
+  {
+  public:
+    FreeMass(const EigenvalueSolver &solver)
+      : solver(solver)
+    {
+      solver.A.discretization().initialize_vector(x);
+    }
+
+    void
+    Apply(const MultiVector &X, MultiVector &Y) const override
+    {
+      for_each_column(X, Y, solver.free, x, [&](Vector &x) {
+        solver.ghosted.copy_locally_owned_data_from(x);
+        solver.ghosted.update_ghost_values();
+        solver.A.mass().apply(x, solver.ghosted);
+      });
+    }
+
+  private:
+    const EigenvalueSolver &solver;
+    mutable Vector          x;
+  };
+
+  EigenvalueSolver::EigenvalueSolver(
+    EffectiveOperator                       &A,
+    LinearSolver                            &linear_solver,
+    const double                             tolerance,
+    const std::function<void(unsigned int)> &progress)
+    : A(A)
+    , linear_solver(linear_solver)
+    , tolerance(tolerance)
+    , progress(progress)
+  {
+    A.discretization().initialize_vector(ghosted);
+    A.discretization().initialize_vector(right_side);
+    for (unsigned int i = 0; i < ghosted.locally_owned_size(); ++i)
+      if (!A.is_prescribed()[i])
+        free.push_back(i);
+    n_free =
+      dealii::Utilities::MPI::sum(static_cast<dealii::types::global_dof_index>(
+                                    free.size()),
+                                  A.discretization().communicator());
+  }
+
+  void
+  EigenvalueSolver::set_zero(Vector &x) const
+  {
+    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+      if (A.is_prescribed()[i])
+        x.local_element(i) = 0;
+  }
+
+  void
+  EigenvalueSolver::apply(Vector &f, Vector &g, const Vector &x) const
+  {
+    ghosted.copy_locally_owned_data_from(x);
+    ghosted.update_ghost_values();
+    A.elasticity().apply_tangent(f, ghosted);
+    A.mass().apply(g, ghosted);
+    set_zero(f);
+    set_zero(g);
+  }
+
+  void
+  EigenvalueSolver::apply_inverse(Vector &x)
+  {
+    ghosted.copy_locally_owned_data_from(x);
+    ghosted.update_ghost_values();
+    A.mass().apply(right_side, ghosted);
+    set_zero(right_side);
+    n_iterations += linear_solver.solve(A,
+                                        x,
+                                        right_side,
+                                        A.discretization().node_positions());
+    progress(++n_solves);
+  }
+
+  Eigenpairs
+  EigenvalueSolver::search(const unsigned int n,
+                           const double       shift,
+                           const double       tolerance,
+                           const Eigenpairs  &others)
+  {
+    using Teuchos::RCP;
+    using Teuchos::rcp;
+    const Epetra_MpiComm comm(A.discretization().communicator());
+    const Epetra_Map     map(-1, static_cast<int>(free.size()), 0, comm);
+
+    const auto       start = rcp(new Anasazi::EpetraMultiVec(map, block_size));
+    std::minstd_rand generator(1 + comm.MyPID());
+    std::uniform_real_distribution<double> random(-1, 1);
+    for (unsigned int j = 0; j < block_size; ++j)
+      for (unsigned int i = 0; i < free.size(); ++i)
+        (*start)[j][i] = random(generator);
+
+    Anasazi::BasicEigenproblem<double, MultiVector, Operator> problem;
+    problem.setOperator(rcp(new ShiftedInverse(*this)));
+    problem.setM(rcp(new FreeMass(*this)));
+    problem.setInitVec(start);
+    problem.setHermitian(true);
+    problem.setNEV(n);
+    if (!others.vectors.empty())
+      {
+        const auto known =
+          rcp(new Anasazi::EpetraMultiVec(map, others.vectors.size()));
+        for (unsigned int j = 0; j < others.vectors.size(); ++j)
+          for (unsigned int i = 0; i < free.size(); ++i)
+            (*known)[j][i] = others.vectors[j].local_element(free[i]);
+        problem.setAuxVecs(known);
+      }
+    problem.setProblem();
+
+    // The basis must not fill the space, where there is no next vector.
+    const unsigned int n_basis = std::min<dealii::types::global_dof_index>(
+      n + std::max(n, n_extra_vectors), (n_free - others.vectors.size()) / 2);
+    Teuchos::ParameterList list;
+    list.set("Which", "LM");
+    list.set("Block Size", static_cast<int>(block_size));
+    list.set("Num Blocks", static_cast<int>(n_basis / block_size));
+    list.set("Step Size", 1);
+    list.set("Maximum Restarts", 100);
+    list.set("Orthogonalization", "DGKS");
+    list.set("Convergence Tolerance", tolerance);
+    list.set("Verbosity", 0);
+    Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, Operator> manager(
+      rcp(&problem, false), list);
+    if (manager.solve() != Anasazi::Converged)
+      throw ComputationError(
+        fmt::format("the eigenvalue solver found {} of {} modes in {} linear "
+                    "solves",
+                    problem.getSolution().numVecs,
+                    n,
+                    n_solves));
+
+    const auto &solution = problem.getSolution();
+    const auto &vectors =
+      *dynamic_cast<const Anasazi::EpetraMultiVec &>(*solution.Evecs)
+         .GetEpetraMultiVec();
+    Eigenpairs pairs;
+    pairs.vectors.resize(solution.numVecs);
+    for (int j = 0; j < solution.numVecs; ++j)
+      {
+        pairs.values.push_back(1 / solution.Evals[j].realpart - shift);
+        A.discretization().initialize_vector(pairs.vectors[j]);
+        for (unsigned int i = 0; i < free.size(); ++i)
+          pairs.vectors[j].local_element(free[i]) = vectors[j][i];
+      }
+    return pairs;
+  }
+
+  void
+  EigenvalueSolver::rayleigh_ritz(Eigenpairs &pairs) const
+  {
+    const unsigned int  n = pairs.vectors.size();
+    std::vector<Vector> Kx(pairs.vectors), Mx(pairs.vectors);
+    for (unsigned int j = 0; j < n; ++j)
+      apply(Kx[j], Mx[j], pairs.vectors[j]);
+    Eigen::MatrixXd K(n, n), M(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          K(i, j) = pairs.vectors[i] * Kx[j];
+          M(i, j) = pairs.vectors[i] * Mx[j];
+        }
+    // Reads the lower triangles.
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(K, M);
+
+    std::vector<Vector> &x = Kx;
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        x[j] = 0;
+        for (unsigned int i = 0; i < n; ++i)
+          x[j].add(ritz.eigenvectors()(i, j), pairs.vectors[i]);
+        pairs.values[j] = ritz.eigenvalues()[j];
+      }
+    pairs.vectors.swap(x);
+  }
+
+  void
+  EigenvalueSolver::refine(Eigenpairs &pairs, const unsigned int n)
+  {
+    // What is left in the vectors that is of other modes is damped, most of all
+    // that of high frequency, which residuals of K amplify.
+    for (Vector &x : pairs.vectors)
+      apply_inverse(x);
+    rayleigh_ritz(pairs);
+    pairs.values.resize(n);
+    pairs.vectors.resize(n);
+  }
+
+  Eigenpairs
+  EigenvalueSolver::solve(const unsigned int n, const double shift)
+  {
+    A.update(1., shift);
+    Eigenpairs pairs = search(n, shift, tolerance, {});
+    refine(pairs, n);
+    // What a search finds is too large, if at all, by the square of its
+    // tolerance.
+    while (search(1, shift, 1e-3, pairs).values[0] + shift <
+           (1 - 1e-6) * (pairs.values[n - 1] + shift))
+      {
+        Eigenpairs missing = search(1, shift, tolerance, pairs);
+        pairs.vectors.push_back(missing.vectors[0]);
+        pairs.values.push_back(missing.values[0]);
+        refine(pairs, n);
+      }
+    return pairs;
+  }
+} // namespace corotet
