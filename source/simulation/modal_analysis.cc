@@ -105,11 +105,13 @@ namespace corotet
     if (parameters.modes.number > solver.max_eigenvalues())
       throw InputError(
         "Modes/Number",
-        fmt::format("found {}; allowed: at most {}, a quarter of the {} "
-                    "unknowns that are not prescribed",
-                    parameters.modes.number,
-                    solver.max_eigenvalues(),
-                    solver.n_free_unknowns()));
+        fmt::format(
+          "found {}; allowed: at most {} with the {} unknowns that are "
+          "not prescribed (a quarter of them; none of fewer than "
+          "16)",
+          parameters.modes.number,
+          solver.max_eigenvalues(),
+          solver.n_free_unknowns()));
     log.line(fmt::format(
       "Discretization: degree {}, {} cells, {} nodes, {} unknowns on {} rank{}",
       disc.degree(),

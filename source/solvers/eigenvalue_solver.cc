@@ -5,6 +5,7 @@
 #include <corotet/solvers/eigenvalue_solver.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <AnasaziBasicEigenproblem.hpp>
 #include <AnasaziBlockKrylovSchurSolMgr.hpp>
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/Dense>
 
 namespace corotet
 {
@@ -180,7 +180,10 @@ namespace corotet
     problem.setOperator(rcp(new ShiftedInverse(*this)));
     problem.setM(rcp(new FreeMass(*this)));
     problem.setInitVec(start);
-    problem.setHermitian(true);
+    // Solves of finite accuracy are not quite symmetric, so eigenvalues of the
+    // same size come as conjugate pairs, which the symmetric variant does not
+    // survive at a restart. Rayleigh-Ritz makes up for it.
+    problem.setHermitian(false);
     problem.setNEV(n);
     if (!others.vectors.empty())
       {
@@ -238,23 +241,23 @@ namespace corotet
     std::vector<Vector> Kx(pairs.vectors), Mx(pairs.vectors);
     for (unsigned int j = 0; j < n; ++j)
       apply(Kx[j], Mx[j], pairs.vectors[j]);
-    Eigen::MatrixXd K(n, n), M(n, n);
+    dealii::LAPACKFullMatrix<double> K(n, n), M(n, n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         {
           K(i, j) = pairs.vectors[i] * Kx[j];
           M(i, j) = pairs.vectors[i] * Mx[j];
         }
-    // Reads the lower triangles.
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(K, M);
+    std::vector<dealii::Vector<double>> ritz(n);
+    K.compute_generalized_eigenvalues_symmetric(M, ritz);
 
     std::vector<Vector> &x = Kx;
     for (unsigned int j = 0; j < n; ++j)
       {
         x[j] = 0;
         for (unsigned int i = 0; i < n; ++i)
-          x[j].add(ritz.eigenvectors()(i, j), pairs.vectors[i]);
-        pairs.values[j] = ritz.eigenvalues()[j];
+          x[j].add(ritz[j][i], pairs.vectors[i]);
+        pairs.values[j] = K.eigenvalue(j).real();
       }
     pairs.vectors.swap(x);
   }
@@ -279,9 +282,16 @@ namespace corotet
     refine(pairs, n);
     // What a search finds is too large, if at all, by the square of its
     // tolerance.
+    unsigned int n_missing = 0;
     while (search(1, shift, 1e-3, pairs).values[0] + shift <
            (1 - 1e-6) * (pairs.values[n - 1] + shift))
       {
+        if (++n_missing > n)
+          throw ComputationError(
+            fmt::format("the eigenvalue solver finds more and more modes below "
+                        "the lowest {}; the linear solver may not be accurate "
+                        "enough",
+                        n));
         Eigenpairs missing = search(1, shift, tolerance, pairs);
         pairs.vectors.push_back(missing.vectors[0]);
         pairs.values.push_back(missing.values[0]);

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Modes are all those that there are, and what is said of them is true.
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "modal.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // All eigenvalues of a body, from its matrices in full: column by column,
+  // with unit vectors. Rows and columns of prescribed unknowns are left out.
+  std::vector<double>
+  all_eigenvalues(const SerialMesh &mesh, const std::string &text)
+  {
+    const Body            body(mesh, text + R"(
+      subsection Material
+        set Type = linear
+      end)");
+    const Discretization &disc       = body.discretization;
+    const unsigned int    n          = 3 * disc.n_global_nodes();
+    const auto            gather_row = [&](const Vector &x) {
+      std::vector<double> row(n), sum(n);
+      for (const auto i : x.locally_owned_elements())
+        row[i] = x(i);
+      dealii::Utilities::MPI::sum(row, MPI_COMM_WORLD, sum);
+      return sum;
+    };
+
+    Vector x, f, prescribed;
+    for (Vector *vector : {&x, &f, &prescribed})
+      disc.initialize_vector(*vector);
+    for (const unsigned int i : body.system.prescribed_motion().unknowns())
+      prescribed.local_element(i) = 1;
+    std::vector<unsigned int> free;
+    const auto                is_prescribed = gather_row(prescribed);
+    for (unsigned int i = 0; i < n; ++i)
+      if (is_prescribed[i] == 0)
+        free.push_back(i);
+
+    dealii::LAPACKFullMatrix<double> K(free.size()), M(free.size());
+    for (unsigned int j = 0; j < free.size(); ++j)
+      {
+        x = 0;
+        if (x.in_local_range(free[j]))
+          x(free[j]) = 1;
+        x.update_ghost_values();
+        body.system.elasticity().apply_tangent(f, x);
+        const auto column_of_K = gather_row(f);
+        body.system.mass().apply(f, x);
+        const auto column_of_M = gather_row(f);
+        for (unsigned int i = 0; i < free.size(); ++i)
+          {
+            K(i, j) = column_of_K[free[i]];
+            M(i, j) = column_of_M[free[i]];
+          }
+        x.zero_out_ghost_values();
+      }
+    std::vector<dealii::Vector<double>> no_vectors;
+    K.compute_generalized_eigenvalues_symmetric(M, no_vectors);
+    std::vector<double> values;
+    for (unsigned int i = 0; i < free.size(); ++i)
+      values.push_back(K.eigenvalue(i).real());
+    return values;
+  }
+
+  void
+  expect_all_found(const std::string &cells,
+                   const unsigned int degree,
+                   const std::string &mass,
+                   const std::string &fixed,
+                   const unsigned int n_modes)
+  {
+    SCOPED_TRACE(fmt::format("degree {}, {}, fixed: {}", degree, mass, fixed));
+    const std::string more = fmt::format(R"(
+      subsection Discretization
+        set Mass = {}
+      end
+      subsection Boundary conditions
+        set Fixed = {}
+      end)",
+                                         mass,
+                                         fixed);
+    const std::string text =
+      box_body("1, 1, 1", cells, degree, 0.3, n_modes, more);
+    const auto     exact = all_eigenvalues(box("1, 1, 1", cells), text);
+    const Analysis computed(text);
+    for (unsigned int i = 0; i < n_modes; ++i)
+      EXPECT_NEAR(computed.mode(i + 1).eigenvalue,
+                  exact[i],
+                  1e-11 * exact.back());
+  }
+} // namespace
+
+// The body is a cube: each eigenvalue occurs one, two or three times, that of
+// the rigid body modes six times, and none must be missing. Dense linear
+// algebra, a backward stable method, has them up to round-off of the largest
+// one. As many are asked for as are allowed, and some that end within a group
+// of equal ones.
+TEST(ModalAnalysis, FindsAllEigenvalues)
+{
+  expect_all_found("2, 2, 2", 1, "consistent", "", 20);
+  expect_all_found("2, 2, 2", 1, "consistent", "", 8);
+  expect_all_found("2, 2, 2", 1, "row sum", "", 20);
+  expect_all_found("2, 2, 2", 2, "consistent", "x-min", 33);
+  expect_all_found("1, 1, 1", 2, "diagonal scaling", "", 17);
+  expect_all_found("1, 1, 1", 3, "diagonal scaling", "z-max", 11);
+}
+
+// A free body has six modes without strain, which carry all of its mass. The
+// frequency of such a mode is that of the strain which errors leave in it: they
+// are 1e-11, the tolerance of the linear solver. The others move no mass in
+// total, as they are orthogonal to these.
+TEST(ModalAnalysis, FreeBody)
+{
+  for (const unsigned int degree : {1u, 2u, 3u})
+    {
+      SCOPED_TRACE(degree);
+      const Analysis body(box_body("1, 0.3, 0.2", "5, 2, 1", degree, 0.3, 9));
+      dealii::Tensor<1, 3> rigid;
+      double               largest = 0;
+      for (unsigned int i = 1; i <= 6; ++i)
+        {
+          largest = std::max(largest, body.mode(i).frequency);
+          rigid += body.mode(i).effective_mass;
+        }
+      EXPECT_LT(largest, 1e-10 * body.mode(7).frequency);
+      report(fmt::format("frequency of rigid body modes, relative, degree {}",
+                         degree),
+             largest / body.mode(7).frequency);
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          EXPECT_NEAR(rigid[a], 0.06, 1e-10);
+          for (unsigned int i = 7; i <= 9; ++i)
+            EXPECT_NEAR(body.mode(i).effective_mass[a], 0., 1e-15);
+        }
+    }
+}
+
+// What is said of a mode is true of the vector that comes with it: its
+// residual, evaluated here, its amplitude, and that it keeps to the support.
+TEST(ModalAnalysis, ShapesSolveTheEquation)
+{
+  const std::string text = box_body("1, 0.3, 0.2", "5, 2, 1", 2, 0.3, 6, R"(
+    subsection Boundary conditions
+      set Fixed        = x-min
+      set Displacement = x-max: free; 0.1; free
+    end
+    subsection Material
+      set Type = linear
+    end)");
+  const Analysis    computed(text);
+  const Body        body(box("1, 0.3, 0.2", "5, 2, 1"), text);
+  Vector            f(computed.mode(1).shape), g(f), phi(f);
+  for (unsigned int i = 1; i <= 6; ++i)
+    {
+      const Mode &mode = computed.mode(i);
+      phi.copy_locally_owned_data_from(mode.shape);
+      phi.update_ghost_values();
+      body.system.elasticity().apply_tangent(f, phi);
+      body.system.mass().apply(g, phi);
+      EXPECT_NEAR(phi * g, mode.modal_mass, 1e-12 * mode.modal_mass);
+      body.system.prescribed_motion().set_zero(f);
+      body.system.prescribed_motion().set_zero(g);
+      f.add(-mode.eigenvalue, g);
+      // Default tolerance.
+      EXPECT_LT(norm(f), 1e-8 * mode.eigenvalue * norm(g));
+      for (const unsigned int k : body.system.prescribed_motion().unknowns())
+        EXPECT_EQ(phi.local_element(k), 0.);
+      double square = 0;
+      for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+        {
+          dealii::Tensor<1, 3> u;
+          for (unsigned int a = 0; a < 3; ++a)
+            u[a] = phi.local_element(3 * n + a);
+          square = std::max(square, u.norm_square());
+        }
+      square = dealii::Utilities::MPI::max(square, MPI_COMM_WORLD);
+      EXPECT_NEAR(std::sqrt(square), 0.01 * std::sqrt(1.13), 1e-12);
+    }
+}
+
+TEST(ModalAnalysis, Refusals)
+{
+  const auto refused = [](const std::string &more) {
+    return refusal([&] {
+      Parameters    parameters(box_body("1, 1, 1", "1, 1, 1", 1, 0.3, 7, more));
+      Log           log(MPI_COMM_WORLD, true);
+      ModalAnalysis analysis(parameters, "", MPI_COMM_WORLD, log);
+    });
+  };
+  EXPECT_EQ(
+    refused(""),
+    "Modes/Number: found 7; allowed: at most 6 with the 24 unknowns that "
+    "are not prescribed (a quarter of them; none of fewer than 16)");
+  EXPECT_EQ(
+    refused("subsection Boundary conditions\nset Fixed = x-min\nend"),
+    "Modes/Number: found 7; allowed: at most 0 with the 12 unknowns that "
+    "are not prescribed (a quarter of them; none of fewer than 16)");
+}
