@@ -13,6 +13,7 @@ For every step:
 - the time is one of history.csv's, in order; the first and the last are there.
 Probes are those of --probes, else those of the directory's parameters.prm. Everything is read from another working
 directory; with --moved, from a copy of the directory, too. With --killed, history.csv may be a step behind or ahead.
+Where there is modes.csv, it takes the place of history.csv, and the number of the mode that of time.
 With --test-field, the data are also compared with what the tests write.
 """
 import argparse
@@ -55,6 +56,11 @@ def read_steps(directory):
 
 
 def read_history(directory):
+    modes = os.path.join(directory, "modes.csv")
+    if os.path.exists(modes):
+        with open(modes, newline="") as file:
+            rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+        return [{"time": row["mode"], **row} for row in rows]
     with open(os.path.join(directory, "history.csv"), newline="") as file:
         return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
 

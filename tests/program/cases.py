@@ -9,13 +9,16 @@
   one rank is reproducible to the last digit;
 - the file itself is short and begins with a comment.
 
+Of modes, summary.json has the frequencies in place of the history, which is not there, and modes.csv has its columns.
+
 To be given the case as argument: cases.py Cases.test_NAME
 """
 
 import re
 import unittest
 
-from support import CASES, COLUMNS, COLUMNS_AFTER_PROBES, SUMMARY_KEYS, WALL_TIME_KEYS, ProgramTest, read_history, read_summary
+from support import (CASES, COLUMNS, COLUMNS_AFTER_PROBES, MODES_COLUMNS, MODES_SUMMARY_KEYS, SUMMARY_KEYS, WALL_TIME_KEYS, ProgramTest,
+                     read_history, read_modes, read_summary)
 
 N_STEPS = 2
 LOAD_STEPS = (f"Time integration/static/Load steps = {N_STEPS}",)
@@ -27,10 +30,12 @@ SHORTER = {
     "elastica": (*LOAD_STEPS, "Boundary conditions/Traction = x-max: 0; 0; -800"),
     "gravity_corotational": (*LOAD_STEPS, "Loads/Gravity = 0; 0; -1"),
     "gravity_linear": LOAD_STEPS,
+    "plate_modes": ("Mesh/box/Cells = 4, 4, 1", "Modes/Number = 6"),
     "ring": (*LOAD_STEPS, "Boundary conditions/Pressure = x-max: 1e6 * (z - 0.025)"),
     "shaken_mast": ("Time integration/End time = 0.02",),
     "spring": ("Time integration/End time = 0.012",),
     "tuning_fork": ("Time integration/End time = 8e-5", "Output/Time between results = 0"),
+    "tuning_fork_modes": ("Discretization/Degree = 1", "Modes/Number = 4"),
     "twisted_beam": (*LOAD_STEPS, "Time integration/End time = 0.1"),
     "two_materials": ("Time integration/End time = 0.01",),
 }
@@ -44,6 +49,9 @@ class Cases(ProgramTest):
         self.assertLessEqual(text.count("\n"), 60)
 
         first = self.run_case(file.stem, "first", *SHORTER[file.stem])
+        if "set Type = modes" in text:
+            self.check_modes(first)
+            return
         self.check_summary(read_summary(first), read_history(first))
         probes = re.findall(r"(\w+):", re.search(r"set Probes\s*=(.*)", text).group(1))
         self.check_columns(first, probes)
@@ -56,6 +64,19 @@ class Cases(ProgramTest):
         for row in rows[0] + rows[1]:
             del row["wall_time"]
         self.assertEqual(*rows)
+
+    def check_modes(self, first):
+        summary, rows = read_summary(first), read_modes(first)
+        self.assertEqual(list(summary), MODES_SUMMARY_KEYS)
+        self.assertEqual((summary["status"], summary["modes"]), ("done", len(rows)))
+        self.assertEqual(summary["frequencies"], [float(row["frequency"]) for row in rows])
+        probes = list(rows[0])[len(MODES_COLUMNS):]
+        self.assertEqual(list(rows[0])[:len(MODES_COLUMNS)], MODES_COLUMNS)
+        self.assertGreater(len(probes), 0)
+        self.check_vtkhdf(first)
+        self.assertFalse((first / "history.csv").exists())
+        self.run_program(first / "parameters.prm", "--output", "second")
+        self.assertEqual(read_modes(self.folder / "second"), rows)
 
     def check_columns(self, directory, probes):
         header = (directory / "history.csv").read_text(encoding="utf-8").splitlines()[0].split(",")

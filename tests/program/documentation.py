@@ -6,7 +6,7 @@
 import re
 import unittest
 
-from support import CASES, COLUMNS, COLUMNS_AFTER_PROBES, ROOT, SUMMARY_KEYS, ProgramTest
+from support import CASES, COLUMNS, COLUMNS_AFTER_PROBES, MODES_COLUMNS, MODES_SUMMARY_KEYS, ROOT, SUMMARY_KEYS, ProgramTest
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "meshes" / "README.md", *sorted((ROOT / "doc").glob("*.md"))]
 
@@ -20,7 +20,8 @@ class Documentation(ProgramTest):
 
     def test_results(self):
         text = (ROOT / "doc" / "results.md").read_text(encoding="utf-8")
-        names = [re.sub("_[xyz]$", "", name) for name in COLUMNS + COLUMNS_AFTER_PROBES] + SUMMARY_KEYS
+        names = [re.sub("_[xyz]$", "", name) for name in COLUMNS + COLUMNS_AFTER_PROBES + MODES_COLUMNS] + SUMMARY_KEYS
+        names += MODES_SUMMARY_KEYS
         self.assertEqual([name for name in names if f"`{name}" not in text], [])
 
     def test_links(self):

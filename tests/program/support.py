@@ -22,12 +22,22 @@ COLUMNS_AFTER_PROBES = ("volume reaction_x reaction_y reaction_z degenerate_cell
                         "internal_moment_x internal_moment_y internal_moment_z rejected_steps").split()
 SUMMARY_KEYS = ("status version git_revision dealii_version ranks cells nodes dofs degree mesh_volume total_mass steps end_time "
                 "final wall_time peak_memory_bytes").split()
+MODES_COLUMNS = ("mode frequency angular_frequency eigenvalue residual modal_mass effective_mass_x effective_mass_y effective_mass_z "
+                 "mass_share_x mass_share_y mass_share_z").split()
+MODES_SUMMARY_KEYS = ("status version git_revision dealii_version ranks cells nodes dofs degree mesh_volume total_mass modes frequencies "
+                      "wall_time peak_memory_bytes").split()
 WALL_TIME_KEYS = "setup assembly solve output total".split()
 
 
 def read_history(directory):
     """The rows of history.csv as dictionaries of text."""
     with open(directory / "history.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def read_modes(directory):
+    """The rows of modes.csv as dictionaries of text."""
+    with open(directory / "modes.csv", newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
