@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 
 namespace corotet
@@ -113,6 +112,8 @@ namespace corotet
     , linear_solver(linear_solver)
     , tolerance(tolerance)
     , progress(progress)
+    , generator(1 + dealii::Utilities::MPI::this_mpi_process(
+                      A.discretization().communicator()))
   {
     A.discretization().initialize_vector(ghosted);
     A.discretization().initialize_vector(right_side);
@@ -169,8 +170,7 @@ namespace corotet
     const Epetra_MpiComm comm(A.discretization().communicator());
     const Epetra_Map     map(-1, static_cast<int>(free.size()), 0, comm);
 
-    const auto       start = rcp(new Anasazi::EpetraMultiVec(map, block_size));
-    std::minstd_rand generator(1 + comm.MyPID());
+    const auto start = rcp(new Anasazi::EpetraMultiVec(map, block_size));
     std::uniform_real_distribution<double> random(-1, 1);
     for (unsigned int j = 0; j < block_size; ++j)
       for (unsigned int i = 0; i < free.size(); ++i)

@@ -108,6 +108,7 @@ namespace
 TEST(ModalAnalysis, FindsAllEigenvalues)
 {
   expect_all_found("2, 2, 2", 1, "consistent", "", 20);
+  expect_all_found("2, 2, 2", 1, "consistent", "", 15);
   expect_all_found("2, 2, 2", 1, "consistent", "", 8);
   expect_all_found("2, 2, 2", 1, "row sum", "", 20);
   expect_all_found("2, 2, 2", 2, "consistent", "x-min", 33);

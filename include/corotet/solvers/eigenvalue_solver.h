@@ -7,6 +7,7 @@
 #include <corotet/solvers/linear_solver.h>
 
 #include <functional>
+#include <random>
 #include <vector>
 
 namespace corotet
@@ -120,10 +121,13 @@ namespace corotet
     dealii::types::global_dof_index   n_free;
     /// Owned unknowns that are not prescribed.
     std::vector<unsigned int> free;
-    unsigned int              n_solves     = 0;
-    unsigned int              n_iterations = 0;
-    mutable Vector            ghosted;
-    Vector                    right_side;
+    /// Each search starts from other vectors: the same ones have no more of a
+    /// mode that was missed than they had before.
+    std::minstd_rand generator;
+    unsigned int     n_solves     = 0;
+    unsigned int     n_iterations = 0;
+    mutable Vector   ghosted;
+    Vector           right_side;
   };
 } // namespace corotet
 
