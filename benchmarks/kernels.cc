@@ -114,9 +114,9 @@ namespace corotet::benchmarks
     };
 
     template <int p>
-    struct QuadratureCells : Cells<QuadratureKernel<p>>
+    struct QuadratureCells : Cells<QuadratureKernel<bernstein::size<p>>>
     {
-      using Kernel = QuadratureKernel<p>;
+      using Kernel = QuadratureKernel<bernstein::size<p>>;
       using V      = typename Kernel::V;
 
       /// [3 row + column]

@@ -75,7 +75,7 @@ namespace corotet::tests
       : log(MPI_COMM_WORLD, true)
       , parameters(text)
       , mesh(serial_mesh, 0, 1., MPI_COMM_WORLD, log)
-      , discretization(mesh, parameters.degree)
+      , discretization(mesh, parameters.element())
       , system(discretization, parameters, tables, wall_times, log)
     {
       system.initialize(state);

@@ -43,7 +43,7 @@ namespace corotet
   } // namespace
 
   CoarserNodes::CoarserNodes(const Nodes &finer)
-    : Nodes(finer.degree() - 1)
+    : Nodes(finer.element().coarser())
     , finer(finer)
   {
     n_owned       = finer.n_owned_cells();
@@ -62,7 +62,11 @@ namespace corotet
       {
         const auto fine = finer.cell_nodes(c);
         key_of_cell_node.insert(key_of_cell_node.end(), &fine[0], &fine[0] + 4);
-        if (degree() == 2)
+        if (finer.element().has_bubbles())
+          key_of_cell_node.insert(key_of_cell_node.end(),
+                                  &fine[4],
+                                  &fine[4] + 6);
+        else if (degree() == 2)
           for (unsigned int e = 0; e < 6; ++e)
             {
               // The same one of the two on all ranks.
@@ -135,14 +139,16 @@ namespace corotet
     const auto                 is_new = [&](const unsigned int fine) {
       return fine < finer.n_owned_nodes() && !std::exchange(is_done[fine], 1);
     };
+    const bool         has_bubbles = finer.element().has_bubbles();
+    const unsigned int n_same      = has_bubbles ? 10 : 4;
     for (unsigned int c = 0; c < n_owned; ++c)
       {
         const auto fine   = finer.cell_nodes(c);
         const auto coarse = cell_nodes(c);
-        for (unsigned int v = 0; v < 4; ++v)
-          if (is_new(fine[v]))
-            on_vertices.push_back({fine[v], {{coarse[v]}}});
-        for (unsigned int e = 0; e < 6; ++e)
+        for (unsigned int i = 0; i < n_same; ++i)
+          if (is_new(fine[i]))
+            on_nodes.push_back({fine[i], {{coarse[i]}}});
+        for (unsigned int e = 0; e < 6 && !has_bubbles; ++e)
           {
             const unsigned int a = coarse[edges[e][0]], b = coarse[edges[e][1]];
             if (degree() == 1)
@@ -156,20 +162,25 @@ namespace corotet
             if (is_new(fine[5 + 2 * e]))
               on_thirds.push_back({fine[5 + 2 * e], {{b, a, coarse[4 + e]}}});
           }
-        if (degree() == 2)
-          for (unsigned int f = 0; f < 4; ++f)
-            if (is_new(fine[16 + f]))
-              {
-                Parents<6> parents{fine[16 + f], {}};
-                for (unsigned int k = 0; k < 3; ++k)
-                  {
-                    parents.coarse[k] = coarse[faces[f][k]];
-                    parents.coarse[3 + k] =
-                      coarse[4 +
-                             edge_between(faces[f][k], faces[f][(k + 1) % 3])];
-                  }
-                on_faces.push_back(parents);
-              }
+        const unsigned int first_face = has_bubbles ? 10 : 16;
+        for (unsigned int f = 0; f < 4 && degree() == 2; ++f)
+          if (is_new(fine[first_face + f]))
+            {
+              Parents<6> parents{fine[first_face + f], {}};
+              for (unsigned int k = 0; k < 3; ++k)
+                {
+                  parents.coarse[k] = coarse[faces[f][k]];
+                  parents.coarse[3 + k] =
+                    coarse[4 +
+                           edge_between(faces[f][k], faces[f][(k + 1) % 3])];
+                }
+              on_faces.push_back(parents);
+            }
+        if (has_bubbles && is_new(fine[14]))
+          {
+            in_cells.push_back({fine[14], {}});
+            std::copy_n(&coarse[0], 10, in_cells.back().coarse.begin());
+          }
       }
     // Fine nodes in ascending order: the order of memory.
     const auto sort = [](auto &list) {
@@ -177,10 +188,11 @@ namespace corotet
         return a.fine < b.fine;
       });
     };
-    sort(on_vertices);
+    sort(on_nodes);
     sort(on_thirds);
     sort(on_middles);
     sort(on_faces);
+    sort(in_cells);
   }
 
   template <typename Number, typename Function>
@@ -192,7 +204,7 @@ namespace corotet
         function(parents.fine, parents.coarse, weights);
     };
     constexpr double third = 1. / 3;
-    apply(on_vertices, std::array<Number, 1>{{1}});
+    apply(on_nodes, std::array<Number, 1>{{1}});
     apply(on_middles, std::array<Number, 2>{{Number(0.5), Number(0.5)}});
     apply(on_thirds,
           std::array<Number, 3>{{Number(at_vertex(2 * third)),
@@ -205,6 +217,10 @@ namespace corotet
         on_face[3 + k] = at_middle(third, third);
       }
     apply(on_faces, on_face);
+    std::array<Number, 10> in_cell;
+    for (unsigned int k = 0; k < 10; ++k)
+      in_cell[k] = k < 4 ? at_vertex(0.25) : at_middle(0.25, 0.25);
+    apply(in_cells, in_cell);
   }
 
   template <typename Number>

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/discretization/discretization.h>
+#include <corotet/discretization/finite_element.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -13,10 +14,10 @@ namespace corotet
   using dealii::numbers::invalid_dof_index;
   using dealii::types::global_dof_index;
 
-  Discretization::Discretization(const Mesh &mesh, const unsigned int degree)
-    : Nodes(degree)
+  Discretization::Discretization(const Mesh &mesh, const Element element)
+    : Nodes(element)
     , mesh_pointer(&mesh)
-    , fe(dealii::FE_SimplexP<3>(degree), 3)
+    , fe(*make_finite_element(element), 3)
     , linear_mapping(dealii::FE_SimplexP<3>(1))
     , dofs(mesh.triangulation())
   {

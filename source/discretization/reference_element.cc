@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/finite_element.h>
 #include <corotet/discretization/reference_element.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/grid/reference_cell.h>
 
 namespace corotet
@@ -59,29 +59,32 @@ namespace corotet
     }
   } // namespace
 
-  ReferenceElement::ReferenceElement(const unsigned int degree)
-    : degree(degree)
+  ReferenceElement::ReferenceElement(const Element element)
+    : degree(element.degree())
+    , n_nodes(element.n_nodes())
   {
     AssertThrow(degree >= 1 && degree <= 3, dealii::ExcInternalError());
-    const dealii::FE_SimplexP<3> fe(degree);
-    n_nodes = fe.dofs_per_cell;
+    const auto  pointer = make_finite_element(element);
+    const auto &fe      = *pointer;
+    AssertDimension(fe.dofs_per_cell, n_nodes);
 
     // Degrees 0, 2, 4 need 1, 4, 14 points.
     const dealii::Quadrature<3> stiffness =
       degree == 1 ?
         dealii::Quadrature<3>(dealii::QGaussSimplex<3>(1)) :
-      degree == 2 ?
+      n_nodes == 10 ?
         dealii::Quadrature<3>(dealii::QWitherdenVincentSimplex<3>(1, false)) :
         dealii::Quadrature<3>(dealii::QWitherdenVincentSimplex<3>(3));
-    // Of degree 2p+1 = 3, 5, 7.
-    const dealii::QWitherdenVincentSimplex<3> loads(degree + 1);
+    // Rule n is of degree 2n-1. Loads: 2p = 2, 4, 6, with bubbles 4 + 2.
+    const unsigned int n = element.has_bubbles() ? 4 : degree + 1;
+    const dealii::QWitherdenVincentSimplex<3> loads(n);
     stiffness_rule =
       tabulate(fe, stiffness.get_points(), stiffness.get_weights());
     load_rule = tabulate(fe, loads.get_points(), loads.get_weights());
     centre    = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
 
-    // Of degree 2(p+1)-1 = 3, 5, 7 >= 3p-2.
-    const dealii::QWitherdenVincentSimplex<2> on_face(degree + 1);
+    // 3p-2 = 1, 4, 7; with bubbles 3 and twice 2.
+    const dealii::QWitherdenVincentSimplex<2> on_face(n);
     for (unsigned int f = 0; f < 4; ++f)
       {
         const auto                    v = outward_face(f);
@@ -97,14 +100,24 @@ namespace corotet
             face_nodes[f].push_back(i);
       }
 
+    // Products of shape functions: 2p, with bubbles 8.
+    const dealii::QWitherdenVincentSimplex<3> products(
+      element.has_bubbles() ? 5 : degree + 1);
+    integrate_products(
+      tabulate(fe, products.get_points(), products.get_weights()));
+  }
+
+  void
+  ReferenceElement::integrate_products(const PointValues &mass_rule)
+  {
     mass.reinit(n_nodes, n_nodes);
     gradient_products.reinit(n_nodes, n_nodes, 9);
     for (unsigned int i = 0; i < n_nodes; ++i)
       for (unsigned int j = 0; j < n_nodes; ++j)
         {
-          for (unsigned int q = 0; q < load_rule.weights.size(); ++q)
-            mass[i][j] += load_rule.weights[q] * load_rule.values[q][i] *
-                          load_rule.values[q][j];
+          for (unsigned int q = 0; q < mass_rule.weights.size(); ++q)
+            mass[i][j] += mass_rule.weights[q] * mass_rule.values[q][i] *
+                          mass_rule.values[q][j];
           for (unsigned int q = 0; q < stiffness_rule.weights.size(); ++q)
             for (unsigned int k = 0; k < 3; ++k)
               for (unsigned int l = 0; l < 3; ++l)

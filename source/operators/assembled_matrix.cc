@@ -18,7 +18,7 @@ namespace corotet
     const Nodes                      &nodes,
     const std::vector<unsigned char> &is_prescribed)
     : nodes(nodes)
-    , reference(nodes.degree())
+    , reference(nodes.element())
     , prescribed(is_prescribed)
   {
     make_sparsity();

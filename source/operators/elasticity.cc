@@ -135,7 +135,7 @@ namespace corotet
                      const Vector      &u) const
   {
     rotation_sweep(
-      discretization.degree())(data, first, end, u.begin(), nullptr);
+      discretization.element())(data, first, end, u.begin(), nullptr);
   }
 
   void
@@ -172,11 +172,11 @@ namespace corotet
   Elasticity::Force
   Elasticity::moving_force() const
   {
-    const unsigned int degree = discretization.degree();
+    const Element element = discretization.element();
     if (placement == Rotation::quadrature_points ||
         placement == Rotation::cell_centre_variational)
       {
-        const PointForceSweep sweep = point_force_sweep(degree, placement);
+        const PointForceSweep sweep = point_force_sweep(element, placement);
         return {[this, sweep](ElasticData       &data,
                               const unsigned int first,
                               const unsigned int end,
@@ -186,17 +186,17 @@ namespace corotet
                 },
                 1.};
       }
-    return {placement == Rotation::none ? force_sweep(degree) :
-                                          rotation_and_force_sweep(degree),
-            stiffness_scale(degree)};
+    return {placement == Rotation::none ? force_sweep(element) :
+                                          rotation_and_force_sweep(element),
+            stiffness_scale(element)};
   }
 
   void
   Elasticity::internal_force(Vector &f, const Vector &u) const
   {
-    const unsigned int degree = discretization.degree();
-    ElasticData        data   = elastic_data();
-    cell_sweep(f, u, force_sweep(degree), data, stiffness_scale(degree));
+    const Element element = discretization.element();
+    ElasticData   data    = elastic_data();
+    cell_sweep(f, u, force_sweep(element), data, stiffness_scale(element));
   }
 
   void
@@ -248,16 +248,16 @@ namespace corotet
   void
   Elasticity::apply_tangent(Vector &f, const Vector &v) const
   {
-    const unsigned int     degree = discretization.degree();
+    const Element          element = discretization.element();
     const FormData<double> data{discretization.batches(),
                                 cell_coefficients.data(),
                                 nullptr,
                                 0};
     cell_sweep(f,
                v,
-               form_sweep<double>(degree, Terms::stiffness),
+               form_sweep<double>(element, Terms::stiffness),
                data,
-               stiffness_scale(degree));
+               stiffness_scale(element));
   }
 
   void
@@ -265,7 +265,7 @@ namespace corotet
   {
     const ElasticData     data = elastic_data();
     const QuadratureSweep sweep =
-      tangent_by_quadrature_sweep(discretization.degree());
+      tangent_by_quadrature_sweep(discretization.element());
     const auto by_quadrature = [&](const ElasticData &data,
                                    const unsigned int first,
                                    const unsigned int end,
@@ -287,7 +287,7 @@ namespace corotet
       static_cast<std::size_t>(n_batches) * batch_size *
       linearization_size(reference, placement, tangent));
     unsigned int n_clamped = 0;
-    linearization_sweep(discretization.degree(),
+    linearization_sweep(discretization.element(),
                         placement,
                         tangent)(reference,
                                  elastic_data(),
@@ -313,7 +313,7 @@ namespace corotet
       reference, elastic, linearization.data(), frozen_factor, masses, c_M};
     Assert(!linearization.empty(), dealii::ExcNotInitialized());
     const TangentSweep sweep =
-      tangent_sweep(discretization.degree(), placement, linearized_tangent);
+      tangent_sweep(discretization.element(), placement, linearized_tangent);
     cell_loop.run(
       v,
       [&](const auto    first,
@@ -334,7 +334,7 @@ namespace corotet
   Elasticity::state(const Vector &u) const
   {
     PointResults local;
-    state_sweep(discretization.degree(),
+    state_sweep(discretization.element(),
                 placement)(reference,
                            elastic_data(),
                            0,

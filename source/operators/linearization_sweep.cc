@@ -44,7 +44,7 @@ namespace corotet
           n += (clamped >> lane & 1u) != 0 && shapes.volume[lane] > 0;
     }
 
-    template <int p, Tangent tangent>
+    template <int n_nodes, Tangent tangent>
     __attribute__((flatten)) void
     linearize_at_points(const ReferenceElement &reference,
                         const ElasticData      &data,
@@ -54,7 +54,7 @@ namespace corotet
                         double                 *linearization,
                         unsigned int           &n_clamped)
     {
-      using Kernel     = QuadratureKernel<p>;
+      using Kernel     = QuadratureKernel<n_nodes>;
       const auto &rule = reference.stiffness_rule;
       const auto  size =
         batch_size * linearization_size(reference, data.rotation, tangent);
@@ -86,7 +86,7 @@ namespace corotet
         }
     }
 
-    template <int p, Rotation rotation>
+    template <int n_nodes, Rotation rotation>
     __attribute__((flatten)) void
     linearize_by_cell(const ReferenceElement &reference,
                       const ElasticData      &data,
@@ -96,7 +96,7 @@ namespace corotet
                       double                 *linearization,
                       unsigned int           &n_clamped)
     {
-      using Kernel     = QuadratureKernel<p>;
+      using Kernel     = QuadratureKernel<n_nodes>;
       const auto &rule = reference.stiffness_rule;
       const auto  size =
         batch_size *
@@ -161,21 +161,21 @@ namespace corotet
   }
 
   LinearizationSweep
-  linearization_sweep(const unsigned int degree,
-                      const Rotation     rotation,
-                      const Tangent      tangent)
+  linearization_sweep(const Element  element,
+                      const Rotation rotation,
+                      const Tangent  tangent)
   {
     LinearizationSweep result = nullptr;
-    with_tangent(degree,
+    with_tangent(element,
                  rotation,
                  tangent,
-                 [&](const auto p, const auto r, const auto t) {
-                   constexpr int      degree   = decltype(p)::value;
+                 [&](const auto kernel, const auto r, const auto t) {
+                   constexpr int      n_nodes = decltype(kernel)::type::n_nodes;
                    constexpr Rotation rotation = decltype(r)::value;
                    if constexpr (rotation == Rotation::quadrature_points)
-                     result = linearize_at_points<degree, decltype(t)::value>;
+                     result = linearize_at_points<n_nodes, decltype(t)::value>;
                    else
-                     result = linearize_by_cell<degree, rotation>;
+                     result = linearize_by_cell<n_nodes, rotation>;
                  });
     return result;
   }

@@ -15,7 +15,8 @@ namespace corotet
   {
     return name == "consistent"       ? MassType::consistent :
            name == "diagonal scaling" ? MassType::diagonal_scaling :
-                                        MassType::row_sum;
+           name == "row sum"          ? MassType::row_sum :
+                                        MassType::nodal_quadrature;
   }
 
   std::vector<double>
@@ -28,6 +29,7 @@ namespace corotet
         if (type == MassType::diagonal_scaling)
           shares[i] = reference.mass[i][i];
         else
+          // The mean of N_i.
           for (unsigned int j = 0; j < reference.n_nodes; ++j)
             shares[i] += reference.mass[i][j];
         sum += shares[i];
@@ -35,16 +37,18 @@ namespace corotet
     for (double &share : shares)
       {
         share /= sum;
-        // Exact values are 1/4; -1/20, 1/5; 1/40, 0, 9/40: no close call.
+        // Exact row sums are 1/4; -1/20, 1/5; 1/40, 0, 9/40; with bubbles
+        // 17/840 and more: no close call.
         if (share < 1e-6)
           throw InputError(
             "Discretization/Mass",
             fmt::format("row-sum lumping with degree {} gives some nodes the "
                         "share {:.3g} of a cell's mass, and a mass must be "
-                        "positive; found 'row sum', allowed: 'diagonal "
+                        "positive; found 'row sum', allowed: {}'diagonal "
                         "scaling' or 'consistent' (or degree 1)",
                         reference.degree,
-                        std::abs(share) < 1e-6 ? 0. : share));
+                        std::abs(share) < 1e-6 ? 0. : share,
+                        reference.degree == 2 ? "'nodal quadrature', " : ""));
       }
     return shares;
   }
@@ -102,9 +106,9 @@ namespace corotet
     const FormData<double>  data{discretization.batches(),
                                 nullptr,
                                 masses.data(),
-                                mass_scale(discretization.degree())};
+                                mass_scale(discretization.element())};
     const FormSweep<double> sweep =
-      form_sweep<double>(discretization.degree(), Terms::mass);
+      form_sweep<double>(discretization.element(), Terms::mass);
     cell_loop.run(
       a,
       [&](const auto    first,

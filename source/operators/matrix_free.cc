@@ -24,14 +24,14 @@ namespace corotet
                            const CellMasses<T>       *masses,
                            const VectorType          *lumped_mass)
   {
-    const unsigned int degree     = nodes().degree();
-    const bool         consistent = c_M != 0 && lumped_mass == nullptr;
-    const Terms        terms =
+    const Element element    = nodes().element();
+    const bool    consistent = c_M != 0 && lumped_mass == nullptr;
+    const Terms   terms =
       consistent ? Terms::stiffness_and_mass : Terms::stiffness;
-    sweep             = form_sweep<T>(degree, terms);
-    diagonal_sweep    = corotet::diagonal_sweep<T>(degree, terms);
+    sweep             = form_sweep<T>(element, terms);
+    diagonal_sweep    = corotet::diagonal_sweep<T>(element, terms);
     unit              = c_K;
-    scale             = c_K * stiffness_scale(degree);
+    scale             = c_K * stiffness_scale(element);
     lumped            = c_M;
     this->lumped_mass = c_M != 0 ? lumped_mass : nullptr;
     data.coefficients = coefficients;
@@ -65,7 +65,7 @@ namespace corotet
   {
     FormData<T> data = this->data;
     data.mass_factor *=
-      mass_scale(nodes().degree()) / stiffness_scale(nodes().degree());
+      mass_scale(nodes().element()) / stiffness_scale(nodes().element());
     const auto add =
       [&](const auto first, const auto end, const T *source, T *sums) {
         sweep(data, first, end, source, sums);

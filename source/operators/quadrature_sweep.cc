@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/with_degree.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/quadrature_kernel.h>
 #include <corotet/operators/quadrature_sweep.h>
+#include <corotet/operators/with_kernel.h>
 
 namespace corotet
 {
@@ -51,7 +51,7 @@ namespace corotet
       return polar_decomposition(F, R);
     }
 
-    template <int p, bool at_points>
+    template <int n_nodes, bool at_points>
     __attribute__((flatten)) void
     sweep_state(const ReferenceElement &reference,
                 const ElasticData      &data,
@@ -60,7 +60,7 @@ namespace corotet
                 const double           *displacement,
                 PointResults           &results)
     {
-      using Kernel     = QuadratureKernel<p>;
+      using Kernel     = QuadratureKernel<n_nodes>;
       const auto &rule = reference.stiffness_rule;
       for (unsigned int batch = first; batch < end; ++batch)
         {
@@ -101,7 +101,7 @@ namespace corotet
     }
 
     // f_i = sum_q w_q P(F_q) grad N_i, with the rotation of each point.
-    template <int p>
+    template <int n_nodes>
     __attribute__((flatten)) void
     sweep_force_at_points(const ReferenceElement &reference,
                           ElasticData            &data,
@@ -110,7 +110,7 @@ namespace corotet
                           const double           *displacement,
                           double                 *sums)
     {
-      using Kernel = QuadratureKernel<p>;
+      using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
@@ -137,7 +137,7 @@ namespace corotet
     // dA_q = R^T dF_q - W(w) A_q, so to the force of frozen rotations comes
     // w . m with the moment m, the axial vector of sum_q w_q sigma_q A_q^T, and
     // G w = a(R^T dF) at the centre: a stress P = R W(G^{-1} m) there.
-    template <int p>
+    template <int n_nodes>
     __attribute__((flatten)) void
     sweep_variational_force(const ReferenceElement &reference,
                             ElasticData            &data,
@@ -146,7 +146,7 @@ namespace corotet
                             const double           *displacement,
                             double                 *sums)
     {
-      using Kernel = QuadratureKernel<p>;
+      using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
@@ -183,7 +183,7 @@ namespace corotet
         }
     }
 
-    template <int p>
+    template <int n_nodes>
     __attribute__((flatten)) void
     sweep_tangent(const ReferenceElement &reference,
                   const ElasticData      &data,
@@ -192,7 +192,7 @@ namespace corotet
                   const double           *source,
                   double                 *sums)
     {
-      using Kernel = QuadratureKernel<p>;
+      using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
@@ -215,37 +215,37 @@ namespace corotet
   } // namespace
 
   StateSweep
-  state_sweep(const unsigned int degree, const Rotation rotation)
+  state_sweep(const Element element, const Rotation rotation)
   {
     StateSweep result = nullptr;
-    with_degree(degree, [&](const auto p) {
-      constexpr int degree = decltype(p)::value;
-      result               = rotation == Rotation::quadrature_points ?
-                               sweep_state<degree, true> :
-                               sweep_state<degree, false>;
+    with_kernel<double>(element, [&](const auto kernel) {
+      constexpr int n_nodes = decltype(kernel)::type::n_nodes;
+      result                = rotation == Rotation::quadrature_points ?
+                                sweep_state<n_nodes, true> :
+                                sweep_state<n_nodes, false>;
     });
     return result;
   }
 
   PointForceSweep
-  point_force_sweep(const unsigned int degree, const Rotation rotation)
+  point_force_sweep(const Element element, const Rotation rotation)
   {
     PointForceSweep result = nullptr;
-    with_degree(degree, [&](const auto p) {
-      constexpr int degree = decltype(p)::value;
-      result               = rotation == Rotation::quadrature_points ?
-                               sweep_force_at_points<degree> :
-                               sweep_variational_force<degree>;
+    with_kernel<double>(element, [&](const auto kernel) {
+      constexpr int n_nodes = decltype(kernel)::type::n_nodes;
+      result                = rotation == Rotation::quadrature_points ?
+                                sweep_force_at_points<n_nodes> :
+                                sweep_variational_force<n_nodes>;
     });
     return result;
   }
 
   QuadratureSweep
-  tangent_by_quadrature_sweep(const unsigned int degree)
+  tangent_by_quadrature_sweep(const Element element)
   {
     QuadratureSweep result = nullptr;
-    with_degree(degree, [&](const auto p) {
-      result = sweep_tangent<decltype(p)::value>;
+    with_kernel<double>(element, [&](const auto kernel) {
+      result = sweep_tangent<decltype(kernel)::type::n_nodes>;
     });
     return result;
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/with_degree.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/sweep.h>
+#include <corotet/operators/with_kernel.h>
 
 namespace corotet
 {
@@ -11,7 +11,7 @@ namespace corotet
   {
     // Flat: what it calls becomes one piece of code with constants for counters
     // and registers for arrays; with calls it is six times slower.
-    template <int p, typename T, Terms terms>
+    template <typename Kernel, typename T, Terms terms>
     __attribute__((flatten)) void
     sweep_form(const FormData<T> &data,
                const unsigned int first,
@@ -19,7 +19,6 @@ namespace corotet
                const T           *source,
                T                 *sums)
     {
-      using Kernel             = FactoredKernel<p, T>;
       constexpr unsigned int n = n_lanes<T> / batch_size;
       for (unsigned int batch = first; batch < end; batch += n)
         {
@@ -38,7 +37,7 @@ namespace corotet
 
     // K_aa = (lambda + mu) D_aa + mu tr D at node i, with D the integral of
     // grad N_i (x) grad N_i.
-    template <int p, typename T, Terms terms>
+    template <typename Kernel, typename T, Terms terms>
     __attribute__((flatten)) void
     sweep_diagonal(const FormData<T> &data,
                    const unsigned int first,
@@ -46,8 +45,8 @@ namespace corotet
                    const T *,
                    T *sums)
     {
-      constexpr int          n_nodes  = bernstein::size<p>;
-      constexpr auto        &products = bernstein::diagonal_products<p>;
+      constexpr int          n_nodes  = Kernel::n_nodes;
+      constexpr auto        &products = Kernel::diagonal_products;
       constexpr unsigned int n        = n_lanes<T> / batch_size;
       for (unsigned int batch = first; batch < end; batch += n)
         {
@@ -129,18 +128,17 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     strain_offset(const Simd<double> (&R)[3][3],
                   const CellShapes       &shapes,
-                  const double            one_over_p,
                   typename Kernel::Strain offset)
     {
       const Simd<double> s =
-        load_aligned<batch_size>(shapes.scale) * one_over_p;
+        load_aligned<batch_size>(shapes.scale) * Kernel::strain_scale;
       static_for<3>([&](auto a) { offset[a] = s * (R[a][a] - 1.); });
       offset[3] = s * (R[1][2] + R[2][1]);
       offset[4] = s * (R[0][2] + R[2][0]);
       offset[5] = s * (R[0][1] + R[1][0]);
     }
 
-    template <int p, bool rotate, bool with_force>
+    template <typename Kernel, bool rotate, bool with_force>
     __attribute__((flatten)) void
     sweep_elastic(ElasticData       &data,
                   const unsigned int first,
@@ -148,7 +146,6 @@ namespace corotet
                   const double      *source,
                   double            *sums)
     {
-      using Kernel = FactoredKernel<p, double>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
@@ -168,7 +165,7 @@ namespace corotet
           if constexpr (with_force)
             {
               typename Kernel::Strain offset;
-              strain_offset<Kernel>(R, shapes, 1. / p, offset);
+              strain_offset<Kernel>(R, shapes, offset);
               Kernel::template apply<true, false, true>(
                 &data.coefficients[batch], Simd<double>{}, &offset, u, v);
               scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
@@ -178,11 +175,12 @@ namespace corotet
 
     template <bool rotate, bool with_force>
     ElasticSweep
-    elastic_sweep(const unsigned int degree)
+    elastic_sweep(const Element element)
     {
       ElasticSweep result = nullptr;
-      with_degree(degree, [&](const auto p) {
-        result = sweep_elastic<decltype(p)::value, rotate, with_force>;
+      with_kernel<double>(element, [&](const auto kernel) {
+        using Kernel = typename decltype(kernel)::type;
+        result       = sweep_elastic<Kernel, rotate, with_force>;
       });
       return result;
     }
@@ -190,70 +188,78 @@ namespace corotet
 
   template <typename T>
   FormSweep<T>
-  form_sweep(const unsigned int degree, const Terms terms)
+  form_sweep(const Element element, const Terms terms)
   {
     FormSweep<T> result = nullptr;
-    with_degree(degree, [&](const auto p) {
-      constexpr int degree = decltype(p)::value;
+    with_kernel<T>(element, [&](const auto kernel) {
+      using Kernel = typename decltype(kernel)::type;
       result =
-        terms == Terms::stiffness ? sweep_form<degree, T, Terms::stiffness> :
-        terms == Terms::mass      ? sweep_form<degree, T, Terms::mass> :
-                               sweep_form<degree, T, Terms::stiffness_and_mass>;
+        terms == Terms::stiffness ? sweep_form<Kernel, T, Terms::stiffness> :
+        terms == Terms::mass      ? sweep_form<Kernel, T, Terms::mass> :
+                               sweep_form<Kernel, T, Terms::stiffness_and_mass>;
     });
     return result;
   }
 
   template <typename T>
   FormSweep<T>
-  diagonal_sweep(const unsigned int degree, const Terms terms)
+  diagonal_sweep(const Element element, const Terms terms)
   {
     Assert(terms != Terms::mass, dealii::ExcNotImplemented());
     FormSweep<T> result = nullptr;
-    with_degree(degree, [&](const auto p) {
-      constexpr int degree = decltype(p)::value;
-      result               = terms == Terms::stiffness ?
-                               sweep_diagonal<degree, T, Terms::stiffness> :
-                               sweep_diagonal<degree, T, Terms::stiffness_and_mass>;
+    with_kernel<T>(element, [&](const auto kernel) {
+      using Kernel = typename decltype(kernel)::type;
+      result       = terms == Terms::stiffness ?
+                       sweep_diagonal<Kernel, T, Terms::stiffness> :
+                       sweep_diagonal<Kernel, T, Terms::stiffness_and_mass>;
     });
     return result;
   }
 
   template FormSweep<double>
-  form_sweep<double>(const unsigned int, const Terms);
+  form_sweep<double>(const Element, const Terms);
   template FormSweep<float>
-  form_sweep<float>(const unsigned int, const Terms);
+  form_sweep<float>(const Element, const Terms);
   template FormSweep<double>
-  diagonal_sweep<double>(const unsigned int, const Terms);
+  diagonal_sweep<double>(const Element, const Terms);
   template FormSweep<float>
-  diagonal_sweep<float>(const unsigned int, const Terms);
+  diagonal_sweep<float>(const Element, const Terms);
 
   double
-  stiffness_scale(const unsigned int degree)
+  stiffness_scale(const Element element)
   {
-    return degree * degree * bernstein::mass_scale(degree - 1);
+    double result = 0;
+    with_kernel<double>(element, [&](const auto kernel) {
+      result = decltype(kernel)::type::stiffness_scale;
+    });
+    return result;
   }
 
   double
-  mass_scale(const unsigned int degree)
+  mass_scale(const Element element)
   {
-    return bernstein::mass_scale(degree);
+    double result = 0;
+    with_kernel<double>(element, [&](const auto kernel) {
+      result = decltype(kernel)::type::mass_scale;
+    });
+    return result;
   }
 
   ElasticSweep
-  rotation_sweep(const unsigned int degree)
+  rotation_sweep(const Element element)
   {
-    return elastic_sweep<true, false>(degree);
+    return elastic_sweep<true, false>(element);
   }
 
   ElasticSweep
-  force_sweep(const unsigned int degree)
+  force_sweep(const Element element)
   {
-    return elastic_sweep<false, true>(degree);
+    return elastic_sweep<false, true>(element);
   }
 
   ElasticSweep
-  rotation_and_force_sweep(const unsigned int degree)
+  rotation_and_force_sweep(const Element element)
   {
-    return elastic_sweep<true, true>(degree);
+    return elastic_sweep<true, true>(element);
   }
 } // namespace corotet

@@ -36,28 +36,27 @@ namespace corotet
     };
 
     // f = c_M M u. Changes u.
-    template <int p>
+    template <typename CellKernel>
     COROTET_ALWAYS_INLINE void
     apply_mass(const TangentData &data,
                const unsigned int batch,
-               V (&u)[bernstein::size<p>][3],
-               V (&f)[bernstein::size<p>][3])
+               V (&u)[CellKernel::n_nodes][3],
+               V (&f)[CellKernel::n_nodes][3])
     {
-      using Factored = FactoredKernel<p, double>;
-      const V masses = data.mass_factor * Factored::mass_scale *
+      const V masses = data.mass_factor * CellKernel::mass_scale *
                        lanes(data.masses[batch].mass);
-      Factored::template apply<false, true>(nullptr, masses, nullptr, u, f);
+      CellKernel::template apply<false, true>(nullptr, masses, nullptr, u, f);
     }
 
-    template <int p>
+    template <typename CellKernel>
     COROTET_ALWAYS_INLINE void
     gather_with_mass(const TangentData &data,
                      const unsigned int batch,
                      const double      *source,
-                     V (&u)[bernstein::size<p>][3],
-                     V (&f)[bernstein::size<p>][3])
+                     V (&u)[CellKernel::n_nodes][3],
+                     V (&f)[CellKernel::n_nodes][3])
     {
-      constexpr int n_nodes = bernstein::size<p>;
+      constexpr int n_nodes = CellKernel::n_nodes;
       gather_batch<n_nodes>(data.elastic.batches, batch, source, u);
       if (data.masses == nullptr)
         {
@@ -67,10 +66,10 @@ namespace corotet
       V copy[n_nodes][3];
       static_for<3 * n_nodes>(
         [&](auto ia) { copy[ia / 3][ia % 3] = u[ia / 3][ia % 3]; });
-      apply_mass<p>(data, batch, copy, f);
+      apply_mass<CellKernel>(data, batch, copy, f);
     }
 
-    template <int p, Tangent tangent>
+    template <typename CellKernel, Tangent tangent>
     __attribute__((flatten)) void
     tangent_at_points(const TangentData &data,
                       const unsigned int first,
@@ -78,7 +77,7 @@ namespace corotet
                       const double      *source,
                       double            *sums)
     {
-      using Kernel     = QuadratureKernel<p>;
+      using Kernel     = QuadratureKernel<CellKernel::n_nodes>;
       const auto &rule = data.reference.stiffness_rule;
       const auto  size =
         batch_size * linearization_size(data.reference,
@@ -89,7 +88,7 @@ namespace corotet
           const CellShapes            &shapes = data.elastic.shapes[batch];
           typename Kernel::NodalValues u, f;
           typename Kernel::Geometry    g;
-          gather_with_mass<p>(data, batch, source, u, f);
+          gather_with_mass<CellKernel>(data, batch, source, u, f);
           Kernel::load(shapes, g);
           const V mu     = data.frozen_factor * lanes(shapes.mu),
                   lambda = data.frozen_factor * lanes(shapes.lambda);
@@ -122,7 +121,7 @@ namespace corotet
     // sym(H - W(w) B) and P R^T by sigma(H - W(w) B) + W(w) sigma. In the
     // variational force, the stress W(n) at the centre, G n = m, changes by
     // W(w) W(n) + W(dn), where G dn = dm - dG n.
-    template <int p, Rotation rotation>
+    template <typename CellKernel, Rotation rotation>
     __attribute__((flatten)) void
     tangent_by_cell(const TangentData &data,
                     const unsigned int first,
@@ -130,7 +129,7 @@ namespace corotet
                     const double      *source,
                     double            *sums)
     {
-      using Kernel = QuadratureKernel<p>;
+      using Kernel = QuadratureKernel<CellKernel::n_nodes>;
       constexpr bool variational =
         rotation == Rotation::cell_centre_variational;
       const auto &rule = data.reference.stiffness_rule;
@@ -142,7 +141,7 @@ namespace corotet
           const CellShapes            &shapes = data.elastic.shapes[batch];
           typename Kernel::NodalValues u, f;
           typename Kernel::Geometry    g;
-          gather_with_mass<p>(data, batch, source, u, f);
+          gather_with_mass<CellKernel>(data, batch, source, u, f);
           load_rotated(data.elastic, batch, g);
           const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda),
                   volume = lanes(shapes.volume);
@@ -213,21 +212,21 @@ namespace corotet
   } // namespace
 
   TangentSweep
-  tangent_sweep(const unsigned int degree,
-                const Rotation     rotation,
-                const Tangent      tangent)
+  tangent_sweep(const Element  element,
+                const Rotation rotation,
+                const Tangent  tangent)
   {
     TangentSweep result = nullptr;
-    with_tangent(degree,
+    with_tangent(element,
                  rotation,
                  tangent,
-                 [&](const auto p, const auto r, const auto t) {
-                   constexpr int      degree   = decltype(p)::value;
+                 [&](const auto kernel, const auto r, const auto t) {
+                   using CellKernel = typename decltype(kernel)::type;
                    constexpr Rotation rotation = decltype(r)::value;
                    if constexpr (rotation == Rotation::quadrature_points)
-                     result = tangent_at_points<degree, decltype(t)::value>;
+                     result = tangent_at_points<CellKernel, decltype(t)::value>;
                    else
-                     result = tangent_by_cell<degree, rotation>;
+                     result = tangent_by_cell<CellKernel, rotation>;
                  });
     return result;
   }

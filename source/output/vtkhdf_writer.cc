@@ -136,12 +136,16 @@ namespace corotet
   {
     const MPI_Comm     comm    = discretization.communicator();
     const unsigned int n_cells = discretization.n_owned_cells();
-    const unsigned int n_nodes = discretization.n_owned_nodes();
+    if (discretization.element().has_bubbles())
+      without_bubbles = std::make_unique<CoarserNodes>(discretization);
+    const Nodes       &shown   = without_bubbles ?
+                                   static_cast<const Nodes &>(*without_bubbles) :
+                                   discretization;
+    const unsigned int n_nodes = shown.n_owned_nodes();
     // Owned nodes are numbered consecutively, rank after rank.
-    nodes.first =
-      n_nodes > 0 ? static_cast<hsize_t>(discretization.global_node(0)) : 0;
-    nodes.n_rows        = n_nodes;
-    nodes.n_global_rows = discretization.n_global_nodes();
+    nodes.first  = n_nodes > 0 ? static_cast<hsize_t>(shown.global_node(0)) : 0;
+    nodes.n_rows = n_nodes;
+    nodes.n_global_rows = shown.n_global_nodes();
     nodes.n_columns     = 3;
     cells.first         = dealii::Utilities::MPI::partial_and_total_sum(
                     static_cast<hsize_t>(n_cells), comm)
@@ -151,8 +155,8 @@ namespace corotet
     cells.n_columns     = 0;
 
     Hdf5File file(directory + "/solution/mesh.h5", comm);
-    file.write("Points", discretization.node_positions().begin(), nodes);
-    write_connectivity(discretization, file);
+    write_nodal(file, "Points", discretization.node_positions());
+    write_connectivity(shown, file);
 
     const std::vector<std::uint8_t> types(n_cells, 71);
     file.write("Types", types.data(), cells);
@@ -169,24 +173,39 @@ namespace corotet
     file.write_from_root("NumberOfPoints", list(nodes.n_global_rows));
     file.write_from_root("NumberOfCells", list(cells.n_global_rows));
     file.write_from_root("NumberOfConnectivityIds",
-                         list(cells.n_global_rows *
-                              discretization.n_nodes_per_cell()));
+                         list(cells.n_global_rows * shown.n_nodes_per_cell()));
     file.finish();
   }
 
   void
-  VtkhdfWriter::write_connectivity(const Discretization &discretization,
-                                   Hdf5File             &file)
+  VtkhdfWriter::write_nodal(Hdf5File          &file,
+                            const std::string &name,
+                            const Vector      &values)
   {
-    const std::vector<unsigned int> order =
-      vtk_node_order(discretization.degree());
-    const hsize_t n = discretization.n_nodes_per_cell();
+    if (!without_bubbles)
+      {
+        file.write(name, values.begin(), nodes);
+        return;
+      }
+    std::vector<double> shown(3 * nodes.n_rows);
+    for (unsigned int n = 0; n < nodes.n_rows; ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        shown[3 * n + a] =
+          values.local_element(3 * without_bubbles->key(n) + a);
+    file.write(name, shown.data(), nodes);
+  }
+
+  void
+  VtkhdfWriter::write_connectivity(const Nodes &shown, Hdf5File &file)
+  {
+    const std::vector<unsigned int> order = vtk_node_order(shown.degree());
+    const hsize_t                   n     = shown.n_nodes_per_cell();
 
     std::vector<std::int64_t> connectivity;
     connectivity.reserve(cells.n_rows * n);
     // Offsets has an entry more than there are cells. Rank 0 writes it, the
     // leading zero.
-    const bool root = this_mpi_process(discretization.communicator()) == 0;
+    const bool root = this_mpi_process(shown.communicator()) == 0;
     std::vector<std::int64_t> offsets;
     offsets.reserve(cells.n_rows + 1);
     if (root)
@@ -194,8 +213,7 @@ namespace corotet
     for (unsigned int cell = 0; cell < cells.n_rows; ++cell)
       {
         for (const unsigned int i : order)
-          connectivity.push_back(
-            discretization.global_node(discretization.cell_nodes(cell)[i]));
+          connectivity.push_back(shown.global_node(shown.cell_nodes(cell)[i]));
         offsets.push_back((cells.first + cell + 1) * n);
       }
     file.write("Connectivity",
@@ -227,8 +245,8 @@ namespace corotet
     const Block block{0, state.record.step, 1};
 
     Hdf5File file(directory + "/solution/" + block.file_name(), comm);
-    file.write("displacement", state.displacement.begin(), nodes);
-    file.write("velocity", state.velocity.begin(), nodes);
+    write_nodal(file, "displacement", state.displacement);
+    write_nodal(file, "velocity", state.velocity);
     file.write("rotation_angle", results.rotation_angle.data(), cells);
     file.write("det_F", results.det_F.data(), cells);
     file.write("von_mises", results.von_mises.data(), cells);

@@ -18,7 +18,7 @@ namespace corotet
     , log(log)
     , tables(read_table_functions(parameters.tables, folder, comm))
     , mesh(parameters.mesh, folder, comm, log)
-    , disc(mesh, parameters.degree)
+    , disc(mesh, parameters.element())
     , system(disc, parameters, tables, wall_times, log)
     , stepper(parameters, disc, system, log)
   {

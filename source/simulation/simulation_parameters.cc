@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/exceptions.h>
 #include <corotet/simulation/simulation_parameters.h>
 #include <corotet/time_integration/time_integrators.h>
+
+#include <fmt/format.h>
 
 namespace corotet
 {
@@ -70,8 +73,11 @@ namespace corotet
         "Mass",
         mass_type,
         "Mass matrix: 'consistent'; 'diagonal scaling', diagonal, from the "
-        "consistent diagonal; 'row sum', diagonal, for degree 1 only.",
-        Selection("consistent|diagonal scaling|row sum"));
+        "consistent diagonal; 'row sum', diagonal, for degree 1 only; 'nodal "
+        "quadrature', diagonal and as accurate as 'consistent', for degree 2 "
+        "only: elements get five bubble functions more, with nodes on faces "
+        "and in cells.",
+        Selection("consistent|diagonal scaling|row sum|nodal quadrature"));
     });
     section(prm, "Material", [&] { material.declare_parameters(prm); });
     section(prm, "Tables", [&] { tables.declare_parameters(prm); });
@@ -121,5 +127,18 @@ namespace corotet
       linear_solver.declare_parameters(prm);
     });
     section(prm, "Modes", [&] { modes.declare_parameters(prm); });
+  }
+
+  Element
+  SimulationParameters::element() const
+  {
+    if (mass_type != "nodal quadrature")
+      return degree;
+    if (degree != 2)
+      throw InputError("Discretization/Mass",
+                       fmt::format("found 'nodal quadrature' with degree {}; "
+                                   "allowed: degree 2, or another mass matrix",
+                                   degree));
+    return Element::quadratic_with_bubbles();
   }
 } // namespace corotet

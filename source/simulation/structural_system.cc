@@ -36,7 +36,7 @@ namespace corotet
     , tables(tables)
     , wall_times(wall_times)
     , log(log)
-    , reference(discretization.degree())
+    , reference(discretization.element())
     , conditions(parameters.boundary_conditions,
                  discretization.mesh().boundaries(),
                  tables)

@@ -10,7 +10,7 @@ namespace corotet
 {
   namespace
   {
-    // The same for the nodes of the next lower degree.
+    // The same for the nodes of the next coarser element.
     std::vector<unsigned char>
     coarser_marks(const CoarserNodes               &coarser,
                   const std::vector<unsigned char> &marks)

@@ -126,10 +126,10 @@ namespace test_output
     return u;
   }
 
-  ModelBody::ModelBody(const unsigned int degree)
+  ModelBody::ModelBody(const corotet::Element element)
     : log(MPI_COMM_WORLD, true)
     , mesh(distorted_box(), 0, 1, MPI_COMM_WORLD, log)
-    , discretization(mesh, degree)
+    , discretization(mesh, element)
   {
     discretization.initialize_vector(displacement);
     discretization.initialize_vector(velocity);

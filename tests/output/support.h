@@ -83,7 +83,7 @@ namespace test_output
   class ModelBody
   {
   public:
-    explicit ModelBody(const unsigned int degree);
+    explicit ModelBody(const corotet::Element element);
 
     /// Shows the observer a state (step 0 by start(), others by step()) with a
     /// record of awkward numbers.

@@ -12,8 +12,9 @@
 namespace corotet
 {
   /**
-   * The nodes of degree p - 1 on the cells of nodes of degree p = 2 or 3, and
-   * the natural embedding P of the coarser functions in the finer ones.
+   * The nodes of the next coarser element on the same cells, of degree p - 1 or
+   * without bubbles, and the natural embedding P of the coarser functions in
+   * the finer ones.
    *
    * Each coarser node is numbered by a finer one, its key, on the same vertex
    * or edge: it has the same owner and the same place in the order.
@@ -27,7 +28,8 @@ namespace corotet
     explicit CoarserNodes(const Nodes &finer);
 
     /// Local number of the finer node that a local node is numbered by; at
-    /// vertices it is the node there.
+    /// vertices it is the node there, below an element with bubbles
+    /// everywhere.
     unsigned int
     key(const unsigned int local_node) const
     {
@@ -71,13 +73,14 @@ namespace corotet
     const Nodes              &finer;
     std::vector<unsigned int> keys;
 
-    /// Owned finer nodes on vertices, on edges of cubic cells (near and far
-    /// vertex, middle), in the middle of edges, on faces (vertices, middles of
-    /// edges).
-    std::vector<Parents<1>> on_vertices;
-    std::vector<Parents<3>> on_thirds;
-    std::vector<Parents<2>> on_middles;
-    std::vector<Parents<6>> on_faces;
+    /// Owned finer nodes at the place of a coarser one, on edges of cubic cells
+    /// (near and far vertex, middle), in the middle of edges, on faces
+    /// (vertices, middles of edges), in cells (the same).
+    std::vector<Parents<1>>  on_nodes;
+    std::vector<Parents<3>>  on_thirds;
+    std::vector<Parents<2>>  on_middles;
+    std::vector<Parents<6>>  on_faces;
+    std::vector<Parents<10>> in_cells;
   };
 } // namespace corotet
 

@@ -43,15 +43,16 @@ namespace corotet
   };
 
   /**
-   * Continuous tetrahedral elements of degree p for a displacement:
-   * FESystem(FE_SimplexP(p), 3) with p = 1, 2, 3 on a distributed mesh.
+   * Continuous tetrahedral elements for a displacement: FESystem of three
+   * FE_SimplexP(p), p = 1, 2, 3, or FE_SimplexP_Bubbles(2), on a distributed
+   * mesh.
    *
    * @p mesh must outlive this object.
    */
   class Discretization : public Nodes
   {
   public:
-    Discretization(const Mesh &mesh, const unsigned int degree);
+    Discretization(const Mesh &mesh, const Element element);
 
     const Mesh &
     mesh() const

@@ -6,6 +6,7 @@
 
 #include <corotet/base/vector.h>
 #include <corotet/discretization/cell_batches.h>
+#include <corotet/discretization/element.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/partitioner.h>
@@ -16,7 +17,7 @@
 namespace corotet
 {
   /**
-   * The nodes of a distributed mesh of tetrahedra of degree p = 1, 2, 3: which
+   * The nodes of an element on a distributed mesh of tetrahedra: which
    * ones each cell has, who owns them, and their unknowns.
    *
    * Cells and nodes are addressed by local numbers. Owned cells come first,
@@ -36,10 +37,16 @@ namespace corotet
   class Nodes
   {
   public:
+    Element
+    element() const
+    {
+      return cell_element;
+    }
+
     unsigned int
     degree() const
     {
-      return polynomial_degree;
+      return cell_element.degree();
     }
 
     MPI_Comm
@@ -48,7 +55,6 @@ namespace corotet
       return vector_partitioner->get_mpi_communicator();
     }
 
-    /// (p+1)(p+2)(p+3)/6: 4, 10, 20.
     unsigned int
     n_nodes_per_cell() const
     {
@@ -77,7 +83,7 @@ namespace corotet
     }
 
     /// Local numbers of the nodes of local cell @p cell, in the order of
-    /// FE_SimplexP.
+    /// the element.
     dealii::ArrayView<const unsigned int>
     cell_nodes(const unsigned int cell) const
     {
@@ -144,9 +150,9 @@ namespace corotet
     }
 
   protected:
-    Nodes(const unsigned int degree)
-      : polynomial_degree(degree)
-      , n_cell_nodes((degree + 1) * (degree + 2) * (degree + 3) / 6)
+    Nodes(const Element element)
+      : cell_element(element)
+      , n_cell_nodes(element.n_nodes())
     {}
 
     /// To be called when all else is known.
@@ -156,7 +162,7 @@ namespace corotet
       cell_batches = std::make_unique<CellBatches>(*this);
     }
 
-    unsigned int                          polynomial_degree;
+    Element                               cell_element;
     unsigned int                          n_cell_nodes;
     unsigned int                          n_owned       = 0;
     unsigned int                          first_shared  = 0;

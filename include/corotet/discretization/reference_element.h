@@ -4,6 +4,8 @@
 #ifndef corotet_discretization_reference_element_h
 #define corotet_discretization_reference_element_h
 
+#include <corotet/discretization/element.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/table.h>
 
@@ -13,7 +15,7 @@
 namespace corotet
 {
   /**
-   * Everything about FE_SimplexP(p) on the reference tetrahedron that cell and
+   * Everything about an element on the reference tetrahedron that cell and
    * face integrals need, computed once: after set-up nothing asks a finite
    * element again. Weights are fractions of the cell's (face's) measure: they
    * sum to 1.
@@ -32,18 +34,21 @@ namespace corotet
       dealii::Table<3, double> gradients;
     };
 
-    explicit ReferenceElement(const unsigned int degree);
+    explicit ReferenceElement(const Element element);
 
     unsigned int degree;
     unsigned int n_nodes;
 
-    /// Exact for products of two gradients: degree 2(p-1); 1, 4, 14 points.
+    /// Exact for products of two gradients, of degree 2(p-1): 1, 4, 14 points.
+    /// With bubbles of degree 5, 14 points: all that full order takes.
     PointValues stiffness_rule;
-    /// For loads that are given as expressions; exact for degree 2p at least.
+    /// For loads that are given as expressions; exact for the element's
+    /// functions times polynomials of degree p.
     PointValues load_rule;
     /// The barycentre, weight 1.
     PointValues centre;
-    /// For each face, exact for degree 3p-2, that of a follower pressure.
+    /// For each face, exact for a follower pressure: degree 3p-2, 7 with
+    /// bubbles.
     std::array<PointValues, 4> face_rules;
     /**
      * Derivatives of xi by the two parameters of each face, ordered such that
@@ -56,8 +61,13 @@ namespace corotet
 
     /// Mean of N_i N_j over the cell: the mass matrix of a unit mass.
     dealii::Table<2, double> mass;
-    /// [i][j][3 k + l]: mean of d_k N_i d_l N_j over the cell.
+    /// [i][j][3 k + l]: mean of d_k N_i d_l N_j over the cell, by the stiffness
+    /// rule.
     dealii::Table<3, double> gradient_products;
+
+  private:
+    void
+    integrate_products(const PointValues &mass_rule);
   };
 } // namespace corotet
 

@@ -18,7 +18,7 @@
 namespace corotet
 {
   /**
-   * The matrix A = c_K K + c_M M of one degree. Rows and columns of prescribed
+   * The matrix A = c_K K + c_M M of one element. Rows and columns of prescribed
    * unknowns are those of a diagonal matrix.
    *
    * The sparsity and the place of every block of every cell in it are found

@@ -76,6 +76,10 @@ namespace corotet
       p * p * bernstein::mass_scale(p - 1);
     /// And the mass form by this one.
     static constexpr double mass_scale = bernstein::mass_scale(p);
+    /// Of offsets: their unit is sqrt(mu volume) times this number.
+    static constexpr double strain_scale = 1. / p;
+
+    static constexpr auto &diagonal_products = bernstein::diagonal_products<p>;
 
     /**
      * v = K u / stiffness_scale + M u / mass_scale, or one of the terms.
@@ -83,7 +87,7 @@ namespace corotet
      * used without stiffness.
      *
      * With @p offset, that strain is added to the one of u; both are
-     * sqrt(mu volume) / p times strain, with twice the shear strain.
+     * sqrt(mu volume) strain_scale times strain, with twice the shear strain.
      */
     template <bool with_stiffness, bool with_mass, bool with_offset = false>
     static COROTET_ALWAYS_INLINE void

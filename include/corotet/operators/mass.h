@@ -27,11 +27,14 @@ namespace corotet
     /// Rock, Zienkiewicz 1976). Positive for every degree.
     diagonal_scaling,
     /// Diagonal: the row sums. Positive for degree 1 only.
-    row_sum
+    row_sum,
+    /// Diagonal: by quadrature at the nodes, of full order. For the quadratic
+    /// element with bubbles only.
+    nodal_quadrature
   };
 
   /// By the name that parameter files use: "consistent", "diagonal scaling",
-  /// "row sum".
+  /// "row sum", "nodal quadrature".
   MassType
   mass_type(const std::string &name);
 

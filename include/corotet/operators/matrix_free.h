@@ -12,7 +12,7 @@
 namespace corotet
 {
   /**
-   * The operator A = c_K K + c_M M of one degree, applied cell by cell without
+   * The operator A = c_K K + c_M M of one element, applied cell by cell without
    * a matrix, in numbers of type T. Rows and columns of prescribed unknowns are
    * those of a diagonal matrix.
    *

@@ -6,24 +6,23 @@
 
 #include <corotet/discretization/reference_element.h>
 #include <corotet/material/corotational_simd.h>
-#include <corotet/operators/bernstein.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/sweep.h>
 
 namespace corotet
 {
   /**
-   * Integrals over batch_size straight-sided cells of degree p by quadrature,
-   * for laws that the factored kernel does not know: whatever varies inside a
-   * cell. Nodal values are arrays [node][component], one cell per lane.
+   * Integrals over batch_size straight-sided cells by quadrature, for laws that
+   * the factored kernel does not know: whatever varies inside a cell. Nodal
+   * values are arrays [node][component], one cell per lane.
    */
-  template <int p>
+  template <int n>
   class QuadratureKernel
   {
   public:
     using V = Simd<double>;
 
-    static constexpr int n_nodes = bernstein::size<p>;
+    static constexpr int n_nodes = n;
 
     using NodalValues = V[n_nodes][3];
     using Tensor2     = V[3][3];

@@ -37,7 +37,7 @@ namespace corotet
   /// A sweep over the displacement that collects @p results. Rotations of cells
   /// are those that there are, rotations of points those of the displacement.
   StateSweep
-  state_sweep(const unsigned int degree, const Rotation rotation);
+  state_sweep(const Element element, const Rotation rotation);
 
   using PointForceSweep = void (*)(const ReferenceElement &reference,
                                    ElasticData            &data,
@@ -50,7 +50,7 @@ namespace corotet
   /// cell_centre_variational, with rotations of its own: it neither reads nor
   /// changes those of the cells.
   PointForceSweep
-  point_force_sweep(const unsigned int degree, const Rotation rotation);
+  point_force_sweep(const Element element, const Rotation rotation);
 
   using QuadratureSweep = void (*)(const ReferenceElement &reference,
                                    const ElasticData      &data,
@@ -62,7 +62,7 @@ namespace corotet
   /// K source with the cells' rotations that there are, like form_sweep() but
   /// by quadrature and in units of one.
   QuadratureSweep
-  tangent_by_quadrature_sweep(const unsigned int degree);
+  tangent_by_quadrature_sweep(const Element element);
 } // namespace corotet
 
 #endif

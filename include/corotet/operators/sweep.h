@@ -5,6 +5,7 @@
 #define corotet_operators_sweep_h
 
 #include <corotet/discretization/cell_batches.h>
+#include <corotet/discretization/element.h>
 #include <corotet/material/corotational.h>
 #include <corotet/material/polar_decomposition_simd.h>
 #include <corotet/operators/factored_kernel.h>
@@ -13,7 +14,7 @@
 
 /**
  * Loops over batches of cells around the cell kernels: gather, compute, add.
- * They are compiled once for each degree and number type, and know neither
+ * They are compiled once for each element and number type, and know neither
  * vectors nor ranks; cell_loop.h does.
  */
 namespace corotet
@@ -72,21 +73,21 @@ namespace corotet
                              const T           *source,
                              T                 *sums);
 
-  /// The sweep for degree 1, 2 or 3.
+  /// The sweep for an element.
   template <typename T>
   FormSweep<T>
-  form_sweep(const unsigned int degree, const Terms terms);
+  form_sweep(const Element element, const Terms terms);
 
   /// A sweep for the diagonal of K + mass_factor M. There is no source.
   template <typename T>
   FormSweep<T>
-  diagonal_sweep(const unsigned int degree, const Terms terms);
+  diagonal_sweep(const Element element, const Terms terms);
 
-  /// FactoredKernel's stiffness_scale and mass_scale.
+  /// The kernels' stiffness_scale and mass_scale.
   double
-  stiffness_scale(const unsigned int degree);
+  stiffness_scale(const Element element);
   double
-  mass_scale(const unsigned int degree);
+  mass_scale(const Element element);
 
   /// Cells of the last rotation update that needed care, at one of the points
   /// where rotations are taken.
@@ -184,11 +185,11 @@ namespace corotet
    * there are, in units of stiffness_scale, or both in one go.
    */
   ElasticSweep
-  rotation_sweep(const unsigned int degree);
+  rotation_sweep(const Element element);
   ElasticSweep
-  force_sweep(const unsigned int degree);
+  force_sweep(const Element element);
   ElasticSweep
-  rotation_and_force_sweep(const unsigned int degree);
+  rotation_and_force_sweep(const Element element);
 } // namespace corotet
 
 #endif

@@ -45,9 +45,9 @@ namespace corotet
                                       unsigned int           &n_clamped);
 
   LinearizationSweep
-  linearization_sweep(const unsigned int degree,
-                      const Rotation     rotation,
-                      const Tangent      tangent);
+  linearization_sweep(const Element  element,
+                      const Rotation rotation,
+                      const Tangent  tangent);
 
   struct TangentData
   {
@@ -70,9 +70,9 @@ namespace corotet
                                 double            *sums);
 
   TangentSweep
-  tangent_sweep(const unsigned int degree,
-                const Rotation     rotation,
-                const Tangent      tangent);
+  tangent_sweep(const Element  element,
+                const Rotation rotation,
+                const Tangent  tangent);
 } // namespace corotet
 
 #endif

@@ -4,39 +4,39 @@
 #ifndef corotet_operators_with_tangent_h
 #define corotet_operators_with_tangent_h
 
-#include <corotet/discretization/with_degree.h>
 #include <corotet/operators/tangent_sweep.h>
+#include <corotet/operators/with_kernel.h>
 
 namespace corotet
 {
-  /// Calls function(p, rotation, tangent) with constants for the degree and one
-  /// of the four linearizations that there are.
+  /// Calls function(kernel, rotation, tangent) with the type of the element's
+  /// kernel and constants for one of the four linearizations that there are.
   template <typename Function>
   void
-  with_tangent(const unsigned int degree,
-               const Rotation     rotation,
-               const Tangent      tangent,
-               const Function    &function)
+  with_tangent(const Element   element,
+               const Rotation  rotation,
+               const Tangent   tangent,
+               const Function &function)
   {
     using std::integral_constant;
     constexpr integral_constant<Tangent, Tangent::frozen_rotation> frozen;
     constexpr integral_constant<Tangent, Tangent::consistent>      consistent;
     constexpr integral_constant<Rotation, Rotation::quadrature_points> points;
-    with_degree(degree, [&](const auto p) {
+    with_kernel<double>(element, [&](const auto kernel) {
       if (rotation == Rotation::quadrature_points)
         {
           if (tangent == Tangent::consistent)
-            function(p, points, consistent);
+            function(kernel, points, consistent);
           else
-            function(p, points, frozen);
+            function(kernel, points, frozen);
         }
       else if (rotation == Rotation::cell_centre)
-        function(p,
+        function(kernel,
                  integral_constant<Rotation, Rotation::cell_centre>(),
                  consistent);
       else
         function(
-          p,
+          kernel,
           integral_constant<Rotation, Rotation::cell_centre_variational>(),
           consistent);
     });

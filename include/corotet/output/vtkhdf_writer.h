@@ -4,9 +4,11 @@
 #ifndef corotet_output_vtkhdf_writer_h
 #define corotet_output_vtkhdf_writer_h
 
+#include <corotet/discretization/coarser_nodes.h>
 #include <corotet/output/hdf5_file.h>
 #include <corotet/simulation/observer.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,8 @@ namespace corotet
   /**
    * Writes the time series for ParaView: solution.vtkhdf, a temporal
    * UnstructuredGrid of VTKHDF 2.0 with Lagrange tetrahedra of the run's own
-   * degree.
+   * degree. Of an element with bubbles the nodes on vertices and edges are
+   * written: quadratic interpolation of what was computed.
    *
    * Numbers are in files beside it, solution/mesh.h5 (once) and
    * solution/step_NNNNNN.h5 (one per result, NNNNNN is the step), written by
@@ -81,7 +84,10 @@ namespace corotet
     void
     write_mesh(const Discretization &discretization);
     void
-    write_connectivity(const Discretization &discretization, Hdf5File &file);
+    write_connectivity(const Nodes &shown, Hdf5File &file);
+    /// Writes the values at the nodes that are shown. Collective.
+    void
+    write_nodal(Hdf5File &file, const std::string &name, const Vector &values);
     void
     write_state(const Snapshot &state);
     /// Replaces the last blocks by one, as long as there are enough of the same
@@ -107,6 +113,8 @@ namespace corotet
     double      time_between_results;
     std::size_t n_joined;
 
+    /// The nodes that are shown if these are not all.
+    std::unique_ptr<CoarserNodes> without_bubbles;
     /// This rank's share of the nodes (three columns) and of the cells.
     Hdf5Rows nodes{};
     Hdf5Rows cells{};

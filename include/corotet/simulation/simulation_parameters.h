@@ -7,6 +7,7 @@
 #include <corotet/base/selectable.h>
 #include <corotet/base/table_functions.h>
 #include <corotet/discretization/boundary_conditions.h>
+#include <corotet/discretization/element.h>
 #include <corotet/material/material_parameters.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/operators/loads.h>
@@ -46,6 +47,10 @@ namespace corotet
 
     void
     declare_parameters(dealii::ParameterHandler &prm);
+
+    /// The element of Degree and Mass. Throws InputError if they do not fit.
+    Element
+    element() const;
 
     /// "simulation" or "modes".
     std::string                 type = "simulation";

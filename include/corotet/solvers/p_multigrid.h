@@ -19,7 +19,8 @@
 namespace corotet
 {
   /**
-   * One V-cycle over the degrees p, p-1, .., 1 on the same cells (Weber,
+   * One V-cycle over the degrees p, p-1, .., 1, from an element with bubbles
+   * over the one without, on the same cells (Weber,
    * Mueller-Roemer, Altenhofen, Stork, Fellner 2015): matrix-free and in single
    * precision above degree 1, with Chebyshev smoothers; degree 1 is solved by a
    * sparse factorisation of its assembled matrix, or one cycle of smoothed
@@ -51,7 +52,7 @@ namespace corotet
   private:
     using FloatVector = Chebyshev::FloatVector;
 
-    /// A degree above 1.
+    /// An element of a degree above 1.
     struct Level
     {
       Level(const Nodes                      &nodes,

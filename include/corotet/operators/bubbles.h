@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_bubbles_h
+#define corotet_operators_bubbles_h
+
+#include <corotet/discretization/tetrahedron.h>
+
+#include <array>
+#include <utility>
+
+/**
+ * The quadratic tetrahedron with bubbles, as tables for the compiler. Its 15
+ * nodes are the vertices, the middles of edges, the centres of faces and that
+ * of the cell, numbered as FE_SimplexP_Bubbles(2) does.
+ */
+namespace corotet::bubbles
+{
+  inline constexpr int n_nodes = 15;
+
+  /// Means of the shape functions: weights of the quadrature at the nodes,
+  /// exact for all functions of the element, and so for degree 3.
+  inline constexpr auto node_weights = [] {
+    std::array<double, n_nodes> result{};
+    for (int i = 0; i < n_nodes; ++i)
+      result[i] = i < 4  ? 17. / 840 :
+                  i < 10 ? 4. / 105 :
+                  i < 14 ? 27. / 280 :
+                           32. / 105;
+    return result;
+  }();
+
+  /// A point in barycentric coordinates, with the weight as a fraction of the
+  /// cell.
+  struct Point
+  {
+    std::array<double, 4> lambda;
+    double                weight;
+  };
+
+  inline constexpr int n_points = 14;
+
+  /**
+   * The rule of degree 5 for the stiffness (Walkington 2000). Full order takes
+   * exactness for linear functions times gradients of shape functions, which
+   * are cubic: degree 4 (Geevers, Mulder, van der Vegt 2019, @cite
+   * geevers2019).
+   */
+  constexpr std::array<Point, n_points>
+  make_stiffness_rule()
+  {
+    std::array<Point, n_points> rule{};
+    int                         q = 0;
+    // Points near the faces, near the vertices, near the edges.
+    for (const auto &[distance, weight] :
+         {std::pair(0.31088591926330060980, 0.11268792571801585080),
+          std::pair(0.092735250310891226402, 0.073493043116361949544)})
+      for (int v = 0; v < 4; ++v, ++q)
+        {
+          rule[q].lambda.fill(distance);
+          rule[q].lambda[v] = 1 - 3 * distance;
+          rule[q].weight    = weight;
+        }
+    for (const auto &[a, b] : tetrahedron::edges)
+      {
+        const double distance = 0.045503704125649649492;
+        rule[q].lambda.fill(distance);
+        rule[q].lambda[a] = rule[q].lambda[b] = 0.5 - distance;
+        rule[q++].weight                      = 0.042546020777081466438;
+      }
+    return rule;
+  }
+
+  inline constexpr std::array<Point, n_points> stiffness_rule =
+    make_stiffness_rule();
+
+  /// [node][k - 1]: d N_i by lambda_k - lambda_0.
+  using Derivatives = std::array<std::array<double, 3>, n_nodes>;
+
+  /// At a point. From quadratic Lagrange polynomials and bubbles
+  /// 27 lambda_a lambda_b lambda_c, 256 lambda_0 lambda_1 lambda_2 lambda_3,
+  /// each less what it has at the nodes of those that follow.
+  constexpr Derivatives
+  derivatives(const std::array<double, 4> &lambda)
+  {
+    constexpr auto &edges = tetrahedron::edges;
+    constexpr auto &faces = tetrahedron::faces;
+    // By the four lambda as if they were independent.
+    double d[n_nodes][4] = {};
+    for (int k = 0; k < 4; ++k)
+      {
+        double &cell = d[14][k];
+        cell         = 256;
+        for (int v = 0; v < 4; ++v)
+          cell *= v == k ? 1 : lambda[v];
+        for (int v = 0; v < 4; ++v)
+          d[v][k] = (v == k ? 4 * lambda[v] - 1 : 0.) + cell / 8;
+        for (int e = 0; e < 6; ++e)
+          {
+            const auto [a, b] = edges[e];
+            d[4 + e][k] =
+              4 * ((a == k) * lambda[b] + (b == k) * lambda[a]) - cell / 4;
+          }
+        for (int f = 0; f < 4; ++f)
+          {
+            const auto &[a, b, c] = faces[f];
+            double &face          = d[10 + f][k];
+            face                  = 27 * ((a == k) * lambda[b] * lambda[c] +
+                         (b == k) * lambda[c] * lambda[a] +
+                         (c == k) * lambda[a] * lambda[b]) -
+                   27. / 64 * cell;
+            const auto is_on_face = [&](const int v) {
+              return v == a || v == b || v == c;
+            };
+            for (int v = 0; v < 4; ++v)
+              d[v][k] += is_on_face(v) ? face / 9 : 0;
+            for (int e = 0; e < 6; ++e)
+              d[4 + e][k] -=
+                is_on_face(edges[e][0]) && is_on_face(edges[e][1]) ?
+                  4 * face / 9 :
+                  0;
+          }
+      }
+    Derivatives result{};
+    for (int i = 0; i < n_nodes; ++i)
+      for (int k = 0; k < 3; ++k)
+        result[i][k] = d[i][k + 1] - d[i][0];
+    return result;
+  }
+
+  inline constexpr Derivatives centre_derivatives =
+    derivatives({{0.25, 0.25, 0.25, 0.25}});
+
+  /// At the points of the rule, in numbers of type T.
+  template <typename T>
+  inline constexpr auto point_derivatives = [] {
+    std::array<std::array<std::array<T, 3>, n_nodes>, n_points> result{};
+    for (int q = 0; q < n_points; ++q)
+      {
+        const Derivatives d = derivatives(stiffness_rule[q].lambda);
+        for (int i = 0; i < n_nodes; ++i)
+          for (int k = 0; k < 3; ++k)
+            result[q][i][k] = d[i][k];
+      }
+    return result;
+  }();
+
+  /// Means, by the rules, of squares of shape functions and of products of
+  /// their derivatives, as bernstein::DiagonalProducts has them.
+  struct DiagonalProducts
+  {
+    std::array<double, n_nodes>                mass = node_weights;
+    std::array<std::array<double, 6>, n_nodes> gradient{};
+  };
+
+  inline constexpr DiagonalProducts diagonal_products = [] {
+    DiagonalProducts result;
+    constexpr int    pairs[6][2] = {
+      {0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    for (int q = 0; q < n_points; ++q)
+      for (int i = 0; i < n_nodes; ++i)
+        for (int s = 0; s < 6; ++s)
+          {
+            const auto &d = point_derivatives<double>[q][i];
+            result.gradient[i][s] += (s < 3 ? 1 : 2) *
+                                     stiffness_rule[q].weight * d[pairs[s][0]] *
+                                     d[pairs[s][1]];
+          }
+    return result;
+  }();
+} // namespace corotet::bubbles
+
+#endif
