@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The nodes of the next lower degree: positions, ownership, and the embedding
-// of coarser functions in finer ones.
+// The nodes of the next coarser element: positions, ownership, and the
+// embedding of coarser functions in finer ones.
 
 #include <corotet/discretization/coarser_nodes.h>
 #include <corotet/discretization/tetrahedron.h>
@@ -18,7 +18,7 @@ using dealii::Tensor;
 
 namespace
 {
-  class CoarserNodesTest : public testing::TestWithParam<unsigned int>
+  class CoarserNodesTest : public testing::TestWithParam<Element>
   {
   protected:
     CoarserNodesTest()
@@ -72,7 +72,7 @@ namespace
 // The number of nodes is deal.II's, and every one has one owner.
 TEST_P(CoarserNodesTest, AreThoseOfTheElement)
 {
-  const Discretization same(mesh, GetParam() - 1);
+  const Discretization same(mesh, GetParam().coarser());
   EXPECT_EQ(coarse.n_global_nodes(), same.n_global_nodes());
   EXPECT_EQ(coarse.degree(), same.degree());
   EXPECT_EQ(coarse.n_local_cells(), same.n_local_cells());
@@ -89,7 +89,7 @@ TEST_P(CoarserNodesTest, EmbeddingIsExact)
   fine.initialize_vector(u);
   fine.initialize_vector(expected);
   const auto function = [](const Point<3> &x) {
-    return polynomial(x, GetParam() - 1);
+    return polynomial(x, GetParam().coarser().degree());
   };
   for (unsigned int n = 0; n < fine.n_owned_nodes(); ++n)
     for (unsigned int a = 0; a < 3; ++a)
@@ -126,4 +126,8 @@ TEST_P(CoarserNodesTest, RestrictionIsTheTranspose)
   EXPECT_NEAR((Pc * f) / (c * r), 1., 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Degree, CoarserNodesTest, testing::Values(2u, 3u));
+INSTANTIATE_TEST_SUITE_P(Elements,
+                         CoarserNodesTest,
+                         testing::Values(Element(2),
+                                         Element(3),
+                                         Element::quadratic_with_bubbles()));

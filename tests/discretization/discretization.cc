@@ -12,7 +12,7 @@
 using namespace corotet;
 using namespace corotet::tests;
 
-class DiscretizationTest : public testing::TestWithParam<unsigned int>
+class DiscretizationTest : public testing::TestWithParam<Element>
 {
 protected:
   DiscretizationTest()
@@ -113,6 +113,9 @@ TEST_P(DiscretizationTest, VolumeAndSurface)
   EXPECT_NEAR(dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD), 10, 1e-13);
 }
 
-INSTANTIATE_TEST_SUITE_P(Degrees,
+INSTANTIATE_TEST_SUITE_P(Elements,
                          DiscretizationTest,
-                         testing::Values(1u, 2u, 3u));
+                         testing::Values(Element(1),
+                                         Element(2),
+                                         Element(3),
+                                         Element::quadratic_with_bubbles()));

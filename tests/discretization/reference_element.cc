@@ -3,12 +3,16 @@
 
 // The tables on the reference tetrahedron against exact integrals.
 
+#include <corotet/discretization/finite_element.h>
 #include <corotet/discretization/reference_element.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+using corotet::Element;
+using corotet::make_finite_element;
 using corotet::ReferenceElement;
 
 namespace
@@ -44,7 +48,7 @@ namespace
   }
 } // namespace
 
-class ReferenceElementTest : public testing::TestWithParam<unsigned int>
+class ReferenceElementTest : public testing::TestWithParam<Element>
 {};
 
 // The stiffness rule integrates products of gradients, of degree 2(p-1), and
@@ -52,12 +56,13 @@ class ReferenceElementTest : public testing::TestWithParam<unsigned int>
 // terms, with weights of 16 digits.
 TEST_P(ReferenceElementTest, RulesAreExact)
 {
-  const unsigned int     p = GetParam();
-  const ReferenceElement element(p);
+  const ReferenceElement element(GetParam());
+  const unsigned int     p = element.degree;
   EXPECT_LE(rule_error(element.stiffness_rule, 2 * (p - 1)), 4e-15);
   EXPECT_LE(rule_error(element.load_rule, 2 * p), 4e-15);
   const unsigned int n_points[] = {1, 4, 14};
-  EXPECT_EQ(element.stiffness_rule.weights.size(), n_points[p - 1]);
+  EXPECT_EQ(element.stiffness_rule.weights.size(),
+            GetParam().has_bubbles() ? 14 : n_points[p - 1]);
 }
 
 // Shape functions sum to one, their gradients to zero; so do the rows of the
@@ -97,7 +102,7 @@ TEST_P(ReferenceElementTest, FacesPointOutwards)
 {
   const ReferenceElement element(GetParam());
   dealii::Tensor<1, 3>   sum;
-  const unsigned int     p = GetParam();
+  const unsigned int     p = element.degree;
   for (unsigned int f = 0; f < 4; ++f)
     {
       const auto area = cross_product_3d(element.face_tangents[f][0],
@@ -107,14 +112,85 @@ TEST_P(ReferenceElementTest, FacesPointOutwards)
       const dealii::Point<3> centre(0.25, 0.25, 0.25);
       for (const auto &point : element.face_rules[f].points)
         EXPECT_GT((point - centre) * area, 0.);
-      EXPECT_EQ(element.face_nodes[f].size(), (p + 1) * (p + 2) / 2);
+      EXPECT_EQ(element.face_nodes[f].size(),
+                (p + 1) * (p + 2) / 2 + GetParam().has_bubbles());
     }
   EXPECT_LE(sum.norm(), 1e-15);
 }
 
-INSTANTIATE_TEST_SUITE_P(Degrees,
+INSTANTIATE_TEST_SUITE_P(Elements,
                          ReferenceElementTest,
-                         testing::Values(1u, 2u, 3u));
+                         testing::Values(Element(1),
+                                         Element(2),
+                                         Element(3),
+                                         Element::quadratic_with_bubbles()));
+
+class BubblesTest : public testing::Test
+{
+protected:
+  const Element          quadratic = Element::quadratic_with_bubbles();
+  const ReferenceElement element{quadratic};
+};
+
+// Quadrature at the nodes: weights are the means of the shape functions, 17/840
+// at vertices, 4/105 at edges, 27/280 at faces, 32/105 in the cell (Geevers,
+// Mulder, van der Vegt 2018). They are positive; the rule is exact for the
+// functions of the element, so for degree 3, and for no more.
+TEST_F(BubblesTest, NodalQuadrature)
+{
+  ReferenceElement::PointValues nodes;
+  nodes.points = make_finite_element(quadratic)->get_unit_support_points();
+  ASSERT_EQ(nodes.points.size(), 15u);
+  for (unsigned int i = 0; i < 15; ++i)
+    {
+      double mean = 0;
+      for (unsigned int j = 0; j < 15; ++j)
+        mean += element.mass[i][j];
+      nodes.weights.push_back(mean);
+      EXPECT_NEAR(mean,
+                  i < 4  ? 17. / 840 :
+                  i < 10 ? 4. / 105 :
+                  i < 14 ? 27. / 280 :
+                           32. / 105,
+                  1e-15);
+    }
+  // Round-off of means that are sums of products.
+  EXPECT_LE(rule_error(nodes, 3), 4e-15);
+  EXPECT_GE(rule_error(nodes, 4), 1e-4);
+}
+
+// The stiffness rule is exact for linear functions times gradients, degree 4,
+// the load rule for quadratic ones times shape functions, that of the mass for
+// products of two, degree 8.
+TEST_F(BubblesTest, Rules)
+{
+  EXPECT_LE(rule_error(element.stiffness_rule, 5), 4e-15);
+  EXPECT_EQ(element.stiffness_rule.weights.size(), 14u);
+  EXPECT_LE(rule_error(element.load_rule, 6), 4e-15);
+  // The square of the cell's bubble has the mean 256^2 6 (2!)^4 / 11!.
+  EXPECT_NEAR(element.mass[14][14], 65536. * 6 * 16 / factorial(11), 1e-15);
+}
+
+// Those of other nodes vanish on a face: it has its own seven.
+TEST_F(BubblesTest, FaceNodes)
+{
+  for (unsigned int f = 0; f < 4; ++f)
+    {
+      const auto &values = element.face_rules[f].values;
+      const auto &nodes  = element.face_nodes[f];
+      EXPECT_EQ(nodes.size(), 7u);
+      for (unsigned int i = 0; i < 15; ++i)
+        {
+          double largest = 0;
+          for (unsigned int q = 0; q < values.size(0); ++q)
+            largest = std::max(largest, std::abs(values[q][i]));
+          if (std::find(nodes.begin(), nodes.end(), i) != nodes.end())
+            EXPECT_GT(largest, 0.1);
+          else
+            EXPECT_LE(largest, 1e-15);
+        }
+    }
+}
 
 // M_ij of degree 1 is (1 + delta_ij) / 20 of the cell's mass.
 TEST(ReferenceElement, LinearMass)

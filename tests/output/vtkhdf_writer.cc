@@ -98,6 +98,27 @@ TEST(VtkhdfWriter, VtkReadsWhatWasWritten)
     }
 }
 
+// Of the element with bubbles the nodes on vertices and edges are written: the
+// mesh is one of quadratic tetrahedra without nodes that belong to no cell, on
+// any number of ranks. The probes are at such nodes; elsewhere bubbles count.
+TEST(VtkhdfWriter, BubblesAreLeftOut)
+{
+  const ScratchFolder scratch;
+  ModelBody           body(Element::quadratic_with_bubbles());
+  OutputParameters    parameters;
+  parameters.probes =
+    "corner: 1 0.5 0.25, edge: 0.875 0.5 0.25, diagonal: 0.125 0.125 0";
+  const auto observers =
+    make_observers(parameters, scratch.path, body.discretization, 1, body.log);
+  for (unsigned int step = 0; step <= 2; ++step)
+    for (const auto &observer : observers)
+      body.show(*observer, step, step / 7., step == 2);
+  EXPECT_EQ(run_python("check_vtkhdf.py " + scratch.path +
+                       " --test-field --degree 2 --probes '" +
+                       parameters.probes + "'"),
+            0);
+}
+
 // The checker can fail: a wrong field, a wrong degree, a wrong probe.
 TEST(VtkhdfWriter, CheckerNoticesErrors)
 {

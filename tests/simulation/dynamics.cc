@@ -181,6 +181,10 @@ INSTANTIATE_TEST_SUITE_P(DegreesAndMasses,
                          testing::Combine(testing::Values(1u, 2u, 3u),
                                           testing::Values("consistent",
                                                           "diagonal scaling")));
+INSTANTIATE_TEST_SUITE_P(Bubbles,
+                         DynamicsTest,
+                         testing::Values(std::make_tuple(2u,
+                                                         "nodal quadrature")));
 
 namespace
 {

@@ -179,4 +179,23 @@ TEST_P(PMultigridTest, CoarseSolvers)
     }
 }
 
+// With bubbles the cycle has a level more. Without inertia, as large as
+// stiffness, and where it dominates.
+TEST_P(PMultigridTest, Bubbles)
+{
+  if (GetParam() != 2)
+    GTEST_SKIP() << "bubbles are for degree 2";
+  const std::string  mass   = "nodal quadrature";
+  const unsigned int coarse = iterations({.cells = "20, 2, 2", .mass = mass});
+  const unsigned int fine   = iterations({.cells = "40, 4, 4", .mass = mass});
+  EXPECT_LE(coarse, 16u);
+  EXPECT_LE(fine, coarse + 2);
+  EXPECT_LE(iterations({.cells = "20, 2, 2", .mass = mass, .bent_by = 1.57}),
+            18u);
+  EXPECT_LE(iterations({.cells = "20, 2, 2", .mass = mass, .mass_factor = 1e2}),
+            16u);
+  EXPECT_LE(iterations({.cells = "20, 2, 2", .mass = mass, .mass_factor = 1e6}),
+            12u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Degree, PMultigridTest, testing::Values(1u, 2u, 3u));
