@@ -23,8 +23,9 @@ namespace corotet
     , stepper(parameters, disc, system, log)
   {
     log.line(fmt::format(
-      "Discretization: degree {}, {} cells, {} nodes, {} unknowns on {} rank{}",
+      "Discretization: degree {}{}, {} cells, {} nodes, {} unknowns on {} rank{}",
       disc.degree(),
+      disc.element().has_bubbles() ? " with bubbles" : "",
       disc.n_global_cells(),
       disc.n_global_nodes(),
       3 * disc.n_global_nodes(),

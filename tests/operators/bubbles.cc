@@ -74,7 +74,7 @@ TEST(Bubbles, TablesAreThoseOfTheElement)
       // Derivatives of O(10).
       for (int i = 0; i < bubbles::n_nodes; ++i)
         for (int k = 0; k < 3; ++k)
-          EXPECT_NEAR(bubbles::point_derivatives<double>[q][i][k],
+          EXPECT_NEAR(bubbles::point_derivatives[q][i][k],
                       rule.gradients[same][i][k],
                       1e-13);
     }

@@ -10,11 +10,23 @@
 namespace corotet
 {
   /**
-   * What FactoredKernel does, for the quadratic element with bubbles: stiffness
-   * by the rule of bubbles.h, mass by quadrature at the nodes, so diagonal.
+   * What FactoredKernel does, for the quadratic element with bubbles. Mass is
+   * by quadrature at the nodes, so diagonal. Stiffness is what the rule of
+   * bubbles.h makes of it, without the points:
+   *
+   * Quadratic functions and the bubbles of faces are cubic, u = q + b B with
+   * the bubble B of the cell, and the kernel of degree 3 does q. As B vanishes
+   * on the surface and its mean times a linear function is its mean times the
+   * function's value at the centre,
+   *
+   *   int dB/dlambda_v B_beta = -int B dB_beta/dlambda_v,
+   *
+   * for quadratic B_beta, is one number for each vertex of beta: that couples
+   * b to the coefficients of stress and strain. For these terms the rule is
+   * exact; it is not for products of B with itself, which get its number.
    */
   template <typename T>
-  class BubbleKernel
+  class BubbleKernel : private FactoredKernel<3, T>
   {
   public:
     using V = Simd<T>;
@@ -25,9 +37,9 @@ namespace corotet
     /// xx, yy, zz, yz, xz, xy.
     using Strain = V[6];
 
-    static constexpr double stiffness_scale   = 1;
+    using FactoredKernel<3, T>::stiffness_scale;
+    using FactoredKernel<3, T>::strain_scale;
     static constexpr double mass_scale        = 1;
-    static constexpr double strain_scale      = 1;
     static constexpr auto  &diagonal_products = bubbles::diagonal_products;
 
     /// As FactoredKernel::apply(), but @p u remains.
@@ -39,42 +51,15 @@ namespace corotet
           const NodalValues         &u,
           NodalValues               &v)
     {
-      static_for<3 * n_nodes>([&](auto ia) {
-        constexpr int i = ia / 3, a = ia % 3;
-        if constexpr (with_mass)
-          v[i][a] = masses * T(bubbles::node_weights[i]) * u[i][a];
-        else
-          v[i][a] = V{};
-      });
       if constexpr (with_stiffness)
-        {
-          V g[9];
-          static_for<9>([&](auto i) {
-            g[i] = load_aligned<n_lanes<T>>(cell->gradients[i]);
-          });
-          const V ratio = load_aligned<n_lanes<T>>(cell->lame_ratio);
-          for (int q = 0; q < bubbles::n_points; ++q)
-            {
-              const auto &dN = bubbles::point_derivatives<T>[q];
-              V           by_xi[3][3]{}, sigma[3][3];
-              static_for<9 * n_nodes>([&](auto iak) {
-                constexpr int i = iak / 9, a = iak % 9 / 3, k = iak % 3;
-                by_xi[a][k] += dN[i][k] * u[i][a];
-              });
-              stress<with_offset>(g, ratio, offset, by_xi, sigma);
-              const T weight = bubbles::stiffness_rule[q].weight;
-              static_for<9>([&](auto ak) {
-                constexpr int a = ak / 3, k = ak % 3;
-                by_xi[a][k] = weight * (sigma[a][0] * g[3 * k] +
-                                        sigma[a][1] * g[3 * k + 1] +
-                                        sigma[a][2] * g[3 * k + 2]);
-              });
-              static_for<9 * n_nodes>([&](auto iak) {
-                constexpr int i = iak / 9, a = iak % 9 / 3, k = iak % 3;
-                v[i][a] += dN[i][k] * by_xi[a][k];
-              });
-            }
-        }
+        apply_stiffness<with_offset>(*cell, offset, u, v);
+      else
+        static_for<3 * n_nodes>([&](auto ia) { v[ia / 3][ia % 3] = V{}; });
+      if constexpr (with_mass)
+        static_for<n_nodes>([&](auto i) {
+          const V mass = masses * T(bubbles::node_weights[i]);
+          static_for<3>([&](auto a) { v[i][a] += mass * u[i][a]; });
+        });
     }
 
     /// As FactoredKernel::centre_gradient().
@@ -94,35 +79,138 @@ namespace corotet
     }
 
   private:
-    // In units of mu, of the gradient by the reference coordinates.
+    using Cubic = FactoredKernel<3, T>;
+
+    // In the units of the kernel of degree 3: the integral of dB/dlambda_v
+    // B_beta for a vertex of beta, from the mean 32/105 of B, and that of
+    // dB/dlambda_v dB/dlambda_v less that of dB/dlambda_v dB/dlambda_w.
+    static constexpr double coupling =
+      -0.5 * bubbles::node_weights[14] / (3 * bernstein::mass_scale(2));
+    static constexpr double square =
+      0.5 * bubbles::diagonal_products.gradient[14][0] / Cubic::stiffness_scale;
+
     template <bool with_offset>
     static COROTET_ALWAYS_INLINE void
-    stress(const V (&g)[9],
-           const V       ratio,
-           const Strain *offset,
-           const V (&by_xi)[3][3],
-           V (&sigma)[3][3])
+    apply_stiffness(const CellCoefficients<T> &cell,
+                    const Strain              *offset,
+                    const NodalValues         &u,
+                    NodalValues               &v)
     {
-      V H[3][3];
-      static_for<9>([&](auto ab) {
-        constexpr int a = ab / 3, b = ab % 3;
-        H[a][b] =
-          by_xi[a][0] * g[b] + by_xi[a][1] * g[3 + b] + by_xi[a][2] * g[6 + b];
+      typename Cubic::NodalValues c;
+      V                           b[3], f[3]{}, g[4][3];
+      Strain                      sigma[Cubic::n_gradients], bubble[4];
+      to_coefficients(u, c, b);
+      Cubic::template compute_stress<with_offset>(cell, offset, c, sigma);
+      const V ratio = load_aligned<n_lanes<T>>(cell.lame_ratio);
+      static_for<3>([&](auto a) {
+        static_for<3>([&](auto k) {
+          g[k + 1][a] = load_aligned<n_lanes<T>>(cell.gradients[3 * k + a]);
+        });
+        g[0][a] = -(g[1][a] + g[2][a] + g[3][a]);
       });
-      if constexpr (with_offset)
-        {
-          static_for<3>([&](auto a) { H[a][a] += (*offset)[a]; });
-          // Twice the shear strain.
-          H[1][2] += (*offset)[3];
-          H[0][2] += (*offset)[4];
-          H[0][1] += (*offset)[5];
-        }
-      const V pressure = ratio * (H[0][0] + H[1][1] + H[2][2]);
-      static_for<9>([&](auto ab) {
-        constexpr int a = ab / 3, b = ab % 3;
-        sigma[a][b] = H[a][b] + H[b][a];
-        if constexpr (a == b)
-          sigma[a][b] += pressure;
+      static_for<4>([&](auto v) {
+        stress_of_product(b, g[v], ratio, bubble[v]);
+        Strain s;
+        static_for<6>([&](auto i) {
+          V sum{};
+          static_for<4>(
+            [&](auto w) { sum += sigma[bernstein::raised<1>[v][w]][i]; });
+          s[i] = T(coupling) * sum + T(square) * bubble[v][i];
+        });
+        f[0] += s[0] * g[v][0] + s[5] * g[v][1] + s[4] * g[v][2];
+        f[1] += s[5] * g[v][0] + s[1] * g[v][1] + s[3] * g[v][2];
+        f[2] += s[4] * g[v][0] + s[3] * g[v][1] + s[2] * g[v][2];
+      });
+      static_for<6>([&](auto s) {
+        V x[Cubic::n_gradients];
+        static_for<Cubic::n_gradients>([&](auto i) { x[i] = sigma[i][s]; });
+        Cubic::template apply_mass<2, 1>(x);
+        static_for<4>([&](auto i) { x[i] += T(coupling) * bubble[i][s]; });
+        static_for<6>([&](auto e) {
+          x[4 + e] += T(coupling) * (bubble[tetrahedron::edges[e][0]][s] +
+                                     bubble[tetrahedron::edges[e][1]][s]);
+        });
+        static_for<Cubic::n_gradients>([&](auto i) { sigma[i][s] = x[i]; });
+      });
+      static_for<3 * Cubic::n_nodes>([&](auto ia) { c[ia / 3][ia % 3] = V{}; });
+      Cubic::add_divergence(cell, sigma, c);
+      from_coefficients(c, f, v);
+    }
+
+    // In units of mu, of the gradient b (x) g.
+    static COROTET_ALWAYS_INLINE void
+    stress_of_product(const V (&b)[3],
+                      const V (&g)[3],
+                      const V ratio,
+                      Strain &sigma)
+    {
+      const V x = b[0] * g[0], y = b[1] * g[1], z = b[2] * g[2];
+      const V pressure = ratio * (x + y + z);
+      sigma[0]         = T(2) * x + pressure;
+      sigma[1]         = T(2) * y + pressure;
+      sigma[2]         = T(2) * z + pressure;
+      sigma[3]         = b[1] * g[2] + b[2] * g[1];
+      sigma[4]         = b[0] * g[2] + b[2] * g[0];
+      sigma[5]         = b[0] * g[1] + b[1] * g[0];
+    }
+
+    // Bernstein coefficients c of the cubic part and the factor b of the cell's
+    // bubble, from values at the nodes.
+    static COROTET_ALWAYS_INLINE void
+    to_coefficients(const NodalValues           &u,
+                    typename Cubic::NodalValues &c,
+                    V (&b)[3])
+    {
+      static_for<3>([&](auto a) {
+        V vertices{}, middles{}, centres{};
+        static_for<4>([&](auto v) {
+          c[v][a] = u[v][a];
+          vertices += u[v][a];
+        });
+        static_for<6>([&](auto e) {
+          const V middle  = T(4. / 3) * u[4 + e][a];
+          c[4 + 2 * e][a] = middle - T(1. / 3) * u[tetrahedron::edges[e][1]][a];
+          c[5 + 2 * e][a] = middle - T(1. / 3) * u[tetrahedron::edges[e][0]][a];
+          middles += u[4 + e][a];
+        });
+        static_for<4>([&](auto f) {
+          constexpr auto &v = tetrahedron::faces[f];
+          constexpr auto &e = bubbles::face_edges[f];
+          c[16 + f][a] =
+            T(4.5) * u[10 + f][a] +
+            T(1. / 6) * (u[v[0]][a] + u[v[1]][a] + u[v[2]][a]) -
+            T(4. / 3) * (u[4 + e[0]][a] + u[4 + e[1]][a] + u[4 + e[2]][a]);
+          centres += u[10 + f][a];
+        });
+        b[a] = u[14][a] - T(27. / 64) * centres - T(1. / 64) * vertices +
+               T(1. / 8) * middles;
+      });
+    }
+
+    // The transpose of that, of coefficients c and f of a linear form.
+    static COROTET_ALWAYS_INLINE void
+    from_coefficients(const typename Cubic::NodalValues &c,
+                      const V (&f)[3],
+                      NodalValues &u)
+    {
+      static_for<3>([&](auto a) {
+        static_for<4>([&](auto v) { u[v][a] = c[v][a] - T(1. / 64) * f[a]; });
+        static_for<6>([&](auto e) {
+          u[tetrahedron::edges[e][1]][a] -= T(1. / 3) * c[4 + 2 * e][a];
+          u[tetrahedron::edges[e][0]][a] -= T(1. / 3) * c[5 + 2 * e][a];
+          u[4 + e][a] =
+            T(4. / 3) * (c[4 + 2 * e][a] + c[5 + 2 * e][a]) + T(1. / 8) * f[a];
+        });
+        static_for<4>([&](auto k) {
+          const V vertex = T(1. / 6) * c[16 + k][a];
+          const V middle = T(4. / 3) * c[16 + k][a];
+          static_for<3>([&](auto i) {
+            u[tetrahedron::faces[k][i]][a] += vertex;
+            u[4 + bubbles::face_edges[k][i]][a] -= middle;
+          });
+          u[10 + k][a] = T(4.5) * c[16 + k][a] - T(27. / 64) * f[a];
+        });
+        u[14][a] = f[a];
       });
     }
   };

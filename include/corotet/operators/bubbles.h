@@ -41,10 +41,10 @@ namespace corotet::bubbles
   inline constexpr int n_points = 14;
 
   /**
-   * The rule of degree 5 for the stiffness (Walkington 2000). Full order takes
+   * The rule of degree 5 for the stiffness (Walkington 2000), the choice of
+   * Geevers, Mulder, van der Vegt 2019, @cite geevers2019. Full order takes
    * exactness for linear functions times gradients of shape functions, which
-   * are cubic: degree 4 (Geevers, Mulder, van der Vegt 2019, @cite
-   * geevers2019).
+   * are cubic: degree 4.
    */
   constexpr std::array<Point, n_points>
   make_stiffness_rule()
@@ -131,17 +131,11 @@ namespace corotet::bubbles
   inline constexpr Derivatives centre_derivatives =
     derivatives({{0.25, 0.25, 0.25, 0.25}});
 
-  /// At the points of the rule, in numbers of type T.
-  template <typename T>
+  /// At the points of the rule.
   inline constexpr auto point_derivatives = [] {
-    std::array<std::array<std::array<T, 3>, n_nodes>, n_points> result{};
+    std::array<Derivatives, n_points> result{};
     for (int q = 0; q < n_points; ++q)
-      {
-        const Derivatives d = derivatives(stiffness_rule[q].lambda);
-        for (int i = 0; i < n_nodes; ++i)
-          for (int k = 0; k < 3; ++k)
-            result[q][i][k] = d[i][k];
-      }
+      result[q] = derivatives(stiffness_rule[q].lambda);
     return result;
   }();
 
@@ -161,11 +155,27 @@ namespace corotet::bubbles
       for (int i = 0; i < n_nodes; ++i)
         for (int s = 0; s < 6; ++s)
           {
-            const auto &d = point_derivatives<double>[q][i];
+            const auto &d = point_derivatives[q][i];
             result.gradient[i][s] += (s < 3 ? 1 : 2) *
                                      stiffness_rule[q].weight * d[pairs[s][0]] *
                                      d[pairs[s][1]];
           }
+    return result;
+  }();
+
+  /// Edges of the faces.
+  inline constexpr auto face_edges = [] {
+    std::array<std::array<int, 3>, 4> result{};
+    for (int f = 0; f < 4; ++f)
+      for (int k = 0, e = 0; e < 6; ++e)
+        {
+          int n_shared = 0;
+          for (const int v : tetrahedron::faces[f])
+            n_shared +=
+              v == tetrahedron::edges[e][0] || v == tetrahedron::edges[e][1];
+          if (n_shared == 2)
+            result[f][k++] = e;
+        }
     return result;
   }();
 } // namespace corotet::bubbles

@@ -147,7 +147,7 @@ namespace corotet
       });
     }
 
-  private:
+  protected:
     // Bernstein coefficients from values at the nodes.
     static COROTET_ALWAYS_INLINE void
     to_bernstein(NodalValues &u)
