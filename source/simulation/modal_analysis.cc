@@ -80,9 +80,11 @@ namespace corotet
     : parameters(parameters)
     , log(log)
     , mesh(parameters.mesh, folder, comm, log)
-    , disc(mesh, parameters.degree)
-    , reference(disc.degree())
-    , conditions(parameters.boundary_conditions, mesh.boundaries())
+    , disc(mesh, parameters.element())
+    , reference(disc.element())
+    , conditions(parameters.boundary_conditions,
+                 mesh.boundaries(),
+                 read_table_functions(parameters.tables, folder, comm))
     , mass(disc,
            reference,
            densities(parameters.material.materials(mesh.regions())),

@@ -102,7 +102,7 @@ namespace
     Parameters       parameters(bar);
     Log              log(MPI_COMM_WORLD, true);
     const Mesh       mesh(parameters.mesh, "", MPI_COMM_WORLD, log);
-    Discretization   disc(mesh, parameters.degree);
+    Discretization   disc(mesh, parameters.element());
     WallTimes        times;
     StructuralSystem system(disc, parameters, times, log);
     State            state;
