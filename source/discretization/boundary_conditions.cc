@@ -54,7 +54,8 @@ namespace corotet
       "Displacement [m] of boundaries: 'name: x; y; z, name: x; y; z', each "
       "component an expression in x, y, z, t or 'free'; edges and corners as "
       "in Fixed. Supports move with the expression's own velocity and "
-      "acceleration: let it have no kinks, like smooth_step and cubic tables.");
+      "acceleration: let it have no kinks, like smooth_step and cubic tables "
+      "that begin and end at rest.");
     prm.add_parameter(
       "Traction",
       traction,

@@ -104,7 +104,8 @@ namespace
     const Mesh       mesh(parameters.mesh, "", MPI_COMM_WORLD, log);
     Discretization   disc(mesh, parameters.element());
     WallTimes        times;
-    StructuralSystem system(disc, parameters, times, log);
+    const TableFunctions tables;
+    StructuralSystem system(disc, parameters, tables, times, log);
     State            state;
     system.initialize(state);
     return 2 / system.largest_frequency(state);
