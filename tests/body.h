@@ -15,6 +15,17 @@
 #include <iostream>
 #include <string>
 
+namespace corotet
+{
+  /// For names of tests: "P2", "P2 with bubbles".
+  inline void
+  PrintTo(const Element element, std::ostream *stream)
+  {
+    *stream << 'P' << element.degree()
+            << (element.has_bubbles() ? " with bubbles" : "");
+  }
+} // namespace corotet
+
 namespace corotet::tests
 {
   /**
@@ -65,6 +76,16 @@ namespace corotet::tests
 
     dealii::ParameterHandler prm;
   };
+
+  /// The entries that give an element, as a .prm file has them.
+  inline std::string
+  element_text(const Element element)
+  {
+    return "subsection Discretization\n set Degree = " +
+           std::to_string(element.degree()) +
+           (element.has_bubbles() ? "\n set Mass = nodal quadrature" : "") +
+           "\nend\n";
+  }
 
   /**
    * A body made of a mesh and parameters, without the driver.

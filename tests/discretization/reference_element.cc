@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../body.h"
+
 using corotet::Element;
 using corotet::make_finite_element;
 using corotet::ReferenceElement;

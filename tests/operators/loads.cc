@@ -28,11 +28,10 @@ namespace
   // The external force on a 1 x 2 x 1 box of 3 kg/m^3 at time t.
   struct Loaded : public Body
   {
-    Loaded(const unsigned int degree, const std::string &text)
+    Loaded(const Element element, const std::string &text)
       : Body(box("1, 2, 1", "2, 3, 2", 0.2),
-             "subsection Discretization\n set Degree = " +
-               std::to_string(degree) +
-               "\nend\nsubsection Material\n set Density = 3\nend\n" + text)
+             element_text(element) +
+               "subsection Material\n set Density = 3\nend\n" + text)
     {}
 
     const Vector &
@@ -52,7 +51,7 @@ namespace
   }
 } // namespace
 
-class LoadsTest : public testing::TestWithParam<unsigned int>
+class LoadsTest : public testing::TestWithParam<Element>
 {};
 
 // Mass 6 kg; the expression's dependence on time, space, both or none takes
@@ -187,4 +186,9 @@ TEST(Loads, Refusals)
             "fz'");
 }
 
-INSTANTIATE_TEST_SUITE_P(Degrees, LoadsTest, testing::Values(1u, 2u, 3u));
+INSTANTIATE_TEST_SUITE_P(Elements,
+                         LoadsTest,
+                         testing::Values(Element(1),
+                                         Element(2),
+                                         Element(3),
+                                         Element::quadratic_with_bubbles()));
