@@ -23,6 +23,7 @@ from support import (CASES, COLUMNS, COLUMNS_AFTER_PROBES, MODES_COLUMNS, MODES_
 N_STEPS = 2
 LOAD_STEPS = (f"Time integration/static/Load steps = {N_STEPS}",)
 SHORTER = {
+    "bar_step_load": ("Time integration/Time step = 8e-7", "Time integration/End time = 1.6e-6", "Output/Steps between rows = 1"),
     "bend_45": (*LOAD_STEPS, "Boundary conditions/Traction = tip: 0; 0; 200"),
     "bracket": (*LOAD_STEPS, "Mesh/gmsh/Element size = 0.01"),
     "cantilever": ("Time integration/End time = 0.02",),
@@ -33,6 +34,7 @@ SHORTER = {
     "plate_modes": ("Mesh/box/Cells = 4, 4, 1", "Modes/Number = 6"),
     "ring": (*LOAD_STEPS, "Boundary conditions/Pressure = x-max: 1e6 * (z - 0.025)"),
     "shaken_mast": ("Time integration/End time = 0.02",),
+    "spinning_bar": ("Time integration/End time = 0.006283185307179586",),
     "spring": ("Time integration/End time = 0.012",),
     "tuning_fork": ("Time integration/End time = 8e-5", "Output/Time between results = 0"),
     "tuning_fork_modes": ("Discretization/Degree = 1", "Modes/Number = 4"),
