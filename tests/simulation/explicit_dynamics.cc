@@ -99,14 +99,14 @@ namespace
   double
   stable_step(const std::string &bar)
   {
-    Parameters       parameters(bar);
-    Log              log(MPI_COMM_WORLD, true);
-    const Mesh       mesh(parameters.mesh, "", MPI_COMM_WORLD, log);
-    Discretization   disc(mesh, parameters.element());
-    WallTimes        times;
+    Parameters           parameters(bar);
+    Log                  log(MPI_COMM_WORLD, true);
+    const Mesh           mesh(parameters.mesh, "", MPI_COMM_WORLD, log);
+    Discretization       disc(mesh, parameters.element());
+    WallTimes            times;
     const TableFunctions tables;
-    StructuralSystem system(disc, parameters, tables, times, log);
-    State            state;
+    StructuralSystem     system(disc, parameters, tables, times, log);
+    State                state;
     system.initialize(state);
     return 2 / system.largest_frequency(state);
   }
