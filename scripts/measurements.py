@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+from collections import defaultdict
 from concurrent.futures import ThreadPoolExecutor
 
 import matplotlib
@@ -25,7 +26,6 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-POINTS = "quadrature points"
 DEGREES = (1, 2, 3)
 N_SIDE_BY_SIDE = 2
 
@@ -79,6 +79,7 @@ class Runs:
         self.folder = folder
         self.version = subprocess.run([self.program, "--version"], capture_output=True, text=True, check=True).stdout
         self.count = 0
+        self.locks = defaultdict(threading.Lock)  # the same run is made once
         folder.mkdir(parents=True, exist_ok=True)
 
     def run(self, case, settings, seconds=120):
@@ -88,16 +89,17 @@ class Runs:
         key = hashlib.sha256("\n".join([self.version, text, *overrides]).encode()).hexdigest()[:16]
         directory = self.folder / key
         status_file = self.folder / f"{key}.status"
-        if not status_file.exists():
-            shutil.rmtree(directory, ignore_errors=True)
-            file = ROOT / "parameters" / f"{case}.prm"
-            if "\n" in case:
-                file = self.folder / f"{key}.prm"
-                file.write_text(text, encoding="utf-8")
-            words = [word for o in overrides for word in ("--set", o)]
-            command = [self.program, file, "--quiet", "--output", directory, *words]
-            status_file.write_text(self.call(command, seconds), encoding="utf-8")
-            self.count += 1
+        with self.locks[key]:
+            if not status_file.exists():
+                shutil.rmtree(directory, ignore_errors=True)
+                file = ROOT / "parameters" / f"{case}.prm"
+                if "\n" in case:
+                    file = self.folder / f"{key}.prm"
+                    file.write_text(text, encoding="utf-8")
+                words = [word for o in overrides for word in ("--set", o)]
+                command = [self.program, file, "--quiet", "--output", directory, *words]
+                status_file.write_text(self.call(command, seconds), encoding="utf-8")
+                self.count += 1
         return Results(directory, *status_file.read_text(encoding="utf-8").split())
 
     @staticmethod
