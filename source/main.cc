@@ -16,7 +16,8 @@ namespace
   report(const int exit_status, const std::string &message)
   {
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cerr << "corotet: error: " << message << std::endl;
+      // In one piece: mpirun may lose some of several when the program fails.
+      std::cerr << "corotet: error: " + message + "\n";
     return exit_status;
   }
 } // namespace

@@ -176,6 +176,16 @@ namespace corotet
     });
   }
 
+  bool
+  PrescribedMotion::is_at_rest() const
+  {
+    for (const auto &condition : conditions.displacements)
+      for (const auto &component : condition.components)
+        if (component && component->depends_on_time())
+          return false;
+    return true;
+  }
+
   void
   PrescribedMotion::set_zero(Vector &vector) const
   {

@@ -116,15 +116,7 @@ namespace corotet
   }
 
   double
-  Stepper::time(const double part) const
-  {
-    // Not a sum of steps: no round-off accumulates.
-    return parameters.start_time +
-           part * (parameters.end_time - parameters.start_time);
-  }
-
-  double
-  Stepper::end_of_step(const unsigned int step) const
+  Stepper::end_of_step(const unsigned int step, const unsigned int ahead) const
   {
     if (n_steps > 0)
       return static_cast<double>(step) / n_steps;
@@ -143,22 +135,25 @@ namespace corotet
                          (target - parameters.start_time) / duration;
     const double dt  = adaptive ? adaptive->length() : step_length;
     const double n   = std::ceil((end - done) * duration / dt * (1 - 1e-10));
-    if (n <= 1)
+    if (n <= ahead)
       return end;
     // Steps of stability are all equal; those of an error keep their length,
     // and none is left over that is very short.
-    return adaptive && n > 2 ? done + dt / duration : done + (end - done) / n;
+    return adaptive && n > 2 ? done + dt / duration :
+                               done + ahead * (end - done) / n;
   }
 
   bool
-  Stepper::is_recorded(const unsigned int step) const
+  Stepper::is_recorded(const unsigned int step,
+                       const double       from,
+                       const double       to) const
   {
     const double interval = recording.time_between_results;
     const auto   results  = [&](const double part) {
       return std::floor(time(part) / interval + 1e-6);
     };
-    return step % recording.steps_between_rows == 0 || done == 1 ||
-           (interval > 0 && results(done) > results(from));
+    return step % recording.steps_between_rows == 0 || to == 1 ||
+           (interval > 0 && results(to) > results(from));
   }
 
   const StepRecord &
@@ -173,7 +168,7 @@ namespace corotet
           system.solve_acceleration(present, start_time);
         if (integrator.stability() && !system.mass().is_lumped())
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
-                               "gradients a step; a lumped mass needs none",
+                               "gradients a step",
                                report.linear_iterations));
         if (!std::isfinite(system.mean_size(present.a)))
           throw ComputationError("the forces at the start are not finite");
@@ -236,15 +231,15 @@ namespace corotet
             throw;
           }
       }
-    while (!is_recorded(next.step));
+    while (!is_recorded(next.step, from, done));
     record = next;
     if (record.parts > 1)
       log.line(
         fmt::format("step {}: made in {} parts", record.step, record.parts));
     if (is_done() && adaptive)
       log.line(fmt::format(
-        "Adaptive step: {} steps were too inaccurate and repeated, {} were too "
-        "inaccurate with the smallest step",
+        "Adaptive step: {} steps were repeated, {} were too inaccurate with the "
+        "smallest step",
         adaptive->n_rejected(),
         adaptive->n_too_inaccurate()));
   }
@@ -252,17 +247,30 @@ namespace corotet
   void
   Stepper::advance_explicitly(StepRecord &record)
   {
-    const double to = end_of_step(record.step);
-    integrate(done, to, record);
-    account(done, to, record);
-    if (is_recorded(record.step))
+    // If the work of many steps is as easy to tell as that of one: all steps up
+    // to one that is recorded or that an estimate follows.
+    const unsigned int interval =
+      integrator.stability()->steps_between_estimates;
+    unsigned int n  = 1;
+    double       to = end_of_step(record.step);
+    while (system.can_leap() && !is_recorded(record.step, from, to) &&
+           record.step % interval != 0)
+      {
+        ++record.step;
+        ++n;
+        from = to;
+        to   = end_of_step(record.step, n);
+      }
+    integrate(done, to, record, n);
+    account(done, to, record, n);
+    if (is_recorded(record.step, from, done))
       {
         complete(record);
         check_growth(record);
         good_state = present;
         good_done  = done;
       }
-    if (record.step % integrator.stability()->steps_between_estimates == 0)
+    if (record.step % interval == 0)
       follow_stable_step();
   }
 
@@ -306,23 +314,22 @@ namespace corotet
   void
   Stepper::advance_adaptively(StepRecord &record)
   {
-    const double from     = done;
     const double duration = parameters.end_time - parameters.start_time;
     good_state            = present;
     for (;;)
       {
         const double to = end_of_step(record.step);
-        const double dt = (to - from) * duration;
+        const double dt = (to - done) * duration;
         try
           {
-            integrate(from, to, record);
+            integrate(done, to, record);
             acceleration_change = present.a;
             acceleration_change -= good_state.a;
             const double error = integrator.error_constant() * dt * dt *
                                  system.mean_size(acceleration_change);
             if (adaptive->accept(dt, error, system.mean_size(present.u)))
               {
-                account(from, to, record);
+                account(done, to, record);
                 complete(record);
                 record.rejected_steps = adaptive->n_rejected();
                 return;
@@ -344,35 +351,31 @@ namespace corotet
   }
 
   void
-  Stepper::integrate(const double from, const double to, StepRecord &record)
+  Stepper::integrate(const double       from,
+                     const double       to,
+                     StepRecord        &record,
+                     const unsigned int n)
   {
+    const double dt =
+      (to - from) * (parameters.end_time - parameters.start_time) / n;
     const StageReport report =
-      integrator.step(system,
-                      {time(from),
-                       (to - from) *
-                         (parameters.end_time - parameters.start_time),
-                       to},
-                      present);
+      integrator.steps(system, {time(from), dt, to}, n, present);
     record.newton_iterations += report.newton_iterations;
     record.linear_iterations += report.linear_iterations;
   }
 
   void
-  Stepper::account(const double from, const double to, StepRecord &record)
+  Stepper::account(const double       from,
+                   const double       to,
+                   StepRecord        &record,
+                   const unsigned int n)
   {
     const double dt =
-      (to - from) * (parameters.end_time - parameters.start_time);
+      (to - from) * (parameters.end_time - parameters.start_time) / n;
     budget->account(present, time(to), dt);
     done = to;
     record.dt += dt;
     ++record.parts;
-  }
-
-  void
-  Stepper::complete(StepRecord &record)
-  {
-    budget->record(record, present, time(done));
-    record.clamped_cells = system.take_clamped_cells();
   }
 
   void

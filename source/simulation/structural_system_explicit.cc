@@ -77,6 +77,28 @@ namespace corotet
     return report;
   }
 
+  bool
+  StructuralSystem::can_leap() const
+  {
+    return mass_matrix.is_lumped() && !has_damping() && loads.is_constant() &&
+           known_load_factor == 1 && motion.is_at_rest();
+  }
+
+  bool
+  StructuralSystem::leap(State &state, const double dt, const unsigned int n)
+  {
+    if (!can_leap())
+      return false;
+    ScopedTimer timer(wall_times.assembly);
+    for (unsigned int i = 0; i < n; ++i)
+      elastic.explicit_step(state.u,
+                            state.v,
+                            forces.external,
+                            mass_solver.inverse_diagonal_vector(),
+                            dt);
+    return true;
+  }
+
   double
   StructuralSystem::largest_frequency(const State &state)
   {

@@ -7,6 +7,19 @@
 
 namespace corotet
 {
+  StageReport
+  TimeIntegrator::steps(SecondOrderSystem &system,
+                        const TimeStep    &first,
+                        const unsigned int n,
+                        State             &state)
+  {
+    StageReport report;
+    for (unsigned int i = 0; i < n; ++i)
+      report =
+        step(system, {first.time + i * first.dt, first.dt, first.done}, state);
+    return report;
+  }
+
   unsigned int
   TimeIntegrator::n_steps(const double duration, const double dt) const
   {

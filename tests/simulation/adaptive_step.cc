@@ -139,6 +139,8 @@ TEST(AdaptiveStep, ResultsAtExactTimes)
 // Bounds are kept; steps at the lower one are taken with the error they make.
 TEST(AdaptiveStep, Bounds)
 {
+  if (!on_one_rank())
+    GTEST_SKIP();
   CompleteRun run(beam(adaptive(
     "Newmark", 1e-9, "set Smallest step = 0.02\n set Largest step = 0.04\n")));
   ASSERT_EQ(run.run(), "");

@@ -265,6 +265,59 @@ TEST_P(Explicit, OwnStep)
   EXPECT_LE(longest, 1.1 * shortest);
 }
 
+// Steps between records are made in one sweep over the cells each. The motion
+// and the budget are those of steps one by one.
+TEST_P(Explicit, ManySteps)
+{
+  const std::string bar = discretization(GetParam(), "diagonal scaling") + R"(
+    subsection Mesh
+      subsection box
+        set Size  = 2, 1, 1
+        set Cells = 2, 1, 1
+      end
+    end
+    subsection Material
+      set Young's modulus = 2e5
+    end
+    subsection Boundary conditions
+      set Fixed    = x-min
+      set Traction = x-max: 0; 1; 0
+    end
+    subsection Loads
+      set Gravity = 0; 0; -3
+    end
+    subsection Time integration
+      set Type      = central difference
+      set Time step = 5e-4
+      set End time  = 0.5
+    end)";
+  CompleteRun       many(bar), single(bar);
+  ASSERT_EQ(many.run({70, 0.13}), "");
+  ASSERT_EQ(single.run(), "");
+  // Every 70th of 1000 steps, three results at 260, 520 and 780, and the end.
+  EXPECT_EQ(many.recorder().steps.size(), 14u + 3u + 1u);
+  const double size = single.simulation.state().u.linfty_norm();
+  EXPECT_GT(size, 0.01);
+  // Round-off of 1000 steps.
+  EXPECT_LE(largest_difference(many.simulation.state().u,
+                               single.simulation.state().u),
+            1e-11 * size);
+  for (const StepRecord &record : many.recorder().steps)
+    {
+      const StepRecord &other = single.recorder().records[record.step];
+      EXPECT_NEAR(record.time, other.time, 1e-14);
+      EXPECT_NEAR(record.dt, other.dt, 1e-14);
+      EXPECT_NEAR(record.kinetic_energy,
+                  other.kinetic_energy,
+                  1e-9 * other.external_work);
+      EXPECT_NEAR(record.external_work,
+                  other.external_work,
+                  1e-9 * other.external_work);
+      EXPECT_LE((record.reaction - other.reaction).norm(),
+                1e-9 * other.reaction.norm());
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Degrees, Explicit, testing::Values(1u, 2u, 3u));
 
 // The price of a consistent mass: conjugate gradients whose number does not

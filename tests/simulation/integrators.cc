@@ -118,8 +118,11 @@ TEST_P(Integrators, OrderOnCorotationalBody)
 // support that fit its displacements.
 TEST_P(Integrators, BudgetCloses)
 {
-  const std::string type    = GetParam();
-  const auto        balance = [&](const double dt) {
+  const std::string type = GetParam();
+  // Two ranks sum as one does: one integrator is enough to see that.
+  if (!on_one_rank() && type != "implicit midpoint")
+    GTEST_SKIP();
+  const auto balance = [&](const double dt) {
     CompleteRun run(fmt::format(R"(
       subsection Mesh
         subsection box

@@ -55,6 +55,10 @@ namespace corotet
       return flags;
     }
 
+    /// Whether no prescribed displacement depends on time.
+    bool
+    is_at_rest() const;
+
     /// Sets the prescribed owned entries of @p vector to zero.
     void
     set_zero(Vector &vector) const;

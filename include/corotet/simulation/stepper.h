@@ -90,15 +90,24 @@ namespace corotet
     void
     follow_stable_step();
 
-    /// Time when that part of the run, in [0, 1], is done.
+    /// Time when that part of the run, in [0, 1], is done: not a sum of steps,
+    /// so no round-off accumulates.
     double
-    time(const double part) const;
-    /// Part of the run that is done after the next step.
+    time(const double part) const
+    {
+      return parameters.start_time +
+             part * (parameters.end_time - parameters.start_time);
+    }
+    /// Part of the run that is done after step @p step, @p ahead steps from
+    /// now.
     double
-    end_of_step(const unsigned int step) const;
-    /// Whether the last step is to be recorded.
+    end_of_step(const unsigned int step, const unsigned int ahead = 1) const;
+    /// Whether the step from part @p from to @p to of the run is to be
+    /// recorded.
     bool
-    is_recorded(const unsigned int step) const;
+    is_recorded(const unsigned int step,
+                const double       from,
+                const double       to) const;
 
     /// Makes the part (from, to] of the run in one step, or in two halves if
     /// that fails, each with one halving less.
@@ -110,18 +119,29 @@ namespace corotet
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);
+    /// Makes several steps.
     void
     advance_explicitly(StepRecord &record);
 
-    /// One step, without any account of it.
+    /// The part (from, to] in @p n steps, without any account of it.
     void
-    integrate(const double from, const double to, StepRecord &record);
-    /// Accounts for the step that integrate() has made.
+    integrate(const double       from,
+              const double       to,
+              StepRecord        &record,
+              const unsigned int n = 1);
+    /// Accounts for what integrate() has done.
     void
-    account(const double from, const double to, StepRecord &record);
+    account(const double       from,
+            const double       to,
+            StepRecord        &record,
+            const unsigned int n = 1);
     /// Fills in the record of the present state.
     void
-    complete(StepRecord &record);
+    complete(StepRecord &record)
+    {
+      budget->record(record, present, time(done));
+      record.clamped_cells = system.take_clamped_cells();
+    }
     /// Throws ComputationError if energy has come out of nothing.
     void
     check_growth(const StepRecord &record);

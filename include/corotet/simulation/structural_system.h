@@ -67,6 +67,13 @@ namespace corotet
                        const double time,
                        const double velocity_factor = 0) override;
 
+    /// Whether leap() is possible.
+    bool
+    can_leap() const;
+
+    bool
+    leap(State &state, const double dt, const unsigned int n) override;
+
     /// Evaluates all terms at a state, with the rotations of its displacement.
     /// Collective.
     const Forces &

@@ -37,6 +37,13 @@ namespace corotet
     unsigned int
     solve(Vector &a, const Vector &r) const;
 
+    /// 1 / M_ii, zero where prescribed.
+    const Vector &
+    inverse_diagonal_vector() const
+    {
+      return inverse_diagonal.get_vector();
+    }
+
     /// dst = M src for the free unknowns. Collective.
     void
     vmult(Vector &dst, const Vector &src) const;

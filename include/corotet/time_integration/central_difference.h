@@ -30,6 +30,12 @@ namespace corotet
          const TimeStep    &step,
          State             &state) override;
 
+    StageReport
+    steps(SecondOrderSystem &system,
+          const TimeStep    &first,
+          const unsigned int n,
+          State             &state) override;
+
     const StabilityControl *
     stability() const override
     {

@@ -83,6 +83,17 @@ namespace corotet
     solve_acceleration(State       &state,
                        const double time,
                        const double velocity_factor = 0) = 0;
+
+    /**
+     * Makes @p n steps of v += dt M^{-1} (g - f(u)), u += dt v, for v half a
+     * step before u, if nothing depends on time or velocity: loads, supports,
+     * damping. Returns whether it is so; if not, nothing has changed.
+     */
+    virtual bool
+    leap(State & /*state*/, const double /*dt*/, const unsigned int /*n*/)
+    {
+      return false;
+    }
   };
 } // namespace corotet
 

@@ -53,6 +53,14 @@ namespace corotet
     virtual StageReport
     step(SecondOrderSystem &system, const TimeStep &step, State &state) = 0;
 
+    /// Advances @p state by @p n equal steps, of which @p first is the first.
+    /// Throws ComputationError. Collective.
+    virtual StageReport
+    steps(SecondOrderSystem &system,
+          const TimeStep    &first,
+          const unsigned int n,
+          State             &state);
+
     /// Whether masses and velocities matter, so that the state needs an initial
     /// acceleration.
     virtual bool
