@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/ghosted_copy.h>
 #include <corotet/solvers/eigenvalue_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 
 namespace corotet
 {
@@ -92,8 +92,7 @@ namespace corotet
     Apply(const MultiVector &X, MultiVector &Y) const override
     {
       for_each_column(X, Y, solver.free, x, [&](Vector &x) {
-        solver.ghosted.copy_locally_owned_data_from(x);
-        solver.ghosted.update_ghost_values();
+        copy_with_ghosts(solver.ghosted, x);
         solver.A.mass().apply(x, solver.ghosted);
       });
     }
@@ -137,8 +136,7 @@ namespace corotet
   void
   EigenvalueSolver::apply(Vector &f, Vector &g, const Vector &x) const
   {
-    ghosted.copy_locally_owned_data_from(x);
-    ghosted.update_ghost_values();
+    copy_with_ghosts(ghosted, x);
     A.elasticity().apply_tangent(f, ghosted);
     A.mass().apply(g, ghosted);
     set_zero(f);
@@ -148,8 +146,7 @@ namespace corotet
   void
   EigenvalueSolver::apply_inverse(Vector &x)
   {
-    ghosted.copy_locally_owned_data_from(x);
-    ghosted.update_ghost_values();
+    copy_with_ghosts(ghosted, x);
     A.mass().apply(right_side, ghosted);
     set_zero(right_side);
     n_iterations += linear_solver.solve(A,
@@ -267,8 +264,20 @@ namespace corotet
   {
     // What is left in the vectors that is of other modes is damped, most of all
     // that of high frequency, which residuals of K amplify.
+    Vector r(right_side), dx(right_side);
     for (Vector &x : pairs.vectors)
-      apply_inverse(x);
+      {
+        apply_inverse(x);
+        // And the residual that the solver has not seen: A is nearly singular
+        // if there are rigid body modes, so round-off in its iterations is
+        // larger than that of A x.
+        A.vmult(r, x);
+        r.sadd(-1., right_side);
+        n_iterations +=
+          linear_solver.solve(A, dx, r, A.discretization().node_positions());
+        progress(++n_solves);
+        x += dx;
+      }
     rayleigh_ritz(pairs);
     pairs.values.resize(n);
     pairs.vectors.resize(n);
