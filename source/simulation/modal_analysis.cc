@@ -165,6 +165,9 @@ namespace corotet
                      [](const Mode &a, const Mode &b) {
                        return a.eigenvalue < b.eigenvalue;
                      });
+    // Ghost entries have not come along.
+    for (Mode &mode : computed)
+      mode.shape.update_ghost_values();
     log_table();
     for (unsigned int i = 0; i < computed.size(); ++i)
       check(computed[i], i + 1);
