@@ -207,13 +207,14 @@ namespace corotet
     r.add(-mode.eigenvalue, g);
     const double unit = std::max(mode.eigenvalue, shift) * norm(g);
     mode.residual     = norm(r) / unit;
-    // Terms of K phi have the size of K_ii phi_i, and there are some hundred in
-    // each sum.
+    // The bound for a sum of n terms, n epsilon times the sum of their sizes:
+    // row i has at most some three hundred, which are together some three times
+    // K_ii phi_i.
     for (unsigned int i = 0; i < r.locally_owned_size(); ++i)
       r.local_element(i) =
         A.diagonal().local_element(i) * mode.shape.local_element(i);
     mode.round_off =
-      64 * std::numeric_limits<double>::epsilon() * norm(r) / unit;
+      1000 * std::numeric_limits<double>::epsilon() * norm(r) / unit;
 
     // Also from the nodes of supports, which phi moves through M.
     mass.apply(g, mode.shape);
