@@ -3,7 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
-#include <corotet/output/recorded_run.h>
+#include <corotet/studies/recorded_run.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 namespace corotet
@@ -270,6 +271,21 @@ namespace corotet
     out.close();
     if (!out)
       throw MachineError(path + ": the parameters cannot be written");
+  }
+
+  nlohmann::ordered_json
+  ParameterFile::values() const
+  {
+    Json                                      result   = tree();
+    const std::function<void(Json & section)> simplify = [&](Json &section) {
+      for (auto &[key, node] : section.items())
+        if (is_entry(node))
+          node = Json(node.at("value"));
+        else if (node.is_object())
+          simplify(node);
+    };
+    simplify(result);
+    return result;
   }
 
   nlohmann::ordered_json

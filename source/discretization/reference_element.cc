@@ -79,9 +79,9 @@ namespace corotet
     const unsigned int n = element.has_bubbles() ? 4 : degree + 1;
     const dealii::QWitherdenVincentSimplex<3> loads(n);
     stiffness_rule =
-      tabulate(fe, stiffness.get_points(), stiffness.get_weights());
-    load_rule = tabulate(fe, loads.get_points(), loads.get_weights());
-    centre    = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
+      corotet::tabulate(fe, stiffness.get_points(), stiffness.get_weights());
+    load_rule = corotet::tabulate(fe, loads.get_points(), loads.get_weights());
+    centre = corotet::tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
 
     // 3p-2 = 1, 4, 7; with bubbles 3 and twice 2.
     const dealii::QWitherdenVincentSimplex<2> on_face(n);
@@ -91,7 +91,7 @@ namespace corotet
         std::vector<dealii::Point<3>> points;
         for (const dealii::Point<2> &p : on_face.get_points())
           points.push_back(v[0] + p[0] * (v[1] - v[0]) + p[1] * (v[2] - v[0]));
-        face_rules[f]    = tabulate(fe, points, on_face.get_weights());
+        face_rules[f]    = corotet::tabulate(fe, points, on_face.get_weights());
         face_tangents[f] = {{v[1] - v[0], v[2] - v[0]}};
         const dealii::Tensor<1, 3> normal =
           cross_product_3d(face_tangents[f][0], face_tangents[f][1]);
@@ -104,7 +104,16 @@ namespace corotet
     const dealii::QWitherdenVincentSimplex<3> products(
       element.has_bubbles() ? 5 : degree + 1);
     integrate_products(
-      tabulate(fe, products.get_points(), products.get_weights()));
+      corotet::tabulate(fe, products.get_points(), products.get_weights()));
+  }
+
+  ReferenceElement::PointValues
+  ReferenceElement::tabulate(const Element                element,
+                             const dealii::Quadrature<3> &rule)
+  {
+    return corotet::tabulate(*make_finite_element(element),
+                             rule.get_points(),
+                             rule.get_weights());
   }
 
   void

@@ -70,22 +70,26 @@ namespace corotet
   void
   Loads::add_dead_load(DeadLoad load)
   {
-    if (load.value.is_zero())
+    if (load.is_zero)
       return;
-    if (!load.value.depends_on_time())
+    if (!load.depends_on_time)
       {
-        integrate(scratch, load, [&](const Point<3> &x) {
-          return load.value.vector_value(x, 0.);
-        });
+        integrate(scratch,
+                  load,
+                  [&](const Point<3> &x, const Tensor<1, 3> &normal) {
+                    return load.value(x, normal, 0.);
+                  });
         constant_force += scratch;
         return;
       }
-    if (!load.value.depends_on_space())
+    if (!load.depends_on_space)
       {
         discretization.initialize_vector(load.integral);
-        integrate(load.integral, load, [](const Point<3> &) {
-          return Tensor<1, 3>({1., 1., 1.});
-        });
+        integrate(load.integral,
+                  load,
+                  [](const Point<3> &, const Tensor<1, 3> &) {
+                    return Tensor<1, 3>({1., 1., 1.});
+                  });
       }
     dead_loads.push_back(std::move(load));
   }
@@ -105,9 +109,9 @@ namespace corotet
       }
 
     for (const DeadLoad &load : dead_loads)
-      if (!load.value.depends_on_space())
+      if (!load.depends_on_space)
         {
-          const Tensor<1, 3> value = load.value.vector_value({}, time);
+          const Tensor<1, 3> value = load.value({}, {}, time);
           for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
             for (unsigned int a = 0; a < 3; ++a)
               f.local_element(3 * n + a) +=
@@ -115,9 +119,11 @@ namespace corotet
         }
       else
         {
-          integrate(scratch, load, [&](const Point<3> &x) {
-            return load.value.vector_value(x, time);
-          });
+          integrate(scratch,
+                    load,
+                    [&](const Point<3> &x, const Tensor<1, 3> &normal) {
+                      return load.value(x, normal, time);
+                    });
           f.add(1., scratch);
         }
 
@@ -142,7 +148,8 @@ namespace corotet
             Vector acceleration(f);
             for (unsigned int n = 0; n < discretization.n_local_nodes(); ++n)
               {
-                const Tensor<1, 3> g = value(discretization.node_position(n));
+                const Tensor<1, 3> g =
+                  value(discretization.node_position(n), Tensor<1, 3>());
                 for (unsigned int a = 0; a < 3; ++a)
                   acceleration.local_element(3 * n + a) = g[a];
               }
@@ -170,8 +177,9 @@ namespace corotet
         const Tensor<2, 3>  J        = invert(geometry.inverse_jacobian);
         for (unsigned int q = 0; q < rule.weights.size(); ++q)
           {
-            const Tensor<1, 3> b = value(origin + J * rule.points[q]) *
-                                   (rule.weights[q] * geometry.volume);
+            const Tensor<1, 3> b =
+              value(origin + J * rule.points[q], Tensor<1, 3>()) *
+              (rule.weights[q] * geometry.volume);
             for (unsigned int i = 0; i < reference.n_nodes; ++i)
               for (unsigned int a = 0; a < 3; ++a)
                 f.local_element(3 * nodes[i] + a) += b[a] * rule.values[q][i];
@@ -198,8 +206,10 @@ namespace corotet
                                  face,
                                  nullptr,
                                  [&](const SurfacePoint &point) {
+                                   const double       area = point.area.norm();
                                    const Tensor<1, 3> force =
-                                     value(point.at_rest) * point.area.norm();
+                                     value(point.at_rest, point.area / area) *
+                                     area;
                                    for (const unsigned int i : face_nodes)
                                      for (unsigned int a = 0; a < 3; ++a)
                                        f.local_element(3 * nodes[i] + a) +=

@@ -23,13 +23,15 @@ namespace corotet
 
     // Names of what a run writes, as regular expressions of paths relative to
     // the output directory. A folder is removed if it is empty then.
-    const std::array<std::string_view, 4> own_files{
-      {R"((solution\.vtkhdf|history\.csv|modes\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
+    const std::array<std::string_view, 6> own_files{
+      {R"(study(_[a-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
+       R"(rows/[^/]+\.(json|log)(\.tmp)?)",
+       R"((solution\.vtkhdf|history\.csv|modes\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"(solution/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.tmp/[^/]+)"}};
-    const std::array<std::string_view, 3> own_folders{
-      {"solution", "checkpoint", R"(checkpoint/[^/]+\.tmp)"}};
+    const std::array<std::string_view, 4> own_folders{
+      {"solution", "rows", "checkpoint", R"(checkpoint/[^/]+\.tmp)"}};
 
     template <typename Patterns>
     bool
@@ -59,7 +61,8 @@ namespace corotet
         return fs::exists(directory / name);
       };
       return has("solution.vtkhdf") || has("history.csv") || has("modes.csv") ||
-             has("summary.json") || (has("parameters.prm") && has("log.txt"));
+             has("rows") || has("summary.json") ||
+             (has("parameters.prm") && has("log.txt"));
     }
 
     // Everything below the directory, folders after what they hold. Throws if

@@ -2,20 +2,17 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/version.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/output/summary_writer.h>
 
 #include <deal.II/base/config.h>
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 namespace corotet
 {
@@ -50,24 +47,10 @@ namespace corotet
       return object;
     }
 
-    // The file gets its name when it is complete.
-    void
-    write_whole_file(const std::string &path, const std::string &text)
+    nlohmann::ordered_json
+    norms_object(const FieldNorms &norms)
     {
-      const std::string temporary = path + ".tmp";
-      std::ofstream     file(temporary);
-      file << text;
-      file.close();
-      std::error_code error;
-      if (file)
-        std::filesystem::rename(temporary, path, error);
-      if (file && !error)
-        return;
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
-      throw MachineError(path +
-                         ": the summary cannot be written (is the disk full, "
-                         "or permission missing?)");
+      return {{"L2", norms.L2}, {"H1", norms.H1}, {"energy", norms.energy}};
     }
   } // namespace
 
@@ -86,6 +69,11 @@ namespace corotet
     results["steps"]    = summary.steps;
     results["end_time"] = summary.end_time;
     results["final"]    = history.last_row();
+    if (summary.errors)
+      {
+        results["errors"]      = norms_object(summary.errors->error);
+        results["exact_norms"] = norms_object(summary.errors->reference);
+      }
     write_summary(directory, summary, results, comm);
   }
 
@@ -95,19 +83,14 @@ namespace corotet
                 const nlohmann::ordered_json &results,
                 const MPI_Comm                comm)
   {
-    dealii::Utilities::System::MemoryStats memory;
-    dealii::Utilities::System::get_memory_stats(memory);
-    // VmHWM is in kB.
-    const std::uint64_t peak =
-      dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(memory.VmHWM),
-                                  comm) *
-      1024;
+    const std::uint64_t peak = peak_memory(comm);
     on_root(comm, [&] {
       write_whole_file(
         directory + "/summary.json",
         summary_object(summary, results, peak)
             .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-          "\n");
+          "\n",
+        "the summary");
     });
   }
 } // namespace corotet

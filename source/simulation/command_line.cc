@@ -116,6 +116,11 @@ namespace corotet
                     "List every entry: default, allowed values, units, meaning")
         ->expected(0, 1)
         ->type_name("[prm|json|markdown]");
+    app.add_flag(
+      "--restart",
+      command_line.restart,
+      "Go on with a convergence study that was stopped: its finished "
+      "runs are kept");
     app.add_flag("--quiet",
                  command_line.quiet,
                  "Show nothing on the terminal but errors");

@@ -160,14 +160,42 @@ namespace corotet
       volume += disc.geometry(c).volume;
     summary.mesh_volume =
       dealii::Utilities::MPI::sum(volume, disc.communicator());
-    summary.total_mass      = system.mass().total();
-    summary.steps           = record.step;
-    summary.end_time        = record.time;
-    summary.final_record    = record;
+    summary.total_mass   = system.mass().total();
+    summary.steps        = record.step;
+    summary.end_time     = record.time;
+    summary.final_record = record;
+    if (is_started)
+      summary.errors = errors();
     summary.wall_times      = wall_times;
     summary.total_wall_time = seconds();
     for (const auto &observer : observers)
       observer->finish(summary);
+  }
+
+  std::optional<ErrorNorms>
+  Simulation::errors()
+  {
+    const ExactSolution *exact = system.exact_solution();
+    if (exact == nullptr)
+      return {};
+    const double     t = stepper.time();
+    const ErrorNorms norms =
+      error_norms(disc,
+                  parameters.material.materials(mesh.regions()),
+                  system.displacement(),
+                  [&](const dealii::Point<3> &x) {
+                    return PointDisplacement{exact->displacement(x, t),
+                                             exact->gradient(x, t)};
+                  });
+    const auto text = [](const double error, const double reference) {
+      return fmt::format("{:.4g} ({:.3g} %)", error, 100 * error / reference);
+    };
+    log.line(fmt::format("Errors at t = {:.6g} s: L2 {}, H1 {}, energy norm {}",
+                         t,
+                         text(norms.error.L2, norms.reference.L2),
+                         text(norms.error.H1, norms.reference.H1),
+                         text(norms.error.energy, norms.reference.energy)));
+    return norms;
   }
 
   double

@@ -61,8 +61,9 @@ namespace corotet
       type,
       "What is computed: 'simulation', the body's motion or its response to "
       "load steps; 'modes', its lowest natural frequencies and shapes of "
-      "vibration.",
-      Selection("simulation|modes"));
+      "vibration; 'convergence study', many runs of either kind, to see what "
+      "their results converge to and how fast.",
+      Selection("simulation|modes|convergence study"));
     section(prm, "Mesh", [&] { mesh.declare_parameters(prm); });
     section(prm, "Discretization", [&] {
       prm.add_parameter("Degree",
@@ -95,6 +96,9 @@ namespace corotet
                         initial_velocity,
                         "At the start time [m/s]: 'x; y; z', expressions in x, "
                         "y, z, t.");
+    });
+    section(prm, "Exact solution", [&] {
+      exact_solution.declare_parameters(prm);
     });
     section(prm, "Time integration", [&] {
       time_integrator.declare_parameters(

@@ -37,7 +37,9 @@ namespace corotet
     , wall_times(wall_times)
     , log(log)
     , reference(discretization.element())
-    , conditions(parameters.boundary_conditions,
+    , problem(parameters)
+    , conditions(problem.boundary_conditions(
+                   discretization.mesh().boundaries()),
                  discretization.mesh().boundaries(),
                  tables)
     , mass_matrix(discretization,
@@ -69,6 +71,10 @@ namespace corotet
                        Tangent::frozen_rotation)
     , tangent(wanted_tangent)
   {
+    problem.add_to(loads,
+                   discretization.mesh().boundaries(),
+                   parameters.material.materials(
+                     discretization.mesh().regions()));
     if (!elastic.is_by_cell(tangent))
       parameters.linear_solver.check_fit(
         TangentOperator::is_symmetric(elastic, loads, tangent));
@@ -104,11 +110,11 @@ namespace corotet
   {
     for (Vector *vector : {&state.u, &state.v, &state.a})
       discretization.initialize_vector(*vector);
-    const Expression u0(parameters.initial_displacement,
+    const Expression u0(problem.initial_displacement(),
                         3,
                         "Initial conditions/Displacement",
                         tables);
-    const Expression v0(parameters.initial_velocity,
+    const Expression v0(problem.initial_velocity(),
                         3,
                         "Initial conditions/Velocity",
                         tables);
@@ -163,12 +169,14 @@ namespace corotet
     copy_with_ghosts(u_ghosted, state.u);
     elastic.update_rotations_and_force(forces.internal, u_ghosted);
 
-    if (load_factor != known_load_factor)
+    if (load_factor != known_load_factor ||
+        (time != known_time && !loads.is_constant()) ||
+        loads.has_follower_pressure())
       {
         loads.force(forces.external, time, u_ghosted);
         forces.external *= load_factor;
-        if (loads.is_constant())
-          known_load_factor = load_factor;
+        known_load_factor = load_factor;
+        known_time        = time;
       }
 
     // Without damping it is zero for good.

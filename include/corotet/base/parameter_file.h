@@ -52,6 +52,10 @@ namespace corotet
     std::string
     location(const std::string &entry) const;
 
+    /// The text of every entry as used: an object per section.
+    nlohmann::ordered_json
+    values() const;
+
     /// The name of the file that was read, as given.
     const std::string &
     path() const

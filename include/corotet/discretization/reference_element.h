@@ -7,6 +7,7 @@
 #include <corotet/discretization/element.h>
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/quadrature.h>
 #include <deal.II/base/table.h>
 
 #include <array>
@@ -35,6 +36,10 @@ namespace corotet
     };
 
     explicit ReferenceElement(const Element element);
+
+    /// For a rule that is none of those below.
+    static PointValues
+    tabulate(const Element element, const dealii::Quadrature<3> &rule);
 
     unsigned int degree;
     unsigned int n_nodes;

@@ -10,11 +10,13 @@
 #include <corotet/discretization/boundary_conditions.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
+#include <corotet/material/exact_solution.h>
 #include <corotet/operators/mass.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,18 @@ namespace corotet
           Log                      &log,
           const TableFunctions     &tables = {});
 
+    /**
+     * Adds the body force of @p solution and its tractions on @p boundaries.
+     * @p with_inertia: of a dynamic problem. @p solution must outlive this
+     * object.
+     */
+    void
+    add_manufactured(const ExactSolution             &solution,
+                     const IsotropicMaterial         &material,
+                     const bool                       is_linear,
+                     const bool                       with_inertia,
+                     const std::vector<unsigned int> &boundaries);
+
     /// f = f_ext at @p time and displacement @p u (ghosts up to date).
     void
     force(Vector &f, const double time, const Vector &u) const;
@@ -91,9 +105,26 @@ namespace corotet
         traction
       };
 
+      /// At a point, on the surface with the outward normal there, at a time.
+      using Value =
+        std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &,
+                                           const dealii::Tensor<1, 3> &,
+                                           const double)>;
+
+      DeadLoad(const Kind         kind,
+               const Expression  &expression,
+               const unsigned int boundary = 0);
+      DeadLoad(const Kind         kind,
+               const Value       &value,
+               const bool         depends_on_time,
+               const unsigned int boundary = 0);
+
       Kind         kind;
-      Expression   value;
-      unsigned int boundary = 0;
+      Value        value;
+      bool         is_zero;
+      bool         depends_on_space;
+      bool         depends_on_time;
+      unsigned int boundary;
       /// The force of a unit load in each direction if the load is constant in
       /// space.
       Vector integral = {};
@@ -127,7 +158,7 @@ namespace corotet
            const TableFunctions &tables,
            Log                  &log) const;
 
-    /// f = the load, with its value taken from @p value(x).
+    /// f = the load, with its value taken from @p value(x, n).
     template <typename Value>
     void
     integrate(Vector &f, const DeadLoad &load, const Value &value) const;

@@ -25,6 +25,8 @@ namespace corotet
     std::optional<std::string> output_directory;
     /// Read and check everything, run nothing.
     bool validate = false;
+    /// Go on with what is in the output directory.
+    bool restart = false;
     /// Nothing on the terminal but errors.
     bool quiet = false;
     /// List all parameters in this style ("prm", "json" or "markdown") and do

@@ -93,6 +93,12 @@ namespace corotet
       return elastic.cell_results(displacement);
     }
 
+    unsigned int
+    n_linear_iterations() const
+    {
+      return solver.n_linear_iterations();
+    }
+
     /// What is known of the run at its end. The number of steps is that of the
     /// modes.
     RunSummary

@@ -7,10 +7,12 @@
 #include <corotet/base/timing.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/operators/elasticity.h>
+#include <corotet/operators/error_norms.h>
 
 #include <deal.II/base/tensor.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -105,6 +107,8 @@ namespace corotet
     unsigned int steps    = 0;
     double       end_time = 0;
     StepRecord   final_record;
+    /// Of the last displacement, where the exact one is known.
+    std::optional<ErrorNorms> errors;
 
     WallTimes wall_times;
     double    total_wall_time = 0;

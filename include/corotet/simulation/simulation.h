@@ -39,6 +39,12 @@ namespace corotet
       return disc;
     }
 
+    const StructuralSystem &
+    structural_system() const
+    {
+      return system;
+    }
+
     double
     end_time() const
     {
@@ -79,6 +85,9 @@ namespace corotet
            const StepRecord                             &record,
            const std::string                            &status,
            const std::string                            &message);
+    /// Of the last state, if the exact solution is known.
+    std::optional<ErrorNorms>
+    errors();
     Snapshot
     snapshot(const StepRecord &record, const bool last);
     double

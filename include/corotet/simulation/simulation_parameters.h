@@ -8,6 +8,7 @@
 #include <corotet/base/table_functions.h>
 #include <corotet/discretization/boundary_conditions.h>
 #include <corotet/discretization/element.h>
+#include <corotet/material/exact_solution.h>
 #include <corotet/material/material_parameters.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/operators/loads.h>
@@ -52,7 +53,7 @@ namespace corotet
     Element
     element() const;
 
-    /// "simulation" or "modes".
+    /// "simulation", "modes" or "convergence study".
     std::string                 type = "simulation";
     MeshParameters              mesh;
     unsigned int                degree    = 2;
@@ -65,6 +66,7 @@ namespace corotet
     /// Expressions of the state at the start time.
     std::string                initial_displacement = "0; 0; 0";
     std::string                initial_velocity     = "0; 0; 0";
+    ExactSolutionParameters    exact_solution;
     Selectable<TimeIntegrator> time_integrator;
     double                     start_time   = 0;
     double                     end_time     = 1;

@@ -11,6 +11,7 @@
 #include <corotet/operators/loads.h>
 #include <corotet/operators/mass.h>
 #include <corotet/operators/tangent_operator.h>
+#include <corotet/simulation/manufactured_problem.h>
 #include <corotet/simulation/simulation_parameters.h>
 #include <corotet/solvers/mass_solver.h>
 #include <corotet/solvers/newton.h>
@@ -127,6 +128,13 @@ namespace corotet
       return v_ghosted;
     }
 
+    /// Null if it is not known.
+    const ExactSolution *
+    exact_solution() const
+    {
+      return problem.solution();
+    }
+
     const ReferenceElement &
     reference_element() const
     {
@@ -198,16 +206,17 @@ namespace corotet
     WallTimes            &wall_times;
     Log                  &log;
 
-    const ReferenceElement   reference;
-    const BoundaryConditions conditions;
-    const Mass               mass_matrix;
-    Elasticity               elastic;
-    Loads                    loads;
-    const PrescribedMotion   motion;
-    const MassSolver         mass_solver;
-    const RayleighDamping    damping;
-    const Tangent            wanted_tangent;
-    Tangent                  tangent;
+    const ReferenceElement    reference;
+    const ManufacturedProblem problem;
+    const BoundaryConditions  conditions;
+    const Mass                mass_matrix;
+    Elasticity                elastic;
+    Loads                     loads;
+    const PrescribedMotion    motion;
+    const MassSolver          mass_solver;
+    const RayleighDamping     damping;
+    const Tangent             wanted_tangent;
+    Tangent                   tangent;
 
     std::unique_ptr<EffectiveOperator> effective_operator;
     std::unique_ptr<TangentOperator>   tangent_operator;
@@ -224,9 +233,9 @@ namespace corotet
 
     Forces forces;
     double forces_time = 0;
-    /// Of the external forces that are constant but for it, once they are
-    /// known.
+    /// Of the external forces that are known, and are needed again.
     double known_load_factor = std::numeric_limits<double>::quiet_NaN();
+    double known_time        = std::numeric_limits<double>::quiet_NaN();
     Vector u_ghosted;
     Vector v_ghosted;
     Vector a_ghosted;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_output_recorded_run_h
-#define corotet_output_recorded_run_h
+#ifndef corotet_studies_recorded_run_h
+#define corotet_studies_recorded_run_h
 
 #include <corotet/base/parameter_file.h>
 #include <corotet/simulation/command_line.h>

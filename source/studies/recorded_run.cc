@@ -7,9 +7,12 @@
 #include <corotet/output/modes_writer.h>
 #include <corotet/output/observers.h>
 #include <corotet/output/output_directory.h>
-#include <corotet/output/recorded_run.h>
 #include <corotet/simulation/simulation.h>
+#include <corotet/studies/convergence_study.h>
+#include <corotet/studies/recorded_run.h>
+#include <corotet/studies/run_parameters.h>
 
+#include <filesystem>
 #include <functional>
 #include <iostream>
 
@@ -40,28 +43,33 @@ namespace corotet
                ParameterFile     &file,
                const MPI_Comm     comm)
   {
-    SimulationParameters parameters;
-    OutputParameters     output;
+    RunParameters parameters;
     parameters.declare_parameters(file.handler());
-    file.handler().enter_subsection("Output");
-    output.declare_parameters(file.handler());
-    file.handler().leave_subsection();
     if (command.print_parameters)
       return on_root(comm,
                      [&] { file.print(std::cout, *command.print_parameters); });
 
     file.read(command.parameter_file, command.overrides);
+    SimulationParameters   &simulation_parameters = parameters.simulation;
+    const OutputParameters &output                = parameters.output;
+    const bool is_study = simulation_parameters.type == "convergence study";
+    if (command.restart && !is_study)
+      throw InputError("Type",
+                       "--restart: found '" + simulation_parameters.type +
+                         "'; allowed: 'convergence study', whose finished "
+                         "runs are kept");
     const std::string directory =
       output.directory_of_run(command.parameter_file);
     // Before the work starts; nothing is removed before all input is checked.
-    if (!command.validate)
+    if (!command.validate && !command.restart)
       check_output_directory(directory, output.overwrite, comm);
 
     Log        log(comm, command.quiet);
     const auto record = [&](const std::function<void()> &compute) {
       if (command.validate)
         return log.line(command.parameter_file + ": valid");
-      prepare_output_directory(directory, output.overwrite, comm);
+      if (!command.restart)
+        prepare_output_directory(directory, output.overwrite, comm);
       log.open(directory + "/log.txt");
       on_root(comm,
               [&] { file.write_effective(directory + "/parameters.prm"); });
@@ -69,13 +77,18 @@ namespace corotet
       log.line("Results are in " + directory);
     };
 
-    if (parameters.type == "modes")
+    if (is_study)
       {
-        ModalAnalysis analysis(parameters, file.folder(), comm, log);
+        ConvergenceStudy study(command, parameters.study, comm, log);
+        return record([&] { study.run(directory); });
+      }
+    if (simulation_parameters.type == "modes")
+      {
+        ModalAnalysis analysis(simulation_parameters, file.folder(), comm, log);
         ModesWriter   writer(output, directory, analysis);
         return record([&] { compute_modes(analysis, writer); });
       }
-    Simulation simulation(parameters, file.folder(), comm, log);
+    Simulation simulation(simulation_parameters, file.folder(), comm, log);
     const auto observers = make_observers(output,
                                           directory,
                                           simulation.discretization(),

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_material_exact_solution_h
+#define corotet_material_exact_solution_h
+
+#include <corotet/base/expression.h>
+#include <corotet/material/corotational.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The parameters of section Exact solution.
+   */
+  struct ExactSolutionParameters
+  {
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    /// Empty: there is none.
+    std::string displacement;
+    bool        manufacture           = true;
+    std::string displacement_boundary = "all";
+  };
+
+  /**
+   * A displacement u(x, t) in closed form, its derivatives, and the data of the
+   * problem that it solves (method of manufactured solutions, Roache 2002,
+   * @cite roache2002): with F = I + grad u,
+   *
+   *   b = rho u_tt - Div P(F),    t = P(F) n,
+   *
+   * of linear elasticity or of the corotational law with F = R S in each point,
+   * P = R sigma(S - I). That law is what rotations of cells converge to, too.
+   */
+  class ExactSolution
+  {
+  public:
+    /// @p text: three components in x, y, z, t. Throws InputError blamed on
+    /// Exact solution/Displacement if it cannot be differentiated.
+    explicit ExactSolution(const std::string &text);
+
+    /// Unit m.
+    dealii::Tensor<1, 3>
+    displacement(const dealii::Point<3> &x, const double t) const
+    {
+      return u.vector_value(x, t);
+    }
+
+    /// [component][direction] [-].
+    dealii::Tensor<2, 3>
+    gradient(const dealii::Point<3> &x, const double t) const;
+
+    /// P [Pa], per area at rest. @p is_linear: of linear elasticity.
+    dealii::Tensor<2, 3>
+    stress(const IsotropicMaterial &material,
+           const bool               is_linear,
+           const dealii::Point<3>  &x,
+           const double             t) const;
+
+    /// Force per volume at rest [N/m^3], with or without inertia.
+    dealii::Tensor<1, 3>
+    body_force(const IsotropicMaterial &material,
+               const bool               is_linear,
+               const bool               with_inertia,
+               const dealii::Point<3>  &x,
+               const double             t) const;
+
+    /// u and du/dt as texts of three components.
+    const std::string &
+    displacement_text() const
+    {
+      return text;
+    }
+
+    std::string
+    velocity_text() const;
+
+    bool
+    depends_on_time() const
+    {
+      return u.depends_on_time();
+    }
+
+  private:
+    /// All derivatives by @p variables, each a list: three components of each
+    /// list.
+    static Expression
+    derivatives(const std::string                           &text,
+                const std::vector<std::vector<std::string>> &variables);
+
+    std::string text;
+    Expression  u;
+    Expression  acceleration;
+    /// [3 direction + component].
+    Expression first;
+    /// Directions xx, yy, zz, yz, xz, xy: [3 pair + component].
+    Expression second;
+  };
+} // namespace corotet
+
+#endif

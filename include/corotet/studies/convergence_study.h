@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_studies_convergence_study_h
+#define corotet_studies_convergence_study_h
+
+#include <corotet/base/log.h>
+#include <corotet/simulation/command_line.h>
+#include <corotet/studies/gathered_field.h>
+#include <corotet/studies/study_run.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Runs the case of a parameter file with all degrees, refinements, time
+   * steps, mass matrices and rotations that section Convergence study lists,
+   * and compares what comes out.
+   *
+   * Results in the output directory: rows/NAME.json and rows/NAME.log of each
+   * run, when it is finished; study.csv, study.tex and pictures of all. A study
+   * that was stopped goes on with the runs that have no file yet.
+   *
+   * @p log must outlive this object. Members are collective.
+   */
+  class ConvergenceStudy
+  {
+  public:
+    /// Checks all runs, those that differ in the refinement only once. Throws
+    /// InputError.
+    ConvergenceStudy(const CommandLine     &command,
+                     const StudyParameters &parameters,
+                     const MPI_Comm         comm,
+                     Log                   &log);
+
+    /// Throws ComputationError if runs have failed, after the others.
+    void
+    run(const std::string &directory);
+
+  private:
+    /// From its file, or by running it.
+    StudyResult
+    result_of(const StudyCase &study_case);
+    /// Runs the case that others are compared with, if it is not done yet.
+    const StudyRun &
+    finer_run();
+    void
+    compare_with_finer_run(StudyResult &result, const StudyRun &run);
+    StudyCase
+    finer_case() const;
+    void
+    write(const std::vector<StudyResult> &results);
+    void
+    draw() const;
+
+    const CommandLine                      command;
+    const StudyParameters                  parameters;
+    const std::vector<StudyCase>           cases;
+    std::vector<StudyParameters::Quantity> quantities;
+    MPI_Comm                               comm;
+    Log                                   &log;
+    std::string                            directory;
+    std::unique_ptr<StudyRun>              finer;
+    FieldNorms                             finer_norms;
+  };
+} // namespace corotet
+
+#endif

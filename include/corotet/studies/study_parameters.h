@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_studies_study_parameters_h
+#define corotet_studies_study_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * What one run of a study has that the parameter file does not say. Values
+   * that are not varied are absent.
+   */
+  struct StudyCase
+  {
+    unsigned int               degree;
+    unsigned int               refinements;
+    std::optional<double>      time_step;
+    std::optional<std::string> mass;
+    std::optional<std::string> rotation;
+
+    bool
+    operator==(const StudyCase &) const = default;
+
+    /// For a file: "degree_2_refinements_1".
+    std::string
+    name() const;
+
+    /// As of the command line.
+    std::vector<std::string>
+    overrides() const;
+  };
+
+  /**
+   * The parameters of section Convergence study.
+   */
+  struct StudyParameters
+  {
+    /// A number that a run results in, and the value that it should have.
+    struct Quantity
+    {
+      std::string           name;
+      std::optional<double> reference;
+    };
+
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    /// All runs: for each mass, rotation, degree and time step, all
+    /// refinements one after another.
+    std::vector<StudyCase>
+    cases() const;
+
+    /// Throws InputError.
+    std::vector<Quantity>
+    quantity_list() const;
+
+    std::string               run         = "simulation";
+    std::vector<unsigned int> degrees     = {1, 2, 3};
+    std::vector<unsigned int> refinements = {0, 1, 2};
+    std::vector<double>       time_steps;
+    std::vector<std::string>  masses;
+    std::vector<std::string>  rotations;
+    std::string               reference           = "exact solution";
+    unsigned int              further_refinements = 1;
+    std::string               quantities;
+  };
+} // namespace corotet
+
+#endif

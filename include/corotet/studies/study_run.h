@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_studies_study_run_h
+#define corotet_studies_study_run_h
+
+#include <corotet/base/parameter_file.h>
+#include <corotet/simulation/modal_analysis.h>
+#include <corotet/simulation/simulation.h>
+#include <corotet/studies/run_parameters.h>
+#include <corotet/studies/study_parameters.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * What a study keeps of a run.
+   */
+  struct StudyResult
+  {
+    StudyCase study_case;
+    /// "done" or "failed", and why.
+    std::string status = "done";
+    std::string message;
+
+    std::size_t cells = 0;
+    std::size_t nodes = 0;
+    std::size_t dofs  = 0;
+    /// Edge of the regular tetrahedron that has the mean volume of the cells
+    /// [m].
+    double h = 0;
+    /// Against the exact solution, or a finer run.
+    std::optional<ErrorNorms> errors;
+    /// In the order of the study's quantities; not a number where the run has
+    /// failed.
+    std::vector<double> quantities;
+
+    unsigned int steps             = 0;
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+    WallTimes    wall_times;
+    double       total_wall_time = 0;
+    /// Over all ranks.
+    std::size_t peak_memory_bytes = 0;
+  };
+
+  nlohmann::ordered_json
+  to_json(const StudyResult &result);
+
+  /// The result of @p study_case as to_json() gave it. Throws
+  /// nlohmann::json::exception if the object is none.
+  StudyResult
+  from_json(const StudyCase &study_case, const nlohmann::ordered_json &object);
+
+  /**
+   * One run of a study: the parameter file with the values of a StudyCase.
+   * Members are collective.
+   */
+  class StudyRun
+  {
+  public:
+    /// Reads @p path with @p overrides and those of @p study_case, and checks
+    /// everything. Lines of the run's log go nowhere until open_log(). Throws
+    /// InputError.
+    StudyRun(const std::string              &path,
+             const std::vector<std::string> &overrides,
+             const StudyCase                &study_case,
+             const MPI_Comm                  comm);
+    ~StudyRun();
+
+    void
+    open_log(const std::string &path)
+    {
+      log.open(path);
+    }
+
+    /// All parameters but those of the study and of the output, to recognize
+    /// results of another problem by.
+    nlohmann::ordered_json
+    fingerprint() const;
+
+    /// Runs it. A failure is part of the result. Throws InputError if a
+    /// quantity is unknown.
+    StudyResult
+    compute();
+
+    /// Null if the run is one of modes.
+    const Simulation *
+    simulation() const
+    {
+      return simulated.get();
+    }
+
+    const std::map<unsigned int, IsotropicMaterial> &
+    materials() const
+    {
+      return region_materials;
+    }
+
+  private:
+    void
+    simulate(StudyResult &result);
+    void
+    analyse_modes(StudyResult &result);
+    /// By name, of the modes that have been computed; others are not numbers.
+    nlohmann::ordered_json
+    frequencies() const;
+    /// The values of the quantities among those that the run has.
+    std::vector<double>
+    pick(const nlohmann::ordered_json &values) const;
+
+    ParameterFile                             file;
+    RunParameters                             parameters;
+    StudyCase                                 study_case;
+    MPI_Comm                                  comm;
+    Log                                       log;
+    std::unique_ptr<Simulation>               simulated;
+    std::unique_ptr<ModalAnalysis>            analysis;
+    std::map<unsigned int, IsotropicMaterial> region_materials;
+  };
+} // namespace corotet
+
+#endif

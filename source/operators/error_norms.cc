@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/discretization/reference_element.h>
+#include <corotet/operators/error_norms.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    // Squares of the norms.
+    void
+    add(FieldNorms              &sums,
+        const IsotropicMaterial &material,
+        const Tensor<1, 3>      &value,
+        const Tensor<2, 3>      &gradient,
+        const double             weight)
+    {
+      sums.L2 += weight * value.norm_square();
+      sums.H1 += weight * gradient.norm_square();
+      sums.energy +=
+        weight * 2 * energy_density(material, symmetrize(gradient));
+    }
+
+    FieldNorms
+    total(const FieldNorms &sums, const MPI_Comm comm)
+    {
+      const auto norm = [&](const double square) {
+        return std::sqrt(dealii::Utilities::MPI::sum(square, comm));
+      };
+      return {norm(sums.L2), norm(sums.H1), norm(sums.energy)};
+    }
+  } // namespace
+
+  ErrorNorms
+  error_norms(
+    const Discretization                                     &discretization,
+    const std::map<unsigned int, IsotropicMaterial>          &materials,
+    const Vector                                             &u,
+    const std::function<PointDisplacement(const Point<3> &)> &reference)
+  {
+    const auto rule =
+      ReferenceElement::tabulate(discretization.element(),
+                                 dealii::QWitherdenVincentSimplex<3>(5));
+    ErrorNorms sums;
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      {
+        const CellGeometry &geometry = discretization.geometry(c);
+        const auto          nodes    = discretization.cell_nodes(c);
+        const Point<3>      origin   = discretization.node_position(nodes[0]);
+        const Tensor<2, 3>  J        = invert(geometry.inverse_jacobian);
+        const IsotropicMaterial &material = materials.at(geometry.region);
+        for (unsigned int q = 0; q < rule.weights.size(); ++q)
+          {
+            Tensor<1, 3> value;
+            Tensor<2, 3> gradient;
+            for (unsigned int i = 0; i < nodes.size(); ++i)
+              for (unsigned int a = 0; a < 3; ++a)
+                {
+                  const double u_ia = u.local_element(3 * nodes[i] + a);
+                  value[a] += u_ia * rule.values[q][i];
+                  for (unsigned int k = 0; k < 3; ++k)
+                    gradient[a][k] += u_ia * rule.gradients[q][i][k];
+                }
+            gradient = gradient * geometry.inverse_jacobian;
+            const PointDisplacement exact =
+              reference(origin + J * rule.points[q]);
+            const double weight = rule.weights[q] * geometry.volume;
+            add(sums.error,
+                material,
+                value - exact.value,
+                gradient - exact.gradient,
+                weight);
+            add(sums.reference, material, exact.value, exact.gradient, weight);
+          }
+      }
+    const MPI_Comm comm = discretization.communicator();
+    return {total(sums.error, comm), total(sums.reference, comm)};
+  }
+} // namespace corotet

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/timing.h>
+#include <corotet/base/version.h>
+#include <corotet/base/whole_file.h>
+#include <corotet/studies/convergence_study.h>
+#include <corotet/studies/study_table.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace corotet
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    // The text of a file on all ranks; empty if it does not exist.
+    std::string
+    read_file(const std::string &path, const MPI_Comm comm)
+    {
+      std::string text;
+      on_root(comm, [&] {
+        std::ifstream      file(path);
+        std::ostringstream content;
+        content << file.rdbuf();
+        text = content.str();
+      });
+      return dealii::Utilities::MPI::broadcast(comm, text, 0);
+    }
+
+    // One argument of a shell command.
+    std::string
+    quoted(const std::string &text)
+    {
+      std::string result = "'";
+      for (const char character : text)
+        result +=
+          character == '\'' ? std::string("'\\''") : std::string(1, character);
+      return result + "'";
+    }
+
+    std::string
+    describe(const StudyResult &result)
+    {
+      std::string text = fmt::format("{} cells, {} unknowns, {:.2f} s",
+                                     result.cells,
+                                     result.dofs,
+                                     result.total_wall_time);
+      if (result.errors)
+        text += fmt::format(", L2 error {:.3e}", result.errors->error.L2);
+      return result.status == "done" ? text :
+                                       text + ", failed: " + result.message;
+    }
+  } // namespace
+
+  ConvergenceStudy::ConvergenceStudy(const CommandLine     &command,
+                                     const StudyParameters &parameters,
+                                     const MPI_Comm         comm,
+                                     Log                   &log)
+    : command(command)
+    , parameters(parameters)
+    , cases(parameters.cases())
+    , quantities(parameters.quantity_list())
+    , comm(comm)
+    , log(log)
+  {
+    const bool modes = parameters.run == "modes";
+    if (parameters.reference == "none" && quantities.empty())
+      throw InputError("Convergence study/Quantities",
+                       "there is nothing to compare: found no quantities and "
+                       "no reference; allowed: quantities, or another value of "
+                       "Convergence study/Reference");
+    if (modes && parameters.reference == "exact solution")
+      throw InputError("Convergence study/Reference",
+                       "found 'exact solution' for modes; allowed: 'none' or "
+                       "'finer run'");
+    std::set<std::string> checked;
+    for (StudyCase one : cases)
+      {
+        one.refinements = cases.front().refinements;
+        one.time_step   = cases.front().time_step;
+        if (!checked.insert(one.name()).second)
+          continue;
+        const StudyRun run(command.parameter_file,
+                           command.overrides,
+                           one,
+                           comm);
+        if (!modes && parameters.reference == "exact solution" &&
+            run.simulation()->structural_system().exact_solution() == nullptr)
+          throw InputError("Convergence study/Reference",
+                           "found 'exact solution', but Exact "
+                           "solution/Displacement is empty; allowed: 'finer "
+                           "run' or 'none', or an exact solution");
+      }
+  }
+
+  void
+  ConvergenceStudy::run(const std::string &output_directory)
+  {
+    directory = output_directory;
+    on_root(comm, [&] {
+      std::error_code error;
+      std::filesystem::create_directories(directory + "/rows", error);
+      if (error)
+        throw MachineError(
+          directory + "/rows: the folder cannot be made: " + error.message());
+    });
+    std::vector<StudyResult> results;
+    unsigned int             n_failed = 0;
+    for (const StudyCase &one : cases)
+      {
+        log.progress(fmt::format(
+          "run {} of {}: {}", results.size() + 1, cases.size(), one.name()));
+        results.push_back(result_of(one));
+        log.line(fmt::format("Run {} of {}, {}: {}",
+                             results.size(),
+                             cases.size(),
+                             one.name(),
+                             describe(results.back())));
+        n_failed += results.back().status == "done" ? 0 : 1;
+        // All that there is, if the study is stopped.
+        write(results);
+      }
+    for (const std::string &line : StudyTable(results, quantities).lines())
+      log.line(line);
+    draw();
+    if (n_failed > 0)
+      throw ComputationError(fmt::format(
+        "{} of {} runs of the study have failed", n_failed, cases.size()));
+  }
+
+  StudyResult
+  ConvergenceStudy::result_of(const StudyCase &study_case)
+  {
+    const std::string path = directory + "/rows/" + study_case.name();
+    auto              run  = std::make_unique<StudyRun>(command.parameter_file,
+                                          command.overrides,
+                                          study_case,
+                                          comm);
+    Json              problem = run->fingerprint();
+    problem["quantities"]     = Json::array();
+    for (const auto &quantity : quantities)
+      problem["quantities"].push_back(quantity.name);
+    problem["reference"] = parameters.reference == "finer run" ?
+                             finer_case().name() :
+                             parameters.reference;
+    problem["ranks"]     = dealii::Utilities::MPI::n_mpi_processes(comm);
+
+    const Json kept =
+      Json::parse(read_file(path + ".json", comm), nullptr, false);
+    if (kept.is_object() && kept.value("problem", Json()) == problem)
+      {
+        StudyResult result = from_json(study_case, kept.at("result"));
+        if (kept.contains("finer_quantities"))
+          for (unsigned int i = 0; i < quantities.size(); ++i)
+            if (!quantities[i].reference)
+              quantities[i].reference =
+                kept.at("finer_quantities").at(i).get<double>();
+        return result;
+      }
+
+    run->open_log(path + ".log");
+    StudyResult result = run->compute();
+    Json        file{{"problem", problem}};
+    if (parameters.reference == "finer run")
+      {
+        compare_with_finer_run(result, *run);
+        for (const auto &quantity : quantities)
+          file["finer_quantities"].push_back(
+            quantity.reference.value_or(std::nan("")));
+      }
+    file["result"] = to_json(result);
+    on_root(comm, [&] {
+      write_whole_file(path + ".json", file.dump(2) + "\n", "the result");
+    });
+    return result;
+  }
+
+  StudyCase
+  ConvergenceStudy::finer_case() const
+  {
+    StudyCase finest = cases.front();
+    for (const StudyCase &one : cases)
+      {
+        finest.degree      = std::max(finest.degree, one.degree);
+        finest.refinements = std::max(finest.refinements, one.refinements);
+        if (one.time_step)
+          finest.time_step = std::min(*finest.time_step, *one.time_step);
+      }
+    finest.refinements += parameters.further_refinements;
+    // With the file's own.
+    finest.mass.reset();
+    finest.rotation.reset();
+    return finest;
+  }
+
+  const StudyRun &
+  ConvergenceStudy::finer_run()
+  {
+    if (finer)
+      return *finer;
+    finer = std::make_unique<StudyRun>(command.parameter_file,
+                                       command.overrides,
+                                       finer_case(),
+                                       comm);
+    finer->open_log(directory + "/rows/finer_run.log");
+    const StudyResult result = finer->compute();
+    log.line("Finer run, " + finer_case().name() + ": " + describe(result));
+    if (result.status != "done")
+      throw ComputationError("the finer run has failed: " + result.message);
+    for (unsigned int i = 0; i < quantities.size(); ++i)
+      if (!quantities[i].reference)
+        quantities[i].reference = result.quantities[i];
+    if (const Simulation *simulation = finer->simulation())
+      finer_norms = error_norms(simulation->discretization(),
+                                finer->materials(),
+                                simulation->structural_system().displacement(),
+                                [](const dealii::Point<3> &) {
+                                  return PointDisplacement();
+                                })
+                      .error;
+    return *finer;
+  }
+
+  void
+  ConvergenceStudy::compare_with_finer_run(StudyResult    &result,
+                                           const StudyRun &run)
+  {
+    const Simulation *fine   = finer_run().simulation();
+    const Simulation *coarse = run.simulation();
+    if (fine == nullptr || result.status != "done")
+      return;
+    const GatheredField field(coarse->discretization(),
+                              coarse->structural_system().displacement());
+    result.errors =
+      error_norms(fine->discretization(),
+                  finer->materials(),
+                  fine->structural_system().displacement(),
+                  [&](const dealii::Point<3> &x) { return field.value(x); });
+    result.errors->reference = finer_norms;
+  }
+
+  void
+  ConvergenceStudy::write(const std::vector<StudyResult> &results)
+  {
+    on_root(comm, [&] {
+      const StudyTable table(results, quantities);
+      write_whole_file(directory + "/study.csv", table.csv(), "the study");
+      write_whole_file(directory + "/study.tex", table.latex(), "the study");
+      const auto n_failed =
+        std::count_if(results.begin(), results.end(), [](const auto &result) {
+          return result.status != "done";
+        });
+      const Json summary{{"status",
+                          n_failed > 0                   ? "failed" :
+                          results.size() == cases.size() ? "done" :
+                                                           "unfinished"},
+                         {"version", version},
+                         {"git_revision", git_revision},
+                         {"ranks",
+                          dealii::Utilities::MPI::n_mpi_processes(comm)},
+                         {"runs", cases.size()},
+                         {"finished_runs", results.size()},
+                         {"failed_runs", n_failed}};
+      write_whole_file(directory + "/summary.json",
+                       summary.dump(2) + "\n",
+                       "the summary");
+    });
+  }
+
+  void
+  ConvergenceStudy::draw() const
+  {
+    on_root(comm, [&] {
+      const std::string command =
+        quoted(COROTET_SCRIPTS "/draw_study") + " " + quoted(directory);
+      if (std::system(command.c_str()) != 0)
+        log.warning("the pictures of the study could not be drawn; "
+                    "scripts/draw_study needs Python and matplotlib");
+    });
+  }
+} // namespace corotet

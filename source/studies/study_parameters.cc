@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/studies/study_parameters.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  namespace
+  {
+    const std::string section = "Convergence study/";
+
+    // All values, or the one that says that the parameter file's is taken.
+    template <typename T>
+    std::vector<std::optional<T>>
+    choices(const std::vector<T> &values)
+    {
+      if (values.empty())
+        return {std::nullopt};
+      return {values.begin(), values.end()};
+    }
+  } // namespace
+
+  std::string
+  StudyCase::name() const
+  {
+    std::string name =
+      fmt::format("degree_{}_refinements_{}", degree, refinements);
+    if (time_step)
+      name += fmt::format("_time_step_{}", *time_step);
+    for (const auto &word : {mass, rotation})
+      if (word)
+        name += "_" + *word;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    name.erase(std::remove(name.begin(), name.end(), ','), name.end());
+    return name;
+  }
+
+  std::vector<std::string>
+  StudyCase::overrides() const
+  {
+    std::vector<std::string> result = {
+      fmt::format("Discretization/Degree = {}", degree),
+      fmt::format("Mesh/Refinements = {}", refinements)};
+    if (time_step)
+      result.push_back(
+        fmt::format("Time integration/Time step = {}", *time_step));
+    if (mass)
+      result.push_back("Discretization/Mass = " + *mass);
+    if (rotation)
+      result.push_back("Material/Rotation = " + *rotation);
+    return result;
+  }
+
+  void
+  StudyParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Run",
+                      run,
+                      "What is run again and again: as in Type.",
+                      Selection("simulation|modes"));
+    prm.add_parameter("Degrees",
+                      degrees,
+                      "Values of Discretization/Degree.",
+                      List(Integer(1, 3), 1));
+    prm.add_parameter("Refinements",
+                      refinements,
+                      "Values of Mesh/Refinements, increasing.",
+                      List(Integer(0, 9), 1));
+    prm.add_parameter("Time steps",
+                      time_steps,
+                      "Values of Time integration/Time step [s], decreasing. "
+                      "Empty: that of the file.",
+                      List(Double(0)));
+    prm.add_parameter("Masses",
+                      masses,
+                      "Values of Discretization/Mass. Empty: that of the file.",
+                      List(Selection("consistent|diagonal scaling|row sum|"
+                                     "nodal quadrature")));
+    prm.add_parameter(
+      "Rotations",
+      rotations,
+      "Values of Material/Rotation, separated by semicolons. Empty: that of "
+      "the file.",
+      List(Selection("cell centre|cell centre, variational|quadrature points"),
+           0,
+           List::max_int_value,
+           ";"));
+    prm.add_parameter(
+      "Reference",
+      reference,
+      "What fields are compared with: 'exact solution', that of section Exact "
+      "solution; 'finer run', one of the highest degree on the finest mesh, "
+      "refined further, with the shortest time step; 'none', only Quantities "
+      "are looked at.",
+      Selection("exact solution|finer run|none"));
+    prm.add_parameter("Further refinements",
+                      further_refinements,
+                      "Of the finer run [-].",
+                      Integer(0, 3));
+    prm.add_parameter(
+      "Quantities",
+      quantities,
+      "Numbers to be compared, 'name, name: value': columns of history.csv, of "
+      "their last row, or frequency_1, frequency_2, ... [Hz] of modes, with "
+      "the value that they should have. Without it that of the finer run, if "
+      "there is one.");
+  }
+
+  std::vector<StudyCase>
+  StudyParameters::cases() const
+  {
+    const auto sorted = [](const auto &values, const auto &before) {
+      return std::adjacent_find(values.begin(),
+                                values.end(),
+                                [&](const auto &a, const auto &b) {
+                                  return !before(a, b);
+                                }) == values.end();
+    };
+    if (!sorted(refinements, std::less<>()))
+      throw InputError(section + "Refinements",
+                       "the values do not increase; each is allowed once");
+    if (!sorted(time_steps, std::greater<>()))
+      throw InputError(section + "Time steps",
+                       "the values do not decrease; each is allowed once");
+    std::vector<StudyCase> result;
+    for (const auto &mass : choices(masses))
+      for (const auto &rotation : choices(rotations))
+        for (const unsigned int degree : degrees)
+          for (const auto &time_step : choices(time_steps))
+            for (const unsigned int n : refinements)
+              {
+                const StudyCase one{degree, n, time_step, mass, rotation};
+                if (std::find(result.begin(), result.end(), one) !=
+                    result.end())
+                  throw InputError(section + "Degrees",
+                                   "a value is given twice in Degrees, Masses "
+                                   "or Rotations; each is allowed once");
+                result.push_back(one);
+              }
+    return result;
+  }
+
+  std::vector<StudyParameters::Quantity>
+  StudyParameters::quantity_list() const
+  {
+    std::vector<Quantity> result;
+    if (dealii::Utilities::trim(quantities).empty())
+      return result;
+    for (const std::string &item : split_outside_brackets(quantities, ','))
+      {
+        const auto parts = split_outside_brackets(item, ':');
+        Quantity   quantity{parts[0], {}};
+        try
+          {
+            if (parts.size() == 2)
+              quantity.reference =
+                dealii::Utilities::string_to_double(parts[1]);
+          }
+        catch (const dealii::ExceptionBase &)
+          {}
+        if (parts.size() > 2 || parts[0].empty() ||
+            (parts.size() == 2 && !quantity.reference))
+          throw InputError(section + "Quantities",
+                           fmt::format("found '{}'; allowed: 'name' or 'name: "
+                                       "number'",
+                                       item));
+        result.push_back(quantity);
+      }
+    return result;
+  }
+} // namespace corotet

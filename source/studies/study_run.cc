@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/memory.h>
+#include <corotet/base/text.h>
+#include <corotet/output/history_writer.h>
+#include <corotet/simulation/modal_analysis.h>
+#include <corotet/studies/study_run.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace corotet
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    const std::string quantities_entry = "Convergence study/Quantities";
+
+    // Iterations of all steps, and what a row of the history says of the last.
+    class LastRow : public Observer
+    {
+    public:
+      explicit LastRow(const Probes &probes)
+        : probes(probes)
+      {}
+
+      void
+      start(const Snapshot &initial) override
+      {
+        step(initial);
+      }
+
+      void
+      step(const Snapshot &state) override
+      {
+        newton_iterations += state.record.newton_iterations;
+        linear_iterations += state.record.linear_iterations;
+        if (state.last || row.is_null())
+          row = history_row(state.record,
+                            probes.names(),
+                            probes.displacements(state.displacement));
+      }
+
+      void
+      finish(const RunSummary &run_summary) override
+      {
+        summary = run_summary;
+      }
+
+      Probes       probes;
+      Json         row;
+      RunSummary   summary;
+      unsigned int newton_iterations = 0;
+      unsigned int linear_iterations = 0;
+    };
+
+    void
+    take(StudyResult &result, const RunSummary &summary)
+    {
+      result.cells = summary.cells;
+      result.nodes = summary.nodes;
+      result.dofs  = summary.dofs;
+      result.h =
+        std::cbrt(6 * std::sqrt(2.) * summary.mesh_volume / summary.cells);
+      result.errors          = summary.errors;
+      result.steps           = summary.steps;
+      result.wall_times      = summary.wall_times;
+      result.total_wall_time = summary.total_wall_time;
+    }
+
+    std::vector<std::string>
+    names_of(const std::vector<ProbePoint> &probes)
+    {
+      std::vector<std::string> names;
+      for (const ProbePoint &probe : probes)
+        names.push_back(probe.name);
+      return names;
+    }
+
+    Json
+    norms_to_json(const FieldNorms &norms)
+    {
+      return Json::array({norms.L2, norms.H1, norms.energy});
+    }
+
+    FieldNorms
+    norms_from_json(const Json &list)
+    {
+      return {list.at(0), list.at(1), list.at(2)};
+    }
+  } // namespace
+
+  Json
+  to_json(const StudyResult &result)
+  {
+    Json object;
+    object["status"]  = result.status;
+    object["message"] = result.message;
+    object["cells"]   = result.cells;
+    object["nodes"]   = result.nodes;
+    object["dofs"]    = result.dofs;
+    object["h"]       = result.h;
+    if (result.errors)
+      {
+        object["errors"]    = norms_to_json(result.errors->error);
+        object["reference"] = norms_to_json(result.errors->reference);
+      }
+    // Not a number would be null.
+    object["quantities"] = Json::array();
+    for (const double value : result.quantities)
+      object["quantities"].push_back(fmt::format("{}", value));
+    object["steps"]             = result.steps;
+    object["newton_iterations"] = result.newton_iterations;
+    object["linear_iterations"] = result.linear_iterations;
+    object["wall_times"]        = {result.wall_times.setup,
+                                   result.wall_times.assembly,
+                                   result.wall_times.solve,
+                                   result.wall_times.output,
+                                   result.total_wall_time};
+    object["peak_memory_bytes"] = result.peak_memory_bytes;
+    return object;
+  }
+
+  StudyResult
+  from_json(const StudyCase &study_case, const Json &object)
+  {
+    StudyResult result;
+    result.study_case = study_case;
+    result.status     = object.at("status");
+    result.message    = object.at("message");
+    result.cells      = object.at("cells");
+    result.nodes      = object.at("nodes");
+    result.dofs       = object.at("dofs");
+    result.h          = object.at("h");
+    if (object.contains("errors"))
+      result.errors = {norms_from_json(object.at("errors")),
+                       norms_from_json(object.at("reference"))};
+    for (const auto &value : object.at("quantities"))
+      result.quantities.push_back(std::stod(value.get<std::string>()));
+    result.steps             = object.at("steps");
+    result.newton_iterations = object.at("newton_iterations");
+    result.linear_iterations = object.at("linear_iterations");
+    const Json &times        = object.at("wall_times");
+    result.wall_times = {times.at(0), times.at(1), times.at(2), times.at(3)};
+    result.total_wall_time   = times.at(4);
+    result.peak_memory_bytes = object.at("peak_memory_bytes");
+    return result;
+  }
+
+  StudyRun::StudyRun(const std::string              &path,
+                     const std::vector<std::string> &overrides,
+                     const StudyCase                &study_case,
+                     const MPI_Comm                  comm)
+    : study_case(study_case)
+    , comm(comm)
+    , log(comm, /* quiet = */ true)
+  {
+    parameters.declare_parameters(file.handler());
+    std::vector<std::string> all = overrides;
+    for (const std::string &text : study_case.overrides())
+      all.push_back(text);
+    file.read(path, all);
+    reset_peak_memory();
+    if (parameters.study.run == "modes")
+      analysis = std::make_unique<ModalAnalysis>(parameters.simulation,
+                                                 file.folder(),
+                                                 comm,
+                                                 log);
+    else
+      {
+        simulated        = std::make_unique<Simulation>(parameters.simulation,
+                                                 file.folder(),
+                                                 comm,
+                                                 log);
+        region_materials = parameters.simulation.material.materials(
+          simulated->discretization().mesh().regions());
+      }
+    // Before the work starts.
+    pick(simulated ? history_row({},
+                                 names_of(parameters.output.probe_points()),
+                                 {parameters.output.probe_points().size(),
+                                  dealii::Tensor<1, 3>()}) :
+                     frequencies());
+  }
+
+  StudyRun::~StudyRun() = default;
+
+  Json
+  StudyRun::fingerprint() const
+  {
+    Json entries = file.values();
+    entries.erase("Convergence study");
+    entries["Output"] = parameters.output.probes;
+    return entries;
+  }
+
+  StudyResult
+  StudyRun::compute()
+  {
+    StudyResult result;
+    result.study_case = study_case;
+    if (simulated)
+      simulate(result);
+    else
+      analyse_modes(result);
+    result.peak_memory_bytes = peak_memory(comm);
+    return result;
+  }
+
+  void
+  StudyRun::simulate(StudyResult &result)
+  {
+    std::vector<std::unique_ptr<Observer>> observers;
+    observers.push_back(std::make_unique<LastRow>(
+      Probes(parameters.output.probe_points(), simulated->discretization())));
+    const auto &last = static_cast<const LastRow &>(*observers.front());
+    try
+      {
+        simulated->run(observers, {parameters.output.steps_between_rows, 0.});
+      }
+    catch (const ComputationError &error)
+      {
+        result.status  = "failed";
+        result.message = error.what();
+      }
+    take(result, last.summary);
+    result.newton_iterations = last.newton_iterations;
+    result.linear_iterations = last.linear_iterations;
+    result.quantities        = pick(last.row);
+    if (result.status != "done")
+      {
+        result.errors.reset();
+        result.quantities.assign(result.quantities.size(),
+                                 std::numeric_limits<double>::quiet_NaN());
+      }
+  }
+
+  void
+  StudyRun::analyse_modes(StudyResult &result)
+  {
+    try
+      {
+        analysis->compute();
+      }
+    catch (const ComputationError &error)
+      {
+        result.status  = "failed";
+        result.message = error.what();
+      }
+    take(result, analysis->summary());
+    result.linear_iterations = analysis->n_linear_iterations();
+    result.quantities        = pick(frequencies());
+  }
+
+  Json
+  StudyRun::frequencies() const
+  {
+    Json result;
+    for (unsigned int i = 0; i < parameters.simulation.modes.number; ++i)
+      result[fmt::format("frequency_{}", i + 1)] =
+        i < analysis->modes().size() ? analysis->modes()[i].frequency :
+                                       std::numeric_limits<double>::quiet_NaN();
+    return result;
+  }
+
+  std::vector<double>
+  StudyRun::pick(const Json &values) const
+  {
+    std::vector<double> result;
+    for (const auto &quantity : parameters.study.quantity_list())
+      {
+        if (!values.contains(quantity.name))
+          {
+            std::vector<std::string> names;
+            for (const auto &[name, value] : values.items())
+              names.push_back(name);
+            throw InputError(quantities_entry,
+                             fmt::format("the quantity '{}' is unknown; "
+                                         "allowed are {}",
+                                         quantity.name,
+                                         join(names)));
+          }
+        result.push_back(values.at(quantity.name).get<double>());
+      }
+    return result;
+  }
+} // namespace corotet

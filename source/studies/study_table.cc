@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/output/csv.h>
+#include <corotet/studies/study_table.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corotet
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+    double
+    order(const double error_1,
+          const double error_2,
+          const double h_1,
+          const double h_2)
+    {
+      const double value = std::log(error_1 / error_2) / std::log(h_1 / h_2);
+      return std::isfinite(value) ? value : nan;
+    }
+
+    // Whether b is what a is, but for the refinement or for the time step.
+    bool
+    is_refinement_of(const StudyCase &b, StudyCase a)
+    {
+      a.refinements = b.refinements;
+      return a == b;
+    }
+
+    bool
+    is_shorter_step_of(const StudyCase &b, StudyCase a)
+    {
+      if (!a.time_step || !b.time_step || *b.time_step >= *a.time_step)
+        return false;
+      a.time_step = b.time_step;
+      return a == b;
+    }
+
+    std::string
+    order_text(const double value)
+    {
+      return std::isnan(value) ? "" : fmt::format("{:.2f}", value);
+    }
+  } // namespace
+
+  StudyTable::StudyTable(
+    const std::vector<StudyResult>               &results,
+    const std::vector<StudyParameters::Quantity> &quantities)
+    : results(results)
+    , quantities(quantities)
+  {
+    const auto norm = [&](const std::string &name, double FieldNorms::*norm) {
+      std::vector<double> values;
+      for (const StudyResult &result : results)
+        values.push_back(result.errors ? result.errors->error.*norm : nan);
+      add_error(name, values);
+    };
+    if (std::any_of(results.begin(), results.end(), [](const auto &result) {
+          return result.errors.has_value();
+        }))
+      {
+        norm("L2", &FieldNorms::L2);
+        norm("H1", &FieldNorms::H1);
+        norm("energy", &FieldNorms::energy);
+      }
+    for (unsigned int i = 0; i < quantities.size(); ++i)
+      if (quantities[i].reference)
+        {
+          std::vector<double> values;
+          for (const StudyResult &result : results)
+            values.push_back(
+              std::abs(result.quantities[i] - *quantities[i].reference));
+          add_error(quantities[i].name, values);
+        }
+  }
+
+  void
+  StudyTable::add_error(const std::string         &name,
+                        const std::vector<double> &values)
+  {
+    Error error{name, values, {}, {}};
+    error.orders.assign(values.size(), nan);
+    error.orders_in_time.assign(values.size(), nan);
+    for (unsigned int i = 0; i < values.size(); ++i)
+      // The nearest one that comes before it.
+      for (unsigned int j = 0; j < i; ++j)
+        {
+          const StudyCase &coarse = results[j].study_case;
+          const StudyCase &fine   = results[i].study_case;
+          if (is_refinement_of(fine, coarse))
+            error.orders[i] =
+              order(values[j], values[i], results[j].h, results[i].h);
+          if (is_shorter_step_of(fine, coarse))
+            {
+              has_orders_in_time = true;
+              error.orders_in_time[i] =
+                order(values[j], values[i], *coarse.time_step, *fine.time_step);
+            }
+        }
+    errors.push_back(error);
+  }
+
+  std::string
+  StudyTable::csv() const
+  {
+    std::string text;
+    for (unsigned int i = 0; i < results.size(); ++i)
+      {
+        const StudyResult &result = results[i];
+        const StudyCase   &one    = result.study_case;
+        Json               row;
+        row["degree"]      = one.degree;
+        row["refinements"] = one.refinements;
+        if (one.time_step)
+          row["time_step"] = *one.time_step;
+        if (one.mass)
+          row["mass"] = *one.mass;
+        if (one.rotation)
+          row["rotation"] = *one.rotation;
+        row["status"] = result.status;
+        row["cells"]  = result.cells;
+        row["nodes"]  = result.nodes;
+        row["dofs"]   = result.dofs;
+        row["h"]      = result.h;
+        if (!errors.empty() && errors[0].name == "L2")
+          {
+            const ErrorNorms norms  = result.errors.value_or(ErrorNorms());
+            row["L2_reference"]     = norms.reference.L2;
+            row["H1_reference"]     = norms.reference.H1;
+            row["energy_reference"] = norms.reference.energy;
+          }
+        for (unsigned int k = 0; k < quantities.size(); ++k)
+          row[quantities[k].name] = result.quantities[k];
+        for (const Error &error : errors)
+          {
+            row[error.name + "_error"] = error.values[i];
+            row[error.name + "_order"] = error.orders[i];
+            if (has_orders_in_time)
+              row[error.name + "_order_in_time"] = error.orders_in_time[i];
+          }
+        row["steps"]             = result.steps;
+        row["newton_iterations"] = result.newton_iterations;
+        row["linear_iterations"] = result.linear_iterations;
+        row["setup_time"]        = result.wall_times.setup;
+        row["assembly_time"]     = result.wall_times.assembly;
+        row["solve_time"]        = result.wall_times.solve;
+        row["wall_time"]         = result.total_wall_time;
+        row["peak_memory_bytes"] = result.peak_memory_bytes;
+        if (i == 0)
+          text += csv_line(row, true);
+        text += csv_line(row, false);
+      }
+    return text;
+  }
+
+  std::vector<std::vector<std::string>>
+  StudyTable::cells() const
+  {
+    const StudyCase         &first = results.front().study_case;
+    std::vector<std::string> titles{"degree", "refinements"};
+    if (first.time_step)
+      titles.push_back("time step");
+    if (first.mass)
+      titles.push_back("mass");
+    if (first.rotation)
+      titles.push_back("rotation");
+    for (const char *title : {"cells", "dofs", "h"})
+      titles.push_back(title);
+    for (const auto &quantity : quantities)
+      titles.push_back(quantity.name);
+    for (const Error &error : errors)
+      {
+        titles.push_back(error.name + " error");
+        titles.push_back("order");
+        if (has_orders_in_time)
+          titles.push_back("in time");
+      }
+    for (const char *title : {"Newton", "linear", "time [s]"})
+      titles.push_back(title);
+
+    std::vector<std::vector<std::string>> table{titles};
+    for (unsigned int i = 0; i < results.size(); ++i)
+      {
+        const StudyResult       &result = results[i];
+        const StudyCase         &one    = result.study_case;
+        std::vector<std::string> row{fmt::format("{}", one.degree),
+                                     fmt::format("{}", one.refinements)};
+        if (one.time_step)
+          row.push_back(fmt::format("{:.4g}", *one.time_step));
+        if (one.mass)
+          row.push_back(*one.mass);
+        if (one.rotation)
+          row.push_back(*one.rotation);
+        row.push_back(fmt::format("{}", result.cells));
+        row.push_back(fmt::format("{}", result.dofs));
+        row.push_back(fmt::format("{:.4g}", result.h));
+        for (const double value : result.quantities)
+          row.push_back(fmt::format("{:.7g}", value));
+        for (const Error &error : errors)
+          {
+            row.push_back(std::isnan(error.values[i]) ?
+                            result.status :
+                            fmt::format("{:.3e}", error.values[i]));
+            row.push_back(order_text(error.orders[i]));
+            if (has_orders_in_time)
+              row.push_back(order_text(error.orders_in_time[i]));
+          }
+        row.push_back(fmt::format("{}", result.newton_iterations));
+        row.push_back(fmt::format("{}", result.linear_iterations));
+        row.push_back(fmt::format("{:.2f}", result.total_wall_time));
+        table.push_back(row);
+      }
+    return table;
+  }
+
+  std::vector<std::string>
+  StudyTable::lines() const
+  {
+    const auto               table = cells();
+    std::vector<std::size_t> widths(table[0].size(), 0);
+    for (const auto &row : table)
+      for (unsigned int c = 0; c < row.size(); ++c)
+        widths[c] = std::max(widths[c], row[c].size());
+    std::vector<std::string> result;
+    for (const auto &row : table)
+      {
+        std::string line;
+        for (unsigned int c = 0; c < row.size(); ++c)
+          line += fmt::format("{:>{}}", row[c], widths[c] + (c == 0 ? 0 : 2));
+        result.push_back(line);
+      }
+    return result;
+  }
+
+  std::string
+  StudyTable::latex() const
+  {
+    const auto  table = cells();
+    std::string text  = fmt::format("\\begin{{tabular}}{{{}}}\n\\toprule\n",
+                                   std::string(table[0].size(), 'r'));
+    for (unsigned int r = 0; r < table.size(); ++r)
+      {
+        std::string line;
+        for (unsigned int c = 0; c < table[r].size(); ++c)
+          for (const char character : (c == 0 ? "" : " & ") + table[r][c])
+            line +=
+              character == '_' ? std::string("\\_") : std::string(1, character);
+        text += line + " \\\\\n" + (r == 0 ? "\\midrule\n" : "");
+      }
+    return text + "\\bottomrule\n\\end{tabular}\n";
+  }
+} // namespace corotet
