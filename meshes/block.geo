@@ -1,0 +1,21 @@
+// Block of 1 x 0.5 x 0.5 m with unstructured tetrahedra, for convergence studies.
+SetFactory("Built-in");
+size = 0.3;
+Point(1) = {0, 0, 0, size};
+Point(2) = {0, 0.5, 0, size};
+Point(3) = {0, 0.5, 0.5, size};
+Point(4) = {0, 0, 0.5, size};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+sides[] = Extrude {1, 0, 0} { Surface{1}; };
+Physical Surface("x-min") = {1};
+Physical Surface("x-max") = {sides[0]};
+Physical Surface("z-min") = {sides[2]};
+Physical Surface("y-max") = {sides[3]};
+Physical Surface("z-max") = {sides[4]};
+Physical Surface("y-min") = {sides[5]};
+Physical Volume("block") = {sides[1]};
