@@ -24,4 +24,13 @@ namespace corotet
       }
     return line + "\n";
   }
+
+  std::vector<std::string>
+  column_names(const nlohmann::ordered_json &row)
+  {
+    std::vector<std::string> names;
+    for (const auto &[name, value] : row.items())
+      names.push_back(name);
+    return names;
+  }
 } // namespace corotet

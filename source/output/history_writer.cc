@@ -65,6 +65,13 @@ namespace corotet
     return row;
   }
 
+  std::vector<std::string>
+  history_columns(const std::vector<std::string> &probe_names)
+  {
+    return column_names(history_row(
+      {}, probe_names, std::vector<Tensor<1, 3>>(probe_names.size())));
+  }
+
   HistoryWriter::HistoryWriter(const std::string &directory,
                                const Probes      &probes)
     : path(directory + "/history.csv")

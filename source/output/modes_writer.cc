@@ -44,6 +44,13 @@ namespace corotet
     }
   } // namespace
 
+  std::vector<std::string>
+  modes_columns(const std::vector<std::string> &probe_names)
+  {
+    return column_names(table_row(
+      0, {}, 1, probe_names, std::vector<Tensor<1, 3>>(probe_names.size())));
+  }
+
   ModesWriter::ModesWriter(const OutputParameters &parameters,
                            const std::string      &directory,
                            ModalAnalysis          &analysis)

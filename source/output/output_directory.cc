@@ -26,7 +26,7 @@ namespace corotet
     const std::array<std::string_view, 6> own_files{
       {R"(study(_[a-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
-       R"((solution\.vtkhdf|history\.csv|modes\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
+       R"((solution\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"(solution/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.tmp/[^/]+)"}};

@@ -137,6 +137,15 @@ namespace corotet
     return points;
   }
 
+  std::vector<std::string>
+  OutputParameters::probe_names() const
+  {
+    std::vector<std::string> names;
+    for (const ProbePoint &probe : probe_points())
+      names.push_back(probe.name);
+    return names;
+  }
+
   std::string
   OutputParameters::directory_of_run(const std::string &parameter_file) const
   {

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/text.h>
 #include <corotet/base/timing.h>
 #include <corotet/base/version.h>
 #include <corotet/base/whole_file.h>
@@ -106,6 +107,30 @@ namespace corotet
                            "solution/Displacement is empty; allowed: 'finer "
                            "run' or 'none', or an exact solution");
       }
+  }
+
+  std::vector<std::string>
+  ConvergenceStudy::columns() const
+  {
+    // Of a table without numbers.
+    const bool has_norms =
+      parameters.run != "modes" && parameters.reference != "none";
+    std::vector<StudyResult> results;
+    for (const StudyCase &one : cases)
+      {
+        StudyResult result;
+        result.study_case = one;
+        result.quantities.resize(quantities.size());
+        if (has_norms)
+          result.errors = ErrorNorms();
+        results.push_back(result);
+      }
+    auto references = quantities;
+    for (auto &quantity : references)
+      if (parameters.reference == "finer run" && !quantity.reference)
+        quantity.reference = 0;
+    const std::string text = StudyTable(results, references).csv();
+    return split_outside_brackets(text.substr(0, text.find('\n')), ',');
   }
 
   void

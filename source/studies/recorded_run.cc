@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
+#include <corotet/output/history_writer.h>
 #include <corotet/output/modes_writer.h>
 #include <corotet/output/observers.h>
 #include <corotet/output/output_directory.h>
@@ -52,6 +53,7 @@ namespace corotet
     file.read(command.parameter_file, command.overrides);
     SimulationParameters   &simulation_parameters = parameters.simulation;
     const OutputParameters &output                = parameters.output;
+    Verification           &verification          = parameters.verification;
     const bool is_study = simulation_parameters.type == "convergence study";
     if (command.restart && !is_study)
       throw InputError("Type",
@@ -65,7 +67,8 @@ namespace corotet
       check_output_directory(directory, output.overwrite, comm);
 
     Log        log(comm, command.quiet);
-    const auto record = [&](const std::function<void()> &compute) {
+    const auto record = [&](const std::string           &table,
+                            const std::function<void()> &compute) {
       if (command.validate)
         return log.line(command.parameter_file + ": valid");
       if (!command.restart)
@@ -75,26 +78,35 @@ namespace corotet
               [&] { file.write_effective(directory + "/parameters.prm"); });
       compute();
       log.line("Results are in " + directory);
+      verification.compare(
+        std::filesystem::path(command.parameter_file).stem().string(),
+        directory,
+        table,
+        comm,
+        log);
     };
 
     if (is_study)
       {
         ConvergenceStudy study(command, parameters.study, comm, log);
-        return record([&] { study.run(directory); });
+        verification.initialize(study.columns());
+        return record("study.csv", [&] { study.run(directory); });
       }
     if (simulation_parameters.type == "modes")
       {
+        verification.initialize(modes_columns(output.probe_names()));
         ModalAnalysis analysis(simulation_parameters, file.folder(), comm, log);
         ModesWriter   writer(output, directory, analysis);
-        return record([&] { compute_modes(analysis, writer); });
+        return record("modes.csv", [&] { compute_modes(analysis, writer); });
       }
+    verification.initialize(history_columns(output.probe_names()));
     Simulation simulation(simulation_parameters, file.folder(), comm, log);
     const auto observers = make_observers(output,
                                           directory,
                                           simulation.discretization(),
                                           simulation.end_time(),
                                           log);
-    record([&] {
+    record("history.csv", [&] {
       simulation.run(observers,
                      {output.steps_between_rows, output.time_between_results});
     });

@@ -198,6 +198,7 @@ namespace corotet
   {
     Json entries = file.values();
     entries.erase("Convergence study");
+    entries.erase("Verification");
     entries["Output"] = parameters.output.probes;
     return entries;
   }

@@ -46,6 +46,22 @@ class ExitStatus(ProgramTest):
         self.assertGreater(summary["final"]["time"], 0.02)
         self.assertLess(summary["final"]["time"], 0.025)
 
+    def test_failed_check(self):
+        # The run is complete, and the comparison says what is wrong; so on one rank and on two.
+        checks = ("Verification/Source = none", "Verification/Tolerance reason = none", "Time integration/End time = 0.02",
+                  "Verification/Checks = right: last time = 0.02 +- 1e-9 %; wrong: last abs(step) + 1/4 where time > 0 = 2.5 +- 5 %")
+        for ranks in (1, 2):
+            directory = f"ranks_{ranks}"
+            run = self.run_small(*checks, status=2, ranks=ranks, output=directory)
+            self.assertEqual(run.stderr.count("corotet: error: 1 of 2 checks failed; see ranks_"), 1, run.stderr)
+            self.assertEqual((self.folder / directory / "verification.csv").read_text(encoding="utf-8"),
+                             "case,quantity,computed,reference,error,tolerance,pass\n"
+                             "cantilever,right,0.02,0.02,+0 %,1e-9 %,yes\n"
+                             "cantilever,wrong,2.25,2.5,-10 %,5 %,no\n")
+            self.assertEqual(read_summary(self.folder / directory)["status"], "done")
+        self.run_small("Output/Overwrite = true", "Time integration/End time = 0.01", output="ranks_1")
+        self.assertFalse((self.folder / "ranks_1" / "verification.csv").exists())
+
     def test_failed_computation_on_two_ranks(self):
         run = self.run_small("Newton/Maximum iterations = 1", "Loads/Gravity = 0; 0; -1e3", status=2, ranks=2)
         # Once, not once per rank; mpirun adds words of its own.

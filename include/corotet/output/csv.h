@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace corotet
 {
@@ -17,6 +18,12 @@ namespace corotet
    */
   std::string
   csv_line(const nlohmann::ordered_json &row, const bool names);
+
+  /**
+   * The names of a row, in their order.
+   */
+  std::vector<std::string>
+  column_names(const nlohmann::ordered_json &row);
 } // namespace corotet
 
 #endif

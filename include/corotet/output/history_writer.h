@@ -26,6 +26,12 @@ namespace corotet
               const std::vector<dealii::Tensor<1, 3>> &displacements);
 
   /**
+   * The columns of history.csv with probes of these names.
+   */
+  std::vector<std::string>
+  history_columns(const std::vector<std::string> &probe_names);
+
+  /**
    * Writes history.csv: a row per step, step 0 included, each complete in the
    * file before the next step. Numbers have as many digits as it takes to read
    * the same double back. Not a number is written as nan.

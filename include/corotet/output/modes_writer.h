@@ -9,9 +9,16 @@
 #include <corotet/simulation/modal_analysis.h>
 
 #include <string>
+#include <vector>
 
 namespace corotet
 {
+  /**
+   * The columns of modes.csv with probes of these names.
+   */
+  std::vector<std::string>
+  modes_columns(const std::vector<std::string> &probe_names);
+
   /**
    * Writes the results of a modal analysis: modes.csv with a row per mode, the
    * shapes as the steps of solution.vtkhdf, and summary.json.

@@ -39,6 +39,10 @@ namespace corotet
     std::vector<ProbePoint>
     probe_points() const;
 
+    /// The names of these probes. Throws InputError.
+    std::vector<std::string>
+    probe_names() const;
+
     /**
      * The output directory of a run of @p parameter_file: as set, or
      * output/STEM, both relative to the current folder.

@@ -36,6 +36,10 @@ namespace corotet
                      const MPI_Comm         comm,
                      Log                   &log);
 
+    /// Those that study.csv will have.
+    std::vector<std::string>
+    columns() const;
+
     /// Throws ComputationError if runs have failed, after the others.
     void
     run(const std::string &directory);

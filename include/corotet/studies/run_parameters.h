@@ -7,6 +7,7 @@
 #include <corotet/output/output_parameters.h>
 #include <corotet/simulation/simulation_parameters.h>
 #include <corotet/studies/study_parameters.h>
+#include <corotet/studies/verification.h>
 
 namespace corotet
 {
@@ -26,11 +27,15 @@ namespace corotet
       prm.enter_subsection("Output");
       output.declare_parameters(prm);
       prm.leave_subsection();
+      prm.enter_subsection("Verification");
+      verification.declare_parameters(prm);
+      prm.leave_subsection();
     }
 
     SimulationParameters simulation;
     StudyParameters      study;
     OutputParameters     output;
+    Verification         verification;
   };
 } // namespace corotet
 

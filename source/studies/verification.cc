@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/text.h>
+#include <corotet/studies/verification.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+
+namespace corotet
+{
+  namespace
+  {
+    // Quantity, computed, reference, error, tolerance, pass.
+    using Cells = std::array<std::string, 6>;
+
+    const Cells header = {
+      {"quantity", "computed", "reference", "error", "tolerance", "pass"}};
+
+    Cells
+    cells_of(const CheckResult &result)
+    {
+      // As many digits as it takes to read the same double back.
+      return {
+        {result.name,
+         fmt::format("{}", result.computed),
+         fmt::format("{}", result.reference),
+         fmt::format("{:+.3g}{}", result.error, result.relative ? " %" : ""),
+         result.tolerance,
+         result.passed ? "yes" : "no"}};
+    }
+
+    void
+    show(const std::vector<CheckResult> &results, Log &log)
+    {
+      std::size_t width = header[0].size();
+      for (const CheckResult &result : results)
+        width = std::max(width, result.name.size());
+      const auto show_line = [&](const Cells &cells) {
+        log.line(fmt::format("{:{}}  {:>12}  {:>12}  {:>11}  {:>9}  {}",
+                             cells[0],
+                             width,
+                             cells[1],
+                             cells[2],
+                             cells[3],
+                             cells[4],
+                             cells[5]));
+      };
+      show_line(header);
+      for (const CheckResult &result : results)
+        {
+          Cells cells = cells_of(result);
+          cells[1]    = fmt::format("{:.7g}", result.computed);
+          cells[2]    = fmt::format("{:.7g}", result.reference);
+          show_line(cells);
+        }
+    }
+
+    void
+    write(const std::string              &name,
+          const std::string              &path,
+          const std::vector<CheckResult> &results)
+    {
+      const auto csv_line = [](const std::string &first, const Cells &cells) {
+        return first + "," + join({cells.begin(), cells.end()}, ",") + "\n";
+      };
+      std::ofstream file(path);
+      file << csv_line("case", header);
+      for (const CheckResult &result : results)
+        file << csv_line(name, cells_of(result));
+      file.close();
+      if (!file)
+        throw MachineError(path + ": the comparison cannot be written (is the "
+                                  "disk full, or permission missing?)");
+    }
+  } // namespace
+
+  void
+  Verification::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    const dealii::Patterns::Anything anything;
+    prm.add_parameter(
+      "Checks",
+      checks_text,
+      "What the results are compared with; if a check fails, so does the run. "
+      "'NAME: STATISTIC FORMULA where CONDITION = REFERENCE +- TOLERANCE; "
+      "...': the first, last, min, max, mean or range (max - min) of a formula "
+      "in the columns of history.csv (or modes.csv, as Type has it) over the "
+      "rows where a condition holds, or all without 'where'. A tolerance may "
+      "be in %; '< REFERENCE' or '> REFERENCE' is a bound.",
+      anything);
+    prm.add_parameter("Source",
+                      source,
+                      "Where the references are from; needed with checks.",
+                      anything);
+    prm.add_parameter("Tolerance reason",
+                      tolerance_reason,
+                      "Why the tolerances are as they are; needed with "
+                      "checks.",
+                      anything);
+  }
+
+  void
+  Verification::initialize(const std::vector<std::string> &columns)
+  {
+    const std::vector<std::string> texts =
+      split_outside_brackets(checks_text, ';');
+    if (texts == std::vector<std::string>{""})
+      return;
+    if (source.empty())
+      throw InputError("Verification/Source",
+                       "it is empty; checks need a source of their references");
+    if (tolerance_reason.empty())
+      throw InputError("Verification/Tolerance reason",
+                       "it is empty; checks need a reason of their tolerances");
+    std::set<std::string> names;
+    for (const std::string &text : texts)
+      {
+        checks.emplace_back(text, columns);
+        if (!names.insert(checks.back().name()).second)
+          throw InputError("Verification/Checks",
+                           fmt::format("two checks are called '{}'; each name "
+                                       "must be used once",
+                                       checks.back().name()));
+      }
+  }
+
+  void
+  Verification::compare(const std::string &name,
+                        const std::string &directory,
+                        const std::string &file,
+                        const MPI_Comm     comm,
+                        Log               &log) const
+  {
+    if (checks.empty())
+      return;
+    on_root(comm, [&] {
+      const ResultTable table = read_result_table(directory + "/" + file);
+      std::vector<CheckResult> results;
+      for (const Check &check : checks)
+        results.push_back(check.evaluate(table));
+      show(results, log);
+      write(name, directory + "/verification.csv", results);
+      const auto n_failed =
+        std::count_if(results.begin(), results.end(), [](const auto &result) {
+          return !result.passed;
+        });
+      if (n_failed > 0)
+        throw ComputationError(fmt::format("{} of {} checks failed; see {}",
+                                           n_failed,
+                                           results.size(),
+                                           directory + "/verification.csv"));
+    });
+  }
+} // namespace corotet
