@@ -10,11 +10,12 @@ PRESETS ?= release debug
 # Not empty: `make bench` takes less than three minutes instead of fifteen, and only small cases.
 QUICK ?=
 
-.PHONY: help run test bench format check clean
+.PHONY: help run test verify bench format check clean
 
 help:
 	@echo 'make run [PRM=parameters/x.prm]  build the program and run a case; its results replace those of the last run'
 	@echo 'make test                        build and test: Release and Debug'
+	@echo 'make verify                      compare cases with known answers; status 1 if one is off'
 	@echo 'make bench [QUICK=1]             measure; status 1 if a required ratio is not reached'
 	@echo 'make format                      format the C++ files'
 	@echo 'make check                       check formatting and layering'
@@ -29,6 +30,11 @@ test:
 	@for preset in $(PRESETS); do \
 	  $(TOOLCHAIN) sh -ec 'cmake --preset $$0; cmake --build --preset $$0; ctest --preset $$0' $$preset || exit 1; \
 	done
+
+verify:
+	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
+	  cmake --build --preset release --target corotet'
+	@$(TOOLCHAIN) scripts/verify
 
 bench:
 	@$(TOOLCHAIN) sh -ec 'cmake -G Ninja -B build/bench -DCMAKE_BUILD_TYPE=Release -DCOROTET_TESTS=OFF -DCOROTET_BENCHMARKS=ON; \
