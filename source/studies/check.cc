@@ -18,7 +18,6 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace corotet
 {
@@ -68,13 +67,20 @@ namespace corotet
       return expression.value({}, 0);
     }
 
+    // Commas between quotation marks do not count.
     std::vector<std::string>
     words_between_commas(const std::string &line)
     {
-      std::istringstream       stream(line);
-      std::vector<std::string> words;
-      for (std::string word; std::getline(stream, word, ',');)
-        words.push_back(word);
+      std::vector<std::string> words(1);
+      bool                     quoted = false;
+      for (const char c : line)
+        if (c == ',' && !quoted)
+          words.emplace_back();
+        else
+          {
+            quoted = quoted != (c == '"');
+            words.back() += c;
+          }
       return words;
     }
 
@@ -84,6 +90,11 @@ namespace corotet
       std::vector<double> numbers;
       for (const std::string &word : words_between_commas(line))
         {
+          if (word.starts_with('"'))
+            {
+              numbers.push_back(not_a_number);
+              continue;
+            }
           char *end = nullptr;
           numbers.push_back(std::strtod(word.c_str(), &end));
           if (end == word.c_str() || *end != '\0')

@@ -11,7 +11,8 @@
 namespace corotet
 {
   /**
-   * A table of numbers that a run has written: history.csv, modes.csv, ...
+   * A table of numbers that a run has written: history.csv, modes.csv or
+   * study.csv.
    */
   struct ResultTable
   {
@@ -21,7 +22,8 @@ namespace corotet
 
   /**
    * Reads a .csv file with a line of names and lines of numbers, nan among
-   * them. Throws MachineError if it is none.
+   * them; texts in quotation marks count as that, too. Throws MachineError if
+   * it is none.
    */
   ResultTable
   read_result_table(const std::string &path);
