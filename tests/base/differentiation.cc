@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Derivatives of formulas against those worked out by hand, as numbers: the
+// texts are nobody's business.
+
+#include <corotet/base/differentiation.h>
+#include <corotet/base/exceptions.h>
+#include <corotet/base/expression.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace corotet;
+
+namespace
+{
+  const dealii::Point<3> p(0.3, 0.7, -0.4);
+  const double           t = 1.2;
+
+  double
+  value(const std::string &formula)
+  {
+    return Expression(formula, 1, "Entry").value(p, t);
+  }
+
+  double
+  derivative(const std::string              &formula,
+             const std::vector<std::string> &variables)
+  {
+    return value(differentiate(formula, variables, "Entry"));
+  }
+
+  std::string
+  refusal(const std::string &formula)
+  {
+    try
+      {
+        differentiate(formula, {"x"}, "Exact solution/Displacement");
+      }
+    catch (const InputError &error)
+      {
+        EXPECT_EQ(error.entry, "Exact solution/Displacement");
+        return error.what();
+      }
+    return "accepted";
+  }
+
+  // Some operations on numbers of size one.
+  constexpr double round_off = 1e-14;
+} // namespace
+
+TEST(Differentiation, Derivatives)
+{
+  const double x = p[0], y = p[1], z = p[2];
+  EXPECT_NEAR(derivative("x^3*y - 2*t", {"x"}), 3 * x * x * y, round_off);
+  EXPECT_NEAR(derivative("x^3*y - 2*t", {"x", "y"}), 3 * x * x, round_off);
+  EXPECT_NEAR(derivative("x^3*y - 2*t", {"t"}), -2, round_off);
+  EXPECT_NEAR(derivative("5", {"z"}), 0, round_off);
+  EXPECT_NEAR(derivative("sin(pi*x)*exp(-t)", {"t", "t"}),
+              std::sin(M_PI * x) * std::exp(-t),
+              round_off);
+  EXPECT_NEAR(derivative("sqrt(x + y)/z", {"z"}),
+              -std::sqrt(x + y) / (z * z),
+              round_off);
+  EXPECT_NEAR(derivative("atan(x/y)", {"x"}), y / (x * x + y * y), round_off);
+  EXPECT_NEAR(derivative("pow(x, y)", {"y"}),
+              std::pow(x, y) * std::log(x),
+              round_off);
+  EXPECT_NEAR(derivative("1.5e-1*tanh(x)", {"x"}),
+              0.15 / std::pow(std::cosh(x), 2),
+              round_off);
+}
+
+// GiNaC must read a formula as muParser does: with no variable, what comes back
+// is the formula.
+TEST(Differentiation, SameSyntax)
+{
+  for (const std::string formula : {"-x^2",
+                                    "2^x^y",
+                                    "-2^2*x",
+                                    "x - y - z",
+                                    "x/y*z",
+                                    "x/y/z",
+                                    "2*-x",
+                                    "1/3 + .5 + 1e2*x + 2.5e-1*y",
+                                    "(x + y)^-1",
+                                    "log(y) + asin(x) + acos(y) + sinh(z) + "
+                                    "cosh(z) + tan(x) + cos(t)",
+                                    "pi*t"})
+    EXPECT_NEAR(derivative(formula, {}), value(formula), round_off) << formula;
+}
+
+TEST(Differentiation, Refusals)
+{
+  EXPECT_NE(refusal("ramp(t, 0, 1)*x").find("cannot be differentiated"),
+            std::string::npos);
+  EXPECT_NE(refusal("abs(x)").find("it has the function 'abs'"),
+            std::string::npos);
+  EXPECT_NE(refusal("x*w").find("allowed are +, -, *, /, ^, numbers"),
+            std::string::npos);
+  EXPECT_NE(refusal("x < 1 ? 0 : 1").find("cannot be differentiated"),
+            std::string::npos);
+  EXPECT_NE(refusal("").find("cannot be differentiated"), std::string::npos);
+  EXPECT_NE(refusal("1/(x").find("cannot be differentiated"),
+            std::string::npos);
+}

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Convergence studies from the command line: what they write, how they go on, what they compare with."""
+
+import csv
+import json
+import math
+import unittest
+
+from support import ProgramTest, read_summary
+
+BOX = """
+subsection Mesh
+  subsection box
+    set Cells = 2, 2, 2
+  end
+end
+subsection Material
+  set Type = linear
+end
+"""
+
+EXACT = "set Type = convergence study\n" + BOX + """
+subsection Exact solution
+  set Displacement          = 0.1*sin(2*x+y)*exp(z); 0.1*x*y^2*z; 0.05*cos(2*x-z)
+  set Displacement boundary = x-min, y-max
+end
+subsection Time integration
+  set Type      = static
+  set Time step = 1
+end
+subsection Linear solver
+  set Tolerance = 1e-11
+end
+subsection Convergence study
+  set Degrees     = 1, 2
+  set Refinements = 0, 1
+end
+"""
+
+PICTURES = {f"study_{norm}_over_{abscissa}.{ending}" for norm in ("l2", "h1", "energy") for abscissa in ("h", "dofs", "wall_time")
+            for ending in ("svg", "png")}
+
+
+class Studies(ProgramTest):
+
+    def study(self, text, *arguments, **others):
+        (self.folder / "study.prm").write_text(text, encoding="utf-8")
+        return self.run_program(self.folder / "study.prm", "--output", self.folder / "out", *arguments, **others)
+
+    def rows(self):
+        with open(self.folder / "out" / "study.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_files(self):
+        """A row and a file for each run, the table in three forms, pictures; results that can be overwritten."""
+        self.study(EXACT)
+        out = self.folder / "out"
+        rows = self.rows()
+        self.assertEqual([(row["degree"], row["refinements"]) for row in rows], [("1", "0"), ("1", "1"), ("2", "0"), ("2", "1")])
+        names = {f"degree_{row['degree']}_refinements_{row['refinements']}.{ending}" for row in rows for ending in ("json", "log")}
+        self.assertEqual({path.name for path in (out / "rows").iterdir()}, names)
+        self.assertEqual({path.name for path in out.glob("study_*")}, PICTURES)
+        for path in out.glob("study_*.svg"):
+            self.assertIn("</svg>", path.read_text(encoding="utf-8"))
+        self.assertIn(r"\toprule", (out / "study.tex").read_text(encoding="utf-8"))
+        self.assertIn("energy error  order", (out / "log.txt").read_text(encoding="utf-8"))
+        summary = read_summary(out)
+        self.assertEqual((summary["status"], summary["runs"], summary["failed_runs"]), ("done", 4, 0))
+        for row in rows:
+            # A run alone, with the same parameters, has the same error.
+            self.run_program(self.folder / "study.prm", "--output", self.folder / "single", "--set", "Output/Overwrite = true",
+                             "--set", "Type = simulation", "--set", f"Discretization/Degree = {row['degree']}",
+                             "--set", f"Mesh/Refinements = {row['refinements']}")
+            errors = read_summary(self.folder / "single")["errors"]
+            self.assertEqual(float(row["L2_error"]), errors["L2"])
+            self.assertEqual(float(row["energy_error"]), errors["energy"])
+        self.study(EXACT, "--set", "Output/Overwrite = true", "--set", "Convergence study/Degrees = 1")
+        self.assertEqual(len(self.rows()), 2)
+
+    def test_restart(self):
+        """Runs that are done are not run again, others are; those of another problem are."""
+        self.study(EXACT, "--set", "Convergence study/Refinements = 0")
+        rows = self.folder / "out" / "rows"
+        (rows / "degree_2_refinements_0.json").unlink()
+        kept = rows / "degree_1_refinements_0.json"
+        result = json.loads(kept.read_text(encoding="utf-8"))
+        result["result"]["errors"][0] = 0.125  # A mark that only this file has.
+        kept.write_text(json.dumps(result), encoding="utf-8")
+        self.study(EXACT, status=1)
+        self.study(EXACT, "--restart")
+        self.assertEqual(float(self.rows()[0]["L2_error"]), 0.125)
+        self.assertEqual(len(self.rows()), 4)
+        self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2")
+        self.assertNotEqual(float(self.rows()[0]["L2_error"]), 0.125)
+
+    def test_ranks(self):
+        """Two ranks find the same errors, to the solver's tolerance."""
+        self.study(EXACT)
+        alone = self.rows()
+        self.study(EXACT, "--set", "Output/Overwrite = true", ranks=2)
+        for one, two in zip(alone, self.rows()):
+            self.assertEqual(one["dofs"], two["dofs"])
+            for norm in ("L2", "H1", "energy"):
+                self.assertAlmostEqual(float(two[f"{norm}_error"]) / float(one[f"{norm}_error"]), 1, delta=1e-6)
+
+    def test_finer_run(self):
+        """Against a finer run errors are those against the exact solution, as far as its own are small; on two ranks, too."""
+        text = EXACT.replace("set Degrees     = 1, 2", "set Degrees     = 1, 2\n  set Quantities = elastic_energy")
+        self.study(text)
+        exact = self.rows()
+        self.assertNotIn("elastic_energy_error", exact[0])
+        for ranks in (1, 2):
+            self.study(text, "--set", "Convergence study/Reference = finer run", "--set", "Output/Overwrite = true", ranks=ranks)
+            finer = self.rows()
+            for row, other in zip(exact, finer):
+                # The finer run, degree 2 with two refinements, is 0.03 times as wrong as the best of these and 0.004 times the next.
+                delta = 0.05 if row["degree"] == "2" and row["refinements"] == "1" else 0.01
+                self.assertAlmostEqual(float(other["L2_error"]) / float(row["L2_error"]), 1, delta=4 * delta)
+                self.assertAlmostEqual(float(other["elastic_energy"]) / float(row["elastic_energy"]), 1, delta=1e-9)
+                self.assertGreater(float(other["elastic_energy_error"]), 0)
+
+    def test_modes(self):
+        """Frequencies against a given one: of a clamped bar that cannot strain laterally, c / (4 L), orders 2 p."""
+        frequency = math.sqrt(1e6 * (1 - 0.3) / (1.3 * 0.4) / 1e3) / 4
+        self.study("set Type = convergence study\n" + BOX.replace("set Cells = 2, 2, 2", "set Size = 1, 0.1, 0.1\n    set Cells = 4, 1, 1") + """
+subsection Boundary conditions
+  set Fixed        = x-min
+  set Displacement = y-min: free; 0; free, y-max: free; 0; free, z-min: free; free; 0, z-max: free; free; 0
+end
+subsection Discretization
+  set Mass = consistent
+end
+subsection Modes
+  set Number = 1
+end
+subsection Convergence study
+  set Run         = modes
+  set Reference   = none
+  set Degrees     = 1, 2
+  set Refinements = 0, 1
+  set Quantities  = frequency_1: FREQUENCY
+end
+""".replace("FREQUENCY", repr(frequency)))
+        rows = self.rows()
+        self.assertAlmostEqual(float(rows[1]["frequency_1_order"]), 2, delta=0.05)
+        self.assertAlmostEqual(float(rows[3]["frequency_1_order"]), 4, delta=0.1)
+
+    def test_failed_run(self):
+        """A run that fails is a row of the table; the others are made all the same."""
+        error = self.study(EXACT, "--set", "Linear solver/Maximum iterations = 3", "--set", "Linear solver/Preconditioner/Type = Jacobi",
+                           status=2).stderr
+        self.assertIn("runs of the study have failed", error)
+        self.assertEqual(len(self.rows()), 4)
+        self.assertIn("failed", {row["status"] for row in self.rows()})
+        self.assertEqual(read_summary(self.folder / "out")["status"], "failed")
+
+    def test_refusals(self):
+        """Mistakes are found before the first run."""
+        for setting, message in (
+            ("Convergence study/Refinements = 1, 0", "Convergence study/Refinements: the values do not increase"),
+            ("Convergence study/Degrees = 2, 2", "Convergence study/Degrees: a value is given twice"),
+            ("Convergence study/Quantities = tip_z", "Convergence study/Quantities: the quantity 'tip_z' is unknown"),
+            ("Convergence study/Quantities = momentum_x: a", "found 'momentum_x: a'; allowed: 'name' or 'name: number'"),
+            ("Convergence study/Masses = row sum", "row sum"),
+            ("Exact solution/Displacement = abs(x); 0; 0", "it has the function 'abs'"),
+            ("Exact solution/Displacement = ", "Exact solution/Displacement is empty"),
+            ("Exact solution/Displacement boundary = top", "Exact solution/Displacement boundary"),
+            ("Loads/Gravity = 0; 0; -9.81", "Loads/Gravity: found '0; 0; -9.81', but the data are made"),
+            ("Convergence study/Run = modes", "found 'exact solution' for modes"),
+        ):
+            with self.subTest(setting):
+                self.assertIn(message, self.study(EXACT, "--set", setting, status=1).stderr)
+                self.assertFalse((self.folder / "out").exists())
+        self.assertIn("--restart", self.study(EXACT, "--restart", "--set", "Type = simulation", status=1).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

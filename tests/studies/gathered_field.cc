@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// A field that every rank has as a whole: polynomials of the elements' degree
+// are reproduced everywhere, by each rank, and so are their norms.
+
+#include <corotet/operators/error_norms.h>
+#include <corotet/studies/gathered_field.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+
+namespace
+{
+  PointDisplacement
+  cubic(const Point<3> &x)
+  {
+    PointDisplacement u;
+    u.value[0]       = x[0] * x[0] * x[1];
+    u.value[1]       = x[2];
+    u.value[2]       = 1 - x[1] * x[1] * x[1];
+    u.gradient[0][0] = 2 * x[0] * x[1];
+    u.gradient[0][1] = x[0] * x[0];
+    u.gradient[1][2] = 1;
+    u.gradient[2][1] = -3 * x[1] * x[1];
+    return u;
+  }
+} // namespace
+
+TEST(GatheredField, ReproducesPolynomials)
+{
+  const Body   body(box("1, 1, 1", "3, 3, 3", 0.2), element_text(Element(3)));
+  const Vector u =
+    body.interpolate([](const Point<3> &x) { return cubic(x).value; });
+  const GatheredField field(body.discretization, u);
+  // Corners, sides, the inside; also outside by round-off.
+  for (const Point<3> x : {Point<3>(0, 0, 0),
+                           Point<3>(1, 1, 1),
+                           Point<3>(1, 0.3, 0.77),
+                           Point<3>(0.123, 0.456, 0.789),
+                           Point<3>(1 + 1e-15, 0.5, 0.5),
+                           Point<3>(0.9, 0.1, 0.2)})
+    {
+      const PointDisplacement found = field.value(x);
+      // Coordinates, shape functions and their sum: some ten times round-off.
+      EXPECT_LT((found.value - cubic(x).value).norm(), 1e-14);
+      EXPECT_LT((found.gradient - cubic(x).gradient).norm(), 1e-13);
+    }
+}
+
+// The rule is exact for these: integrals over the unit cube, by hand.
+TEST(ErrorNorms, ExactForPolynomials)
+{
+  const Body   body(box("1, 1, 1", "2, 2, 2", 0.2), element_text(Element(3)));
+  const Vector u =
+    body.interpolate([](const Point<3> &x) { return cubic(x).value; });
+  const auto &materials =
+    body.parameters.material.materials(body.mesh.regions());
+  const ErrorNorms exact =
+    error_norms(body.discretization, materials, u, cubic);
+  EXPECT_LT(exact.error.L2, 1e-14);
+  EXPECT_LT(exact.error.H1, 1e-13);
+  EXPECT_NEAR(exact.reference.L2,
+              std::sqrt(1. / 15 + 1. / 3 + 1 - 2. / 4 + 1. / 7),
+              1e-14);
+  EXPECT_NEAR(exact.reference.H1,
+              std::sqrt(4. / 9 + 1. / 5 + 1 + 9. / 5),
+              1e-14);
+  // Uniaxial strain of one: eps : C : eps = lambda + 2 mu.
+  const ErrorNorms strained =
+    error_norms(body.discretization, materials, u, [](const Point<3> &x) {
+      PointDisplacement v = cubic(x);
+      v.value[0] += x[0];
+      v.gradient[0][0] += 1;
+      return v;
+    });
+  const IsotropicMaterial &material = materials.begin()->second;
+  EXPECT_NEAR(strained.error.L2, std::sqrt(1. / 3), 1e-14);
+  EXPECT_NEAR(strained.error.energy,
+              std::sqrt(material.lambda + 2 * material.mu),
+              1e-13 * std::sqrt(material.lambda));
+}

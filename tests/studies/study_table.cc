@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Tables of studies, from results that are made up: orders of errors that obey
+// a power law exactly.
+
+#include <corotet/studies/study_table.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+using namespace corotet;
+
+namespace
+{
+  StudyResult
+  made_up(const unsigned int          degree,
+          const unsigned int          refinements,
+          const std::optional<double> time_step = {})
+  {
+    StudyResult result;
+    result.study_case = {degree, refinements, time_step, {}, {}};
+    result.cells      = 5 * std::pow(8, refinements);
+    result.h          = std::pow(0.5, refinements);
+    const double e    = std::pow(result.h, degree);
+    const double t    = time_step ? *time_step * *time_step : 1.;
+    result.errors =
+      ErrorNorms{{e * result.h * t, e * t, 2 * e * t}, {1., 2., 3.}};
+    result.quantities = {7. + e};
+    return result;
+  }
+
+  bool
+  contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+} // namespace
+
+TEST(StudyTable, Orders)
+{
+  const StudyTable table(
+    {made_up(1, 0), made_up(1, 1), made_up(1, 3), made_up(2, 0), made_up(2, 1)},
+    {{"tip_z", 7.}});
+  const std::string csv = table.csv();
+  EXPECT_TRUE(csv.starts_with("degree,refinements,status,cells,nodes,dofs,h,"
+                              "L2_reference,H1_reference,energy_reference,"
+                              "tip_z,L2_error,L2_order,H1_error,H1_order,"
+                              "energy_error,energy_order,tip_z_error,"
+                              "tip_z_order,steps,"));
+  // The first of each degree has no order; powers of two are exact.
+  EXPECT_TRUE(
+    contains(csv, "1,0,\"done\",5,0,0,1,1,2,3,8,1,nan,1,nan,2,nan,1,nan,"));
+  EXPECT_TRUE(
+    contains(csv, "1,1,\"done\",40,0,0,0.5,1,2,3,7.5,0.25,2,0.5,1,1,1,0.5,1,"));
+  EXPECT_TRUE(contains(
+    csv,
+    "1,3,\"done\",2560,0,0,0.125,1,2,3,7.125,0.015625,2,0.125,1,0.25,1,0.125,1,"));
+  EXPECT_TRUE(contains(csv, "2,0,\"done\",5,0,0,1,1,2,3,8,1,nan,"));
+  EXPECT_TRUE(contains(csv, ",7.25,0.125,3,0.25,2,0.5,2,0.25,2,"));
+}
+
+TEST(StudyTable, OrdersInTime)
+{
+  const StudyTable table(
+    {made_up(2, 0, 0.5), made_up(2, 1, 0.5), made_up(2, 0, 0.25)}, {});
+  const std::string csv = table.csv();
+  EXPECT_TRUE(contains(csv, "L2_error,L2_order,L2_order_in_time"));
+  // Degree 2 in space, order 2 in time: only one of them differs.
+  EXPECT_TRUE(
+    contains(csv, "2,1,0.5,\"done\",40,0,0,0.5,1,2,3,0.03125,3,nan,"));
+  EXPECT_TRUE(contains(csv, "2,0,0.25,\"done\",5,0,0,1,1,2,3,0.0625,nan,2,"));
+}
+
+TEST(StudyTable, Texts)
+{
+  StudyResult failed = made_up(1, 1);
+  failed.status      = "failed";
+  failed.errors      = {};
+  failed.quantities  = {std::nan("")};
+  const StudyTable table({made_up(1, 0), failed}, {{"tip_z", {}}});
+  EXPECT_EQ(table.lines().size(), 3);
+  for (const std::string &line : table.lines())
+    EXPECT_EQ(line.size(), table.lines()[0].size());
+  EXPECT_TRUE(contains(table.lines()[2], "failed"));
+  const std::string latex = table.latex();
+  EXPECT_TRUE(latex.starts_with("\\begin{tabular}{"));
+  EXPECT_TRUE(contains(latex, "tip\\_z"));
+  EXPECT_TRUE(contains(latex, "\\bottomrule"));
+}
+
+// What is kept of a run comes back, not a number included.
+TEST(StudyTable, KeptResult)
+{
+  StudyResult result       = made_up(3, 2);
+  result.quantities        = {0.1, std::nan("")};
+  result.wall_times        = {1, 2, 3, 4};
+  result.linear_iterations = 17;
+  const StudyResult again =
+    from_json(result.study_case,
+              nlohmann::ordered_json::parse(to_json(result).dump()));
+  EXPECT_EQ(to_json(again), to_json(result));
+  EXPECT_EQ(again.quantities[0], 0.1);
+  EXPECT_TRUE(std::isnan(again.quantities[1]));
+  EXPECT_EQ(again.errors->error.H1, result.errors->error.H1);
+  EXPECT_EQ(again.study_case, result.study_case);
+}
