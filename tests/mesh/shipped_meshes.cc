@@ -103,7 +103,19 @@ const std::vector<Part> parts = {
        1e-12},
   // Forty-five degrees of a ring with a section of 1 x 1; the sides of the
   // cells are chords.
-  Part{"bend_45", 100 * pi / 4, {{1, "bend"}}, {"fixed", "tip"}, 1e-3}};
+  Part{"bend_45", 100 * pi / 4, {{1, "bend"}}, {"fixed", "tip"}, 1e-3},
+  Part{"cook",
+       48 * (44 + 16) / 2 * 5,
+       {{1, "panel"}},
+       {"clamped", "loaded", "front", "back"},
+       1e-12},
+  // All its surfaces are free; none has a name.
+  Part{"l_block", (1 - 0.6 * 0.6) * 0.3, {{1, "block"}}, {}, 1e-12},
+  Part{"patch_cube",
+       1,
+       {{1, "cube"}},
+       {"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"},
+       1e-12}};
 
 INSTANTIATE_TEST_SUITE_P(Parts,
                          ShippedMesh,

@@ -46,6 +46,12 @@ class Documentation(ProgramTest):
         text = (ROOT / "README.md").read_text(encoding="utf-8")
         self.assertEqual([case.name for case in CASES if f"`{case.name}`" not in text], [])
 
+    def test_verification(self):
+        # The page has the decks there are, in their order, and no other.
+        text = (ROOT / "doc" / "verification.md").read_text(encoding="utf-8")
+        self.assertEqual(re.findall("^## (.*)$", text, re.MULTILINE),
+                         sorted(deck.stem for deck in (ROOT / "parameters" / "verification").glob("*.prm")))
+
 
 if __name__ == "__main__":
     unittest.main()
