@@ -189,7 +189,7 @@ namespace corotet
       Json::parse(read_file(path + ".json", comm), nullptr, false);
     if (kept.is_object() && kept.value("problem", Json()) == problem)
       {
-        StudyResult result = from_json(study_case, kept.at("result"));
+        StudyResult result = result_from_json(study_case, kept.at("result"));
         if (kept.contains("finer_quantities"))
           for (unsigned int i = 0; i < quantities.size(); ++i)
             if (!quantities[i].reference)
@@ -208,7 +208,7 @@ namespace corotet
           file["finer_quantities"].push_back(
             quantity.reference.value_or(std::nan("")));
       }
-    file["result"] = to_json(result);
+    file["result"] = result_to_json(result);
     on_root(comm, [&] {
       write_whole_file(path + ".json", file.dump(2) + "\n", "the result");
     });

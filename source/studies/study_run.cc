@@ -99,7 +99,7 @@ namespace corotet
   } // namespace
 
   Json
-  to_json(const StudyResult &result)
+  result_to_json(const StudyResult &result)
   {
     Json object;
     object["status"]  = result.status;
@@ -130,7 +130,7 @@ namespace corotet
   }
 
   StudyResult
-  from_json(const StudyCase &study_case, const Json &object)
+  result_from_json(const StudyCase &study_case, const Json &object)
   {
     StudyResult result;
     result.study_case = study_case;

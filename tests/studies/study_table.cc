@@ -98,10 +98,10 @@ TEST(StudyTable, KeptResult)
   result.quantities        = {0.1, std::nan("")};
   result.wall_times        = {1, 2, 3, 4};
   result.linear_iterations = 17;
-  const StudyResult again =
-    from_json(result.study_case,
-              nlohmann::ordered_json::parse(to_json(result).dump()));
-  EXPECT_EQ(to_json(again), to_json(result));
+  const StudyResult again  = result_from_json(result.study_case,
+                                             nlohmann::ordered_json::parse(
+                                               result_to_json(result).dump()));
+  EXPECT_EQ(result_to_json(again), result_to_json(result));
   EXPECT_EQ(again.quantities[0], 0.1);
   EXPECT_TRUE(std::isnan(again.quantities[1]));
   EXPECT_EQ(again.errors->error.H1, result.errors->error.H1);

@@ -51,12 +51,13 @@ namespace corotet
   };
 
   nlohmann::ordered_json
-  to_json(const StudyResult &result);
+  result_to_json(const StudyResult &result);
 
-  /// The result of @p study_case as to_json() gave it. Throws
+  /// The result of @p study_case as result_to_json() gave it. Throws
   /// nlohmann::json::exception if the object is none.
   StudyResult
-  from_json(const StudyCase &study_case, const nlohmann::ordered_json &object);
+  result_from_json(const StudyCase              &study_case,
+                   const nlohmann::ordered_json &object);
 
   /**
    * One run of a study: the parameter file with the values of a StudyCase.
