@@ -162,7 +162,8 @@ namespace corotet
       }
     for (const std::string &line : StudyTable(results, quantities).lines())
       log.line(line);
-    draw();
+    if (parameters.pictures)
+      draw();
     if (n_failed > 0)
       throw ComputationError(fmt::format(
         "{} of {} runs of the study have failed", n_failed, cases.size()));

@@ -113,6 +113,10 @@ namespace corotet
       "their last row, or frequency_1, frequency_2, ... [Hz] of modes, with "
       "the value that they should have. Without it that of the finer run, if "
       "there is one.");
+    prm.add_parameter("Pictures",
+                      pictures,
+                      "Whether errors are drawn at the end, by Python and "
+                      "matplotlib.");
   }
 
   std::vector<StudyCase>

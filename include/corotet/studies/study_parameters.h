@@ -69,6 +69,7 @@ namespace corotet
     std::string               reference           = "exact solution";
     unsigned int              further_refinements = 1;
     std::string               quantities;
+    bool                      pictures = true;
   };
 } // namespace corotet
 
