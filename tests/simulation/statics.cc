@@ -7,7 +7,6 @@
 #include <corotet/simulation/budget.h>
 #include <corotet/time_integration/load_stepping.h>
 
-#include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/numerics/vector_tools.h>
 
@@ -15,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "../wave.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -30,70 +30,6 @@ namespace
     load_stepping.step(body.system, {0., 1., 1.}, body.state);
   }
 
-  // u = A sin(k . x + 1/2), a plane wave: smooth and without any symmetry. Then
-  // -div sigma = ((lambda + mu) (A . k) k + mu |k|^2 A) sin(k . x + 1/2) and
-  // sigma = (lambda (A . k) I + mu (A k^T + k A^T)) cos(k . x + 1/2).
-  class Wave : public dealii::Function<3>
-  {
-  public:
-    Wave()
-      : dealii::Function<3>(3)
-    {}
-
-    double
-    value(const Point<3> &x, const unsigned int component) const override
-    {
-      return A[component] * std::sin(k * x + 0.5);
-    }
-
-    Tensor<1, 3>
-    gradient(const Point<3> &x, const unsigned int component) const override
-    {
-      return k * (A[component] * std::cos(k * x + 0.5));
-    }
-
-    std::string
-    body_force() const
-    {
-      const Tensor<1, 3> b = (lambda + mu) * (A * k) * k + mu * (k * k) * A;
-      return components(b, "sin");
-    }
-
-    std::string
-    traction(const Tensor<1, 3> &n) const
-    {
-      return components(lambda * (A * k) * n + mu * ((k * n) * A + (A * n) * k),
-                        "cos");
-    }
-
-    std::string
-    displacement() const
-    {
-      return components(A, "sin");
-    }
-
-    const double       E = 10, nu = 0.3;
-    const double       lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
-    const double       mu     = E / (2 * (1 + nu));
-    const Tensor<1, 3> A{{0.1, -0.05, 0.08}}, k{{0.9, 0.6, -1.2}};
-
-  private:
-    std::string
-    components(const Tensor<1, 3> &factor, const std::string &function) const
-    {
-      std::string text;
-      for (unsigned int a = 0; a < 3; ++a)
-        text += fmt::format("{}{:.17g}*{}({:.17g}*x+{:.17g}*y+{:.17g}*z+0.5)",
-                            a > 0 ? "; " : "",
-                            factor[a],
-                            function,
-                            k[0],
-                            k[1],
-                            k[2]);
-      return text;
-    }
-  };
-
   struct Errors
   {
     double L2, H1;
@@ -104,46 +40,9 @@ namespace
   Errors
   wave_errors(const unsigned int degree, const unsigned int n)
   {
-    const Wave  wave;
-    std::string displacements, tractions;
-    for (unsigned int a = 0; a < 3; ++a)
-      {
-        Tensor<1, 3> normal;
-        normal[a] = 1;
-        displacements += fmt::format("{}{}-min: {}",
-                                     a > 0 ? ", " : "",
-                                     "xyz"[a],
-                                     wave.displacement());
-        tractions += fmt::format("{}{}-max: {}",
-                                 a > 0 ? ", " : "",
-                                 "xyz"[a],
-                                 wave.traction(normal));
-      }
-    Body body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n), 0.1),
-              fmt::format(R"(
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-        set Type            = linear
-        set Young's modulus = 10
-        set Poisson's ratio = 0.3
-      end
-      subsection Boundary conditions
-        set Displacement = {}
-        set Traction     = {}
-      end
-      subsection Loads
-        set Body force = {}
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-12
-      end)",
-                          degree,
-                          displacements,
-                          tractions,
-                          wave.body_force()));
+    const Wave wave;
+    Body       body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n), 0.1),
+              wave.parameters(degree));
     solve_static(body);
 
     Vector u =

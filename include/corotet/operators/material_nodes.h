@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_material_nodes_h
+#define corotet_operators_material_nodes_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/discretization.h>
+
+#include <functional>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The nodes of a discretization, one for each material that meets there: what
+   * functions have that are continuous within each material and jump from one
+   * to the next, as stress does. Numbers are local: owned ones first, then
+   * ghosts. A copy has the owner of the node.
+   *
+   * @p discretization must outlive this object.
+   */
+  class MaterialNodes
+  {
+  public:
+    /// @p material_of_cell gives the material of a local cell, a number below
+    /// @p n_materials, which is the same on all ranks. Collective.
+    MaterialNodes(
+      const Discretization                                  &discretization,
+      const unsigned int                                     n_materials,
+      const std::function<unsigned int(const unsigned int)> &material_of_cell);
+
+    /// Local numbers of the nodes of a local cell, for its material.
+    dealii::ArrayView<const unsigned int>
+    cell_nodes(const unsigned int cell) const
+    {
+      const std::size_t n = discretization.n_nodes_per_cell();
+      return {nodes_of_cells.data() + cell * n, n};
+    }
+
+    unsigned int
+    n_owned() const
+    {
+      return partitioner->locally_owned_size() / 6;
+    }
+
+    /// The discretization's node and the material of each, ghosts included.
+    struct Copy
+    {
+      unsigned int node;
+      unsigned int material;
+
+      auto
+      operator<=>(const Copy &) const = default;
+    };
+
+    const Copy &
+    copy(const unsigned int n) const
+    {
+      return copies[n];
+    }
+
+    /// Makes @p vector one of six numbers for each of these nodes (with ghost
+    /// entries), all zero.
+    void
+    initialize_vector(Vector &vector) const
+    {
+      vector.reinit(partitioner);
+    }
+
+  private:
+    const Discretization                                      &discretization;
+    std::vector<unsigned int>                                  nodes_of_cells;
+    std::vector<Copy>                                          copies;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+  };
+} // namespace corotet
+
+#endif

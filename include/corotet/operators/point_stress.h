@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_point_stress_h
+#define corotet_operators_point_stress_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/reference_element.h>
+#include <corotet/material/corotational.h>
+
+#include <map>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * What a cell at rest is like at a point of a rule.
+   */
+  struct PointGeometry
+  {
+    /// Rows are the gradients of the reference coordinates [1/m].
+    dealii::Tensor<2, 3> inverse_jacobian;
+    /// The point's share of the cell's volume [m^3].
+    double volume;
+    /// In m.
+    dealii::Point<3> position;
+  };
+
+  PointGeometry
+  point_geometry(const Discretization                &discretization,
+                 const ReferenceElement::PointValues &rule,
+                 const unsigned int                   cell,
+                 const unsigned int                   q);
+
+  /**
+   * Reference coordinates of the point at @p x of the body at rest, in or near
+   * local cell @p cell.
+   */
+  dealii::Point<3>
+  reference_coordinates(const Discretization   &discretization,
+                        const unsigned int      cell,
+                        const dealii::Point<3> &x);
+
+  /**
+   * Stress at points of cells, as a function of the displacement.
+   *
+   * Corotational strain and stress are turned back into space: R (sym(R^T F) -
+   * I) R^T and R sigma R^T. Their principal directions are those that one sees
+   * on the displaced body. This stress is that of Cauchy but for terms of the
+   * order of the strain. R is that of the point, or of the cell's centre, as
+   * Rotation says; linear elasticity is the case R = I.
+   *
+   * Materials are told apart by their elastic constants: regions with equal
+   * ones count as one material. @p discretization must outlive this object.
+   * Members are not collective.
+   */
+  class PointStress
+  {
+  public:
+    /// @p materials by region id.
+    PointStress(const Discretization                            &discretization,
+                const ReferenceElement                          &reference,
+                const std::map<unsigned int, IsotropicMaterial> &materials,
+                const Rotation                                   rotation);
+
+    /// The same number on all ranks.
+    unsigned int
+    n_materials() const
+    {
+      return materials.size();
+    }
+
+    /// Number of the material of a local cell.
+    unsigned int
+    material_index(const unsigned int cell) const
+    {
+      return material_of_region.at(discretization.geometry(cell).region);
+    }
+
+    const IsotropicMaterial &
+    material(const unsigned int index) const
+    {
+      return materials[index];
+    }
+
+    /**
+     * Stress [Pa] at the points of @p rule in local cell @p cell, written to
+     * @p stresses. Ghost entries of @p u must be up to date.
+     */
+    void
+    evaluate(const Vector                        &u,
+             const unsigned int                   cell,
+             const ReferenceElement::PointValues &rule,
+             dealii::SymmetricTensor<2, 3>       *stresses) const;
+
+  private:
+    const Discretization                &discretization;
+    const ReferenceElement::PointValues  centre;
+    Rotation                             rotation;
+    std::vector<IsotropicMaterial>       materials;
+    std::map<unsigned int, unsigned int> material_of_region;
+  };
+} // namespace corotet
+
+#endif

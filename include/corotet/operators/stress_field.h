@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_stress_field_h
+#define corotet_operators_stress_field_h
+
+#include <corotet/operators/point_stress.h>
+#include <corotet/operators/stress_patches.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Error of the stress, estimated by its distance from the recovered stress
+   * sigma* (Zienkiewicz, Zhu 1987, @cite zienkiewicz1987). Norms are those of
+   * energy, |sigma|_E^2 = integral of sigma : C^{-1} : sigma over the body at
+   * rest: twice its elastic energy. Unit: square root of J.
+   */
+  struct StressError
+  {
+    /// |sigma* - sigma|_E of each owned cell.
+    std::vector<double> of_cells;
+    /// Of the body.
+    double energy_norm = 0;
+    /// |sigma|_E of the body.
+    double stress_norm = 0;
+
+    /// energy_norm over the estimated norm of the exact stress, the root of
+    /// |sigma|_E^2 + energy_norm^2: by Galerkin's orthogonality, where loads
+    /// are what is prescribed; elsewhere the error is estimated all the same.
+    /// Zero without stress.
+    double
+    relative() const;
+  };
+
+  /**
+   * The stress of a state: at quadrature points, recovered, and the estimate of
+   * its error. Each is computed when it is first asked for. Stress is that of
+   * PointStress, its unit Pa.
+   *
+   * @p discretization and @p reference must outlive this object. Members are
+   * collective.
+   */
+  class StressField
+  {
+  public:
+    /// @p materials by region id.
+    StressField(const Discretization                            &discretization,
+                const ReferenceElement                          &reference,
+                const std::map<unsigned int, IsotropicMaterial> &materials,
+                const Rotation                                   rotation);
+
+    /// From now on all is that of the displacement @p u, which must not change
+    /// until the next call; its ghost entries must be up to date.
+    void
+    set_displacement(const Vector &u);
+
+    const PointStress &
+    law() const
+    {
+      return point_stress;
+    }
+
+    const ReferenceElement &
+    reference_element() const
+    {
+      return reference;
+    }
+
+    /// At the points of the stiffness rule in all local cells (owned ones come
+    /// first), cell by cell.
+    const std::vector<dealii::SymmetricTensor<2, 3>> &
+    at_points();
+
+    /// The recovered stress at point @p q of a rule (or any values of shape
+    /// functions) in a local cell: sum_i N_i sigma*_i. To be called after
+    /// recover(). Not collective.
+    dealii::SymmetricTensor<2, 3>
+    recovered(const unsigned int            cell,
+              const std::span<const double> shape_values) const;
+
+    /// Recovers the stress, unless that is done.
+    void
+    recover();
+
+    /// Recovered stress, and the strain that belongs to it [-], at the owned
+    /// nodes. Where materials meet: the mean of theirs.
+    struct NodalValues
+    {
+      std::vector<dealii::SymmetricTensor<2, 3>> stress;
+      std::vector<dealii::SymmetricTensor<2, 3>> strain;
+    };
+
+    NodalValues
+    at_nodes();
+
+    const StressError &
+    error();
+
+  private:
+    const Discretization   &discretization;
+    const ReferenceElement &reference;
+    const PointStress       point_stress;
+
+    /// Made when they are first needed.
+    std::unique_ptr<const MaterialNodes> nodes;
+    std::unique_ptr<const StressPatches> patches;
+
+    const Vector *displacement = nullptr;
+    bool          has_points   = false;
+    bool          has_recovery = false;
+    bool          has_error    = false;
+
+    std::vector<dealii::SymmetricTensor<2, 3>> points;
+    Vector                                     recovered_stress;
+    StressError                                stress_error;
+  };
+} // namespace corotet
+
+#endif

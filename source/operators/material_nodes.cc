@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/operators/material_nodes.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    // All nodes of local cells with their materials, in order.
+    std::vector<MaterialNodes::Copy>
+    copies_in(
+      const Discretization                                  &discretization,
+      const unsigned int                                     n_materials,
+      const std::function<unsigned int(const unsigned int)> &material_of_cell)
+    {
+      // Nearly all nodes have one material only.
+      std::vector<unsigned int>        first(discretization.n_local_nodes(),
+                                      n_materials);
+      std::vector<MaterialNodes::Copy> result;
+      for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+        {
+          const unsigned int material = material_of_cell(c);
+          for (const unsigned int node : discretization.cell_nodes(c))
+            if (first[node] == n_materials)
+              first[node] = material;
+            else if (first[node] != material)
+              result.push_back({node, material});
+        }
+      for (unsigned int node = 0; node < first.size(); ++node)
+        if (first[node] < n_materials)
+          result.push_back({node, first[node]});
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(), result.end()), result.end());
+      return result;
+    }
+  } // namespace
+
+  MaterialNodes::MaterialNodes(
+    const Discretization                                  &discretization,
+    const unsigned int                                     n_materials,
+    const std::function<unsigned int(const unsigned int)> &material_of_cell)
+    : discretization(discretization)
+  {
+    // All cells of an owned node are local, so all its materials are known.
+    const std::vector<Copy> found =
+      copies_in(discretization, n_materials, material_of_cell);
+    unsigned int n_owned = 0;
+    while (n_owned < found.size() &&
+           found[n_owned].node < discretization.n_owned_nodes())
+      ++n_owned;
+
+    const MPI_Comm comm = discretization.communicator();
+    const auto [first, n_global] =
+      dealii::Utilities::MPI::partial_and_total_sum<global_dof_index>(n_owned,
+                                                                      comm);
+    // Global numbers of ghosts, material by material, travel in a vector of
+    // the discretization; doubles hold them exactly.
+    std::vector<global_dof_index> global(found.size());
+    Vector                        numbers;
+    discretization.initialize_vector(numbers);
+    for (unsigned int m = 0; m < n_materials; ++m)
+      {
+        numbers = 0;
+        for (unsigned int i = 0; i < n_owned; ++i)
+          if (found[i].material == m)
+            {
+              global[i]                                = first + i;
+              numbers.local_element(3 * found[i].node) = first + i;
+            }
+        numbers.update_ghost_values();
+        for (unsigned int i = n_owned; i < found.size(); ++i)
+          if (found[i].material == m)
+            global[i] = static_cast<global_dof_index>(
+              numbers.local_element(3 * found[i].node));
+        numbers.zero_out_ghost_values();
+      }
+
+    dealii::IndexSet owned(6 * n_global), ghosts(6 * n_global);
+    owned.add_range(6 * first, 6 * (first + n_owned));
+    for (unsigned int i = n_owned; i < found.size(); ++i)
+      ghosts.add_range(6 * global[i], 6 * global[i] + 6);
+    ghosts.compress();
+    partitioner =
+      std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned,
+                                                                  ghosts,
+                                                                  comm);
+
+    // Ghosts are numbered by the partitioner.
+    copies.resize(found.size());
+    std::vector<unsigned int> number(found.size());
+    for (unsigned int i = 0; i < found.size(); ++i)
+      {
+        number[i]         = partitioner->global_to_local(6 * global[i]) / 6;
+        copies[number[i]] = found[i];
+      }
+    nodes_of_cells.reserve(
+      static_cast<std::size_t>(discretization.n_local_cells()) *
+      discretization.n_nodes_per_cell());
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+      for (const unsigned int node : discretization.cell_nodes(c))
+        {
+          const Copy wanted{node, material_of_cell(c)};
+          nodes_of_cells.push_back(
+            number[std::lower_bound(found.begin(), found.end(), wanted) -
+                   found.begin()]);
+        }
+  }
+} // namespace corotet

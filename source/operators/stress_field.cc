@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/material/stress_measures.h>
+#include <corotet/operators/stress_field.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  using dealii::SymmetricTensor;
+
+  double
+  StressError::relative() const
+  {
+    return energy_norm > 0 ?
+             energy_norm / std::hypot(stress_norm, energy_norm) :
+             0.;
+  }
+
+  StressField::StressField(
+    const Discretization                            &discretization,
+    const ReferenceElement                          &reference,
+    const std::map<unsigned int, IsotropicMaterial> &materials,
+    const Rotation                                   rotation)
+    : discretization(discretization)
+    , reference(reference)
+    , point_stress(discretization, reference, materials, rotation)
+  {}
+
+  void
+  StressField::set_displacement(const Vector &u)
+  {
+    displacement = &u;
+    has_points = has_recovery = has_error = false;
+  }
+
+  const std::vector<SymmetricTensor<2, 3>> &
+  StressField::at_points()
+  {
+    if (has_points)
+      return points;
+    Assert(displacement != nullptr, dealii::ExcNotInitialized());
+    const auto       &rule     = reference.stiffness_rule;
+    const std::size_t n_points = rule.weights.size();
+    points.resize(discretization.n_local_cells() * n_points);
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+      point_stress.evaluate(*displacement, c, rule, &points[c * n_points]);
+    has_points = true;
+    return points;
+  }
+
+  void
+  StressField::recover()
+  {
+    if (has_recovery)
+      return;
+    if (!patches)
+      {
+        nodes = std::make_unique<const MaterialNodes>(
+          discretization,
+          point_stress.n_materials(),
+          [&](const unsigned int c) { return point_stress.material_index(c); });
+        patches = std::make_unique<const StressPatches>(discretization,
+                                                        reference,
+                                                        *nodes);
+        nodes->initialize_vector(recovered_stress);
+      }
+    patches->recover(at_points(), recovered_stress);
+    has_recovery = true;
+  }
+
+  SymmetricTensor<2, 3>
+  StressField::recovered(const unsigned int            cell,
+                         const std::span<const double> shape_values) const
+  {
+    Assert(has_recovery, dealii::ExcNotInitialized());
+    const auto            cell_nodes = nodes->cell_nodes(cell);
+    SymmetricTensor<2, 3> result;
+    for (unsigned int i = 0; i < cell_nodes.size(); ++i)
+      for (unsigned int k = 0; k < 6; ++k)
+        result.access_raw_entry(k) +=
+          shape_values[i] *
+          recovered_stress.local_element(6 * cell_nodes[i] + k);
+    return result;
+  }
+
+  StressField::NodalValues
+  StressField::at_nodes()
+  {
+    recover();
+    NodalValues               result;
+    std::vector<unsigned int> n_materials(discretization.n_owned_nodes());
+    result.stress.resize(n_materials.size());
+    result.strain.resize(n_materials.size());
+    for (unsigned int n = 0; n < nodes->n_owned(); ++n)
+      {
+        const auto [node, material] = nodes->copy(n);
+        SymmetricTensor<2, 3> sigma;
+        for (unsigned int k = 0; k < 6; ++k)
+          sigma.access_raw_entry(k) = recovered_stress.local_element(6 * n + k);
+        ++n_materials[node];
+        result.stress[node] += sigma;
+        result.strain[node] +=
+          strain_of_stress(point_stress.material(material), sigma);
+      }
+    for (unsigned int node = 0; node < n_materials.size(); ++node)
+      if (n_materials[node] > 1)
+        {
+          result.stress[node] /= n_materials[node];
+          result.strain[node] /= n_materials[node];
+        }
+    return result;
+  }
+
+  const StressError &
+  StressField::error()
+  {
+    if (has_error)
+      return stress_error;
+    recover();
+    // Exact for the square of the recovered stress, of degree 2p.
+    const auto                        &rule = reference.load_rule;
+    std::vector<SymmetricTensor<2, 3>> stresses(rule.weights.size());
+    double                             sums[2] = {0, 0};
+    stress_error.of_cells.assign(discretization.n_owned_cells(), 0.);
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      {
+        const IsotropicMaterial &material =
+          point_stress.material(point_stress.material_index(c));
+        point_stress.evaluate(*displacement, c, rule, stresses.data());
+        double error_square = 0;
+        for (unsigned int q = 0; q < stresses.size(); ++q)
+          {
+            const double volume =
+              point_geometry(discretization, rule, c, q).volume;
+            const SymmetricTensor<2, 3> difference =
+              recovered(c, {&rule.values(q, 0), reference.n_nodes}) -
+              stresses[q];
+            error_square +=
+              volume * (difference * strain_of_stress(material, difference));
+            sums[1] +=
+              volume * (stresses[q] * strain_of_stress(material, stresses[q]));
+          }
+        stress_error.of_cells[c] = std::sqrt(error_square);
+        sums[0] += error_square;
+      }
+    using dealii::Utilities::MPI::sum;
+    stress_error.energy_norm =
+      std::sqrt(sum(sums[0], discretization.communicator()));
+    stress_error.stress_norm =
+      std::sqrt(sum(sums[1], discretization.communicator()));
+    has_error = true;
+    return stress_error;
+  }
+} // namespace corotet
