@@ -5,6 +5,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/history_writer.h>
+#include <corotet/output/stress_tables.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -65,17 +66,40 @@ namespace corotet
     return row;
   }
 
-  std::vector<std::string>
-  history_columns(const std::vector<std::string> &probe_names)
+  void
+  add_stress_columns(nlohmann::ordered_json                           &row,
+                     const std::vector<std::string>                   &names,
+                     const std::vector<dealii::SymmetricTensor<2, 3>> &stresses)
   {
-    return column_names(history_row(
-      {}, probe_names, std::vector<Tensor<1, 3>>(probe_names.size())));
+    AssertDimension(names.size(), stresses.size());
+    for (unsigned int p = 0; p < names.size(); ++p)
+      {
+        const auto components = in_vtk_order(stresses[p]);
+        for (unsigned int k = 0; k < components.size(); ++k)
+          row[names[p] + "_stress_" + vtk_components[k]] = components[k];
+        row[names[p] + "_von_mises"] = von_mises(stresses[p]);
+      }
   }
 
-  HistoryWriter::HistoryWriter(const std::string &directory,
-                               const Probes      &probes)
+  nlohmann::ordered_json
+  history_example(const OutputParameters &parameters)
+  {
+    const auto names        = names_of(parameters.probe_points());
+    const auto stress_names = names_of(parameters.stress_probe_points());
+    auto row = history_row({}, names, std::vector<Tensor<1, 3>>(names.size()));
+    add_stress_columns(row,
+                       stress_names,
+                       std::vector<dealii::SymmetricTensor<2, 3>>(
+                         stress_names.size()));
+    return row;
+  }
+
+  HistoryWriter::HistoryWriter(const std::string                 &directory,
+                               const Probes                      &probes,
+                               const std::optional<StressProbes> &stress_probes)
     : path(directory + "/history.csv")
     , probes(probes)
+    , stress_probes(stress_probes)
     , row(std::make_unique<nlohmann::ordered_json>(
         nlohmann::ordered_json::object()))
   {}
@@ -100,6 +124,10 @@ namespace corotet
     *row = history_row(state.record,
                        probes.names(),
                        probes.displacements(state.displacement));
+    if (stress_probes)
+      add_stress_columns(*row,
+                         stress_probes->names(),
+                         stress_probes->stresses(state.stress()));
     on_root(state.discretization.communicator(), [&] {
       errno = 0;
       if (with_names)

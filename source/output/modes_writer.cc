@@ -5,6 +5,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/modes_writer.h>
+#include <corotet/output/stress_points_writer.h>
 #include <corotet/output/summary_writer.h>
 #include <corotet/output/vtkhdf_writer.h>
 
@@ -44,11 +45,18 @@ namespace corotet
     }
   } // namespace
 
-  std::vector<std::string>
-  modes_columns(const std::vector<std::string> &probe_names)
+  nlohmann::ordered_json
+  modes_example(const OutputParameters &parameters)
   {
-    return column_names(table_row(
-      0, {}, 1, probe_names, std::vector<Tensor<1, 3>>(probe_names.size())));
+    const auto names        = names_of(parameters.probe_points());
+    const auto stress_names = names_of(parameters.stress_probe_points());
+    auto       row =
+      table_row(0, {}, 1, names, std::vector<Tensor<1, 3>>(names.size()));
+    add_stress_columns(row,
+                       stress_names,
+                       std::vector<dealii::SymmetricTensor<2, 3>>(
+                         stress_names.size()));
+    return row;
   }
 
   ModesWriter::ModesWriter(const OutputParameters &parameters,
@@ -57,6 +65,10 @@ namespace corotet
     : directory(directory)
     , analysis(analysis)
     , probes(parameters.probe_points(), analysis.discretization())
+    , stress_probes(parameters.stress_probe_points(), analysis.discretization())
+    , stress(analysis.stress_field())
+    , with_stress_at_nodes(parameters.has_stress_at_nodes())
+    , with_stress_at_points(parameters.has_stress_at_points())
   {}
 
   void
@@ -84,18 +96,25 @@ namespace corotet
   }
 
   void
-  ModesWriter::write_table() const
+  ModesWriter::write_table()
   {
     const double total_mass = analysis.summary().total_mass;
     std::string  text;
     for (unsigned int i = 0; i < analysis.modes().size(); ++i)
       {
         const Mode &mode = analysis.modes()[i];
-        const auto  row  = table_row(i + 1,
-                                   mode,
-                                   total_mass,
-                                   probes.names(),
-                                   probes.displacements(mode.shape));
+        auto        row  = table_row(i + 1,
+                             mode,
+                             total_mass,
+                             probes.names(),
+                             probes.displacements(mode.shape));
+        if (!stress_probes.names().empty())
+          {
+            stress.set_displacement(mode.shape);
+            add_stress_columns(row,
+                               stress_probes.names(),
+                               stress_probes.stresses(stress));
+          }
         if (i == 0)
           text += csv_line(row, true);
         text += csv_line(row, false);
@@ -111,9 +130,13 @@ namespace corotet
   }
 
   void
-  ModesWriter::write_shapes() const
+  ModesWriter::write_shapes()
   {
-    VtkhdfWriter writer(directory, 0);
+    std::vector<std::unique_ptr<Observer>> writers;
+    writers.push_back(
+      std::make_unique<VtkhdfWriter>(directory, 0, 32, with_stress_at_nodes));
+    if (with_stress_at_points)
+      writers.push_back(std::make_unique<StressPointsWriter>(directory, 0));
     for (unsigned int i = 0; i < analysis.modes().size(); ++i)
       {
         const Mode &mode = analysis.modes()[i];
@@ -124,6 +147,7 @@ namespace corotet
         Vector velocity(mode.shape);
         velocity *= mode.angular_frequency;
         velocity.update_ghost_values();
+        stress.set_displacement(mode.shape);
         const Snapshot snapshot{analysis.discretization(),
                                 record,
                                 mode.shape,
@@ -131,11 +155,13 @@ namespace corotet
                                 [&] {
                                   return analysis.cell_results(mode.shape);
                                 },
-                                i + 1 == analysis.modes().size()};
-        if (i == 0)
-          writer.start(snapshot);
-        else
-          writer.step(snapshot);
+                                i + 1 == analysis.modes().size(),
+                                [&]() -> StressField & { return stress; }};
+        for (const auto &writer : writers)
+          if (i == 0)
+            writer->start(snapshot);
+          else
+            writer->step(snapshot);
       }
   }
 } // namespace corotet

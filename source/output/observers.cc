@@ -4,6 +4,7 @@
 #include <corotet/output/history_writer.h>
 #include <corotet/output/observers.h>
 #include <corotet/output/progress.h>
+#include <corotet/output/stress_points_writer.h>
 #include <corotet/output/summary_writer.h>
 #include <corotet/output/vtkhdf_writer.h>
 
@@ -16,17 +17,30 @@ namespace corotet
                  const double            end_time,
                  Log                    &log)
   {
-    auto history = std::make_unique<HistoryWriter>(
-      directory, Probes(parameters.probe_points(), discretization));
+    std::optional<StressProbes> stress_probes;
+    if (const auto points = parameters.stress_probe_points(); !points.empty())
+      stress_probes.emplace(points, discretization);
+    auto history =
+      std::make_unique<HistoryWriter>(directory,
+                                      Probes(parameters.probe_points(),
+                                             discretization),
+                                      stress_probes);
     auto summary =
       std::make_unique<SummaryWriter>(directory,
                                       *history,
-                                      discretization.communicator());
+                                      discretization.communicator(),
+                                      parameters.has_stress_at_nodes());
 
     std::vector<std::unique_ptr<Observer>> observers;
     observers.push_back(
       std::make_unique<VtkhdfWriter>(directory,
-                                     parameters.time_between_results));
+                                     parameters.time_between_results,
+                                     32,
+                                     parameters.has_stress_at_nodes()));
+    if (parameters.has_stress_at_points())
+      observers.push_back(
+        std::make_unique<StressPointsWriter>(directory,
+                                             parameters.time_between_results));
     observers.push_back(std::move(history));
     observers.push_back(std::move(summary));
     observers.push_back(std::make_unique<Progress>(end_time, log));

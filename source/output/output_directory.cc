@@ -26,12 +26,16 @@ namespace corotet
     const std::array<std::string_view, 6> own_files{
       {R"(study(_[a-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
-       R"((solution\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
-       R"(solution/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
+       R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
+       R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.h5(\.tmp)?)",
        R"(checkpoint/[^/]+\.tmp/[^/]+)"}};
-    const std::array<std::string_view, 4> own_folders{
-      {"solution", "rows", "checkpoint", R"(checkpoint/[^/]+\.tmp)"}};
+    const std::array<std::string_view, 5> own_folders{
+      {"solution",
+       "stress_points",
+       "rows",
+       "checkpoint",
+       R"(checkpoint/[^/]+\.tmp)"}};
 
     template <typename Patterns>
     bool

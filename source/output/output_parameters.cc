@@ -20,11 +20,11 @@ namespace corotet
 {
   namespace
   {
-    const std::string probes_entry = "Output/Probes";
-
     // The numbers of "X Y Z"; throws if these are not three.
     dealii::Point<3>
-    parse_position(const std::string &name, const std::string &text)
+    parse_position(const std::string &entry,
+                   const std::string &name,
+                   const std::string &text)
     {
       std::istringstream       stream(text);
       std::vector<std::string> words;
@@ -41,7 +41,7 @@ namespace corotet
             error == std::errc() && stop == end && std::isfinite(position[c]);
         }
       if (!good)
-        throw InputError(probes_entry,
+        throw InputError(entry,
                          fmt::format("probe '{}' is at '{}'; its position must "
                                      "be three numbers (x y z, in m)",
                                      name,
@@ -50,28 +50,72 @@ namespace corotet
     }
 
     void
-    check_name(const std::string &name)
+    check_name(const std::string &entry, const std::string &name)
     {
       const auto allowed = [](const unsigned char c) {
         return std::isalnum(c) != 0 || c == '_';
       };
       if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
           !std::all_of(name.begin(), name.end(), allowed))
-        throw InputError(probes_entry,
+        throw InputError(entry,
                          fmt::format("'{}' cannot be a probe's name; letters, "
                                      "digits and _ are allowed, no digit first",
                                      name));
-      // NAME_x would be two columns of the history.
+    }
+
+    // NAME_x must not be two columns of the history.
+    void
+    check_not_taken(const std::string &entry, const std::string &name)
+    {
       const std::array<std::string, 4> taken{
         {"momentum", "angular_momentum", "reaction", "internal_moment"}};
       if (std::find(taken.begin(), taken.end(), name) != taken.end())
-        throw InputError(probes_entry,
+        throw InputError(entry,
                          fmt::format("'{}' cannot be a probe's name; {} are "
                                      "columns of the history already",
                                      name,
                                      join({taken.begin(), taken.end()})));
     }
+
+    std::vector<ProbePoint>
+    parse_probes(const std::string &entry, const std::string &probes)
+    {
+      std::vector<ProbePoint> points;
+      if (split_outside_brackets(probes, ',') == std::vector<std::string>{""})
+        return points;
+      std::set<std::string> names;
+      for (const std::string &probe : split_outside_brackets(probes, ','))
+        {
+          const std::vector<std::string> parts =
+            split_outside_brackets(probe, ':');
+          if (parts.size() != 2)
+            throw InputError(
+              entry,
+              fmt::format("'{}' is no probe; a list of NAME: X Y "
+                          "Z, separated by commas, is allowed",
+                          probe));
+          check_name(entry, parts[0]);
+          if (!names.insert(parts[0]).second)
+            throw InputError(
+              entry,
+              fmt::format("two probes are called '{}'; each name "
+                          "must be used once",
+                          parts[0]));
+          points.push_back(
+            {parts[0], parse_position(entry, parts[0], parts[1])});
+        }
+      return points;
+    }
   } // namespace
+
+  std::vector<std::string>
+  names_of(const std::vector<ProbePoint> &probes)
+  {
+    std::vector<std::string> names;
+    for (const ProbePoint &probe : probes)
+      names.push_back(probe.name);
+    return names;
+  }
 
   void
   OutputParameters::declare_parameters(dealii::ParameterHandler &prm)
@@ -108,42 +152,36 @@ namespace corotet
       "history.csv: NAME: X Y Z, separated by commas, for example "
       "'tip: 1 0.05 0.05, middle: 0.5 0.05 0.05'.",
       dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Stress",
+      stress,
+      "Where stress and strain are written [-]: 'none'; 'nodes', recovered, "
+      "with the estimated error of each cell, in solution.vtkhdf; 'quadrature "
+      "points', as computed, in stress_points.vtkhdf; 'both'. Results with it "
+      "are some times larger.",
+      dealii::Patterns::Selection("none|nodes|quadrature points|both"));
+    prm.add_parameter(
+      "Stress probes",
+      stress_probes,
+      "Points of the undeformed body [m] whose recovered stress goes into "
+      "history.csv; written like 'Probes'.",
+      dealii::Patterns::Anything());
   }
 
   std::vector<ProbePoint>
   OutputParameters::probe_points() const
   {
-    std::vector<ProbePoint> points;
-    if (split_outside_brackets(probes, ',') == std::vector<std::string>{""})
-      return points;
-    std::set<std::string> names;
-    for (const std::string &probe : split_outside_brackets(probes, ','))
-      {
-        const std::vector<std::string> parts =
-          split_outside_brackets(probe, ':');
-        if (parts.size() != 2)
-          throw InputError(probes_entry,
-                           fmt::format("'{}' is no probe; a list of NAME: X Y "
-                                       "Z, separated by commas, is allowed",
-                                       probe));
-        check_name(parts[0]);
-        if (!names.insert(parts[0]).second)
-          throw InputError(probes_entry,
-                           fmt::format("two probes are called '{}'; each name "
-                                       "must be used once",
-                                       parts[0]));
-        points.push_back({parts[0], parse_position(parts[0], parts[1])});
-      }
+    const std::string entry  = "Output/Probes";
+    const auto        points = parse_probes(entry, probes);
+    for (const ProbePoint &point : points)
+      check_not_taken(entry, point.name);
     return points;
   }
 
-  std::vector<std::string>
-  OutputParameters::probe_names() const
+  std::vector<ProbePoint>
+  OutputParameters::stress_probe_points() const
   {
-    std::vector<std::string> names;
-    for (const ProbePoint &probe : probe_points())
-      names.push_back(probe.name);
-    return names;
+    return parse_probes("Output/Stress probes", stress_probes);
   }
 
   std::string

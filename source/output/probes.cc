@@ -20,10 +20,6 @@ namespace corotet
     using dealii::Tensor;
     namespace mpi = dealii::Utilities::MPI;
 
-    // How far outside of a cell a point may be, in barycentric coordinates:
-    // round-off in the coordinates of a point on the surface.
-    constexpr double tolerance = 1e-8;
-
     // The owned cell that a point is deepest in, the point's reference
     // coordinates there, and the smallest of its barycentric coordinates.
     struct Location
@@ -77,6 +73,22 @@ namespace corotet
     }
   } // namespace
 
+  void
+  throw_outside_of_body(const std::string    &entry,
+                        const std::string    &name,
+                        const Point<3>       &x,
+                        const Discretization &discretization)
+  {
+    throw InputError(entry,
+                     fmt::format("probe '{}' at ({}, {}, {}) lies outside the "
+                                 "body, which has {} (m)",
+                                 name,
+                                 x[0],
+                                 x[1],
+                                 x[2],
+                                 bounding_box(discretization)));
+  }
+
   Probes::Probes(const std::vector<ProbePoint> &points,
                  const Discretization          &discretization)
     : comm(discretization.communicator())
@@ -88,16 +100,9 @@ namespace corotet
       {
         const Location     location = locate(x, discretization);
         const unsigned int owner =
-          mpi::min(location.depth >= -tolerance ? rank : nobody, comm);
+          mpi::min(location.depth >= -probe_tolerance ? rank : nobody, comm);
         if (owner == nobody)
-          throw InputError("Output/Probes",
-                           fmt::format("probe '{}' at ({}, {}, {}) lies "
-                                       "outside the body, which has {} (m)",
-                                       name,
-                                       x[0],
-                                       x[1],
-                                       x[2],
-                                       bounding_box(discretization)));
+          throw_outside_of_body("Output/Probes", name, x, discretization);
         if (owner == rank)
           {
             const auto nodes = discretization.cell_nodes(location.cell);

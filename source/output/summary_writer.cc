@@ -56,11 +56,29 @@ namespace corotet
 
   SummaryWriter::SummaryWriter(const std::string   &directory,
                                const HistoryWriter &history,
-                               const MPI_Comm       comm)
+                               const MPI_Comm       comm,
+                               const bool           with_error_estimate)
     : directory(directory)
     , history(history)
     , comm(comm)
+    , with_error_estimate(with_error_estimate)
   {}
+
+  void
+  SummaryWriter::step(const Snapshot &state)
+  {
+    if (state.last)
+      save(state);
+  }
+
+  void
+  SummaryWriter::save(const Snapshot &state)
+  {
+    if (!with_error_estimate)
+      return;
+    const StressError &error = state.stress().error();
+    error_estimate           = {error.energy_norm, error.relative()};
+  }
 
   void
   SummaryWriter::finish(const RunSummary &summary)
@@ -74,6 +92,9 @@ namespace corotet
         results["errors"]      = norms_object(summary.errors->error);
         results["exact_norms"] = norms_object(summary.errors->reference);
       }
+    if (error_estimate)
+      results["error_estimate"] = {{"energy_norm", error_estimate->energy_norm},
+                                   {"relative", error_estimate->relative}};
     write_summary(directory, summary, results, comm);
   }
 

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/base/exceptions.h>
-#include <corotet/base/mpi.h>
+#include <corotet/output/stress_tables.h>
 #include <corotet/output/vtkhdf_writer.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
-#include <fmt/format.h>
-
 #include <array>
-#include <cmath>
-#include <filesystem>
-#include <system_error>
 
 namespace corotet
 {
@@ -21,24 +15,6 @@ namespace corotet
   {
     using dealii::Point;
     using dealii::Utilities::MPI::this_mpi_process;
-
-    // What is stored once, by name: all that VTK's reader wants in group
-    // VTKHDF.
-    const std::vector<std::string> mesh_tables{"NumberOfPoints",
-                                               "NumberOfCells",
-                                               "NumberOfConnectivityIds",
-                                               "Points",
-                                               "Connectivity",
-                                               "Offsets",
-                                               "Types"};
-    const std::vector<std::string> static_cell_data{"region", "rank"};
-
-    // What is stored for each result: tables with a row per node (three
-    // columns) and lists with a number per cell.
-    const std::vector<std::string> point_data{"displacement", "velocity"};
-    const std::vector<std::string> cell_data{"rotation_angle",
-                                             "det_F",
-                                             "von_mises"};
 
     // Reference coordinates of the nodes of VTK's Lagrange tetrahedron.
     std::vector<Point<3>>
@@ -82,53 +58,44 @@ namespace corotet
 
   VtkhdfWriter::VtkhdfWriter(const std::string &directory,
                              const double       time_between_results,
-                             const std::size_t  n_joined)
-    : directory(directory)
-    , time_between_results(time_between_results)
-    , n_joined(n_joined)
-  {}
+                             const std::size_t  n_joined,
+                             const bool         with_stress)
+    : series(directory, "solution", time_between_results, n_joined)
+    , with_stress(with_stress)
+  {
+    series.point_data = {{"displacement", 3}, {"velocity", 3}};
+    series.cell_data  = {{"rotation_angle", 0}, {"det_F", 0}, {"von_mises", 0}};
+    series.static_cell_data = {"region", "rank"};
+    if (with_stress)
+      {
+        const auto &tables = StressTables::tables();
+        series.point_data.insert(series.point_data.end(),
+                                 tables.begin(),
+                                 tables.end());
+        series.cell_data.push_back({"error_estimate", 0});
+      }
+  }
 
   void
   VtkhdfWriter::start(const Snapshot &initial)
   {
-    const Discretization &discretization = initial.discretization;
-    const MPI_Comm        comm           = discretization.communicator();
-    on_root(comm, [&] {
-      std::error_code error;
-      std::filesystem::create_directories(directory + "/solution", error);
-      if (error)
-        throw MachineError(
-          directory +
-          "/solution: the folder cannot be made: " + error.message());
-    });
-    write_mesh(discretization);
+    series.make_folder(initial.discretization.communicator());
+    write_mesh(initial.discretization);
     write_state(initial);
   }
 
   void
   VtkhdfWriter::step(const Snapshot &state)
   {
-    if (state.last || is_due(state.record.time))
+    if (state.last || series.is_due(state.record.time))
       write_state(state);
   }
 
   void
   VtkhdfWriter::save(const Snapshot &state)
   {
-    if (state.record.time > times.back())
+    if (series.is_new(state.record.time))
       write_state(state);
-  }
-
-  bool
-  VtkhdfWriter::is_due(const double time) const
-  {
-    if (time_between_results == 0)
-      return true;
-    // A step that ends at a multiple, but for round-off, has reached it.
-    const auto interval = [&](const double t) {
-      return std::floor(t / time_between_results + 1e-6);
-    };
-    return interval(time) > interval(times.back());
   }
 
   void
@@ -154,7 +121,10 @@ namespace corotet
     cells.n_global_rows = discretization.n_global_cells();
     cells.n_columns     = 0;
 
-    Hdf5File file(directory + "/solution/mesh.h5", comm);
+    series.n_points = nodes.n_global_rows;
+    series.n_cells  = cells.n_global_rows;
+
+    Hdf5File file(series.mesh_file(), comm);
     write_nodal(file, "Points", discretization.node_positions());
     write_connectivity(shown, file);
 
@@ -167,13 +137,7 @@ namespace corotet
     const std::vector<std::int32_t> ranks(n_cells, this_mpi_process(comm));
     file.write("rank", ranks.data(), cells);
 
-    const auto list = [](const hsize_t number) {
-      return std::vector<std::int64_t>{static_cast<std::int64_t>(number)};
-    };
-    file.write_from_root("NumberOfPoints", list(nodes.n_global_rows));
-    file.write_from_root("NumberOfCells", list(cells.n_global_rows));
-    file.write_from_root("NumberOfConnectivityIds",
-                         list(cells.n_global_rows * shown.n_nodes_per_cell()));
+    series.write_sizes(file, cells.n_global_rows * shown.n_nodes_per_cell());
     file.finish();
   }
 
@@ -226,140 +190,38 @@ namespace corotet
                 cells.n_global_rows + 1});
   }
 
-  std::string
-  VtkhdfWriter::Block::file_name() const
-  {
-    if (level == 0)
-      return fmt::format("step_{:06}.h5", step);
-    if (level == 1)
-      return fmt::format("block_{:06}.h5", step);
-    return fmt::format("block_{}_{:06}.h5", level, step);
-  }
-
   void
   VtkhdfWriter::write_state(const Snapshot &state)
   {
     const MPI_Comm    comm    = state.discretization.communicator();
     const CellResults results = state.cell_results();
 
-    const Block block{0, state.record.step, 1};
-
-    Hdf5File file(directory + "/solution/" + block.file_name(), comm);
-    write_nodal(file, "displacement", state.displacement);
-    write_nodal(file, "velocity", state.velocity);
-    file.write("rotation_angle", results.rotation_angle.data(), cells);
-    file.write("det_F", results.det_F.data(), cells);
-    file.write("von_mises", results.von_mises.data(), cells);
+    Hdf5File file(series.result_file(state.record.step), comm);
+    VtkhdfSeries::create_groups(file);
+    write_nodal(file, "PointData/displacement", state.displacement);
+    write_nodal(file, "PointData/velocity", state.velocity);
+    file.write("CellData/rotation_angle", results.rotation_angle.data(), cells);
+    file.write("CellData/det_F", results.det_F.data(), cells);
+    file.write("CellData/von_mises", results.von_mises.data(), cells);
+    if (with_stress)
+      write_stress(file, state.stress());
     file.finish();
-
-    times.push_back(state.record.time);
-    blocks.push_back(block);
-    on_root(comm, [&] {
-      join_blocks();
-      write_index();
-    });
+    series.add_result(state.record.step, state.record.time, comm);
   }
 
   void
-  VtkhdfWriter::join_blocks()
+  VtkhdfWriter::write_stress(Hdf5File &file, StressField &stress) const
   {
-    // Levels never rise from one block to the next.
-    while (blocks.size() >= n_joined &&
-           blocks[blocks.size() - n_joined].level == blocks.back().level)
+    const auto   values = stress.at_nodes();
+    StressTables tables(nodes);
+    for (unsigned int n = 0; n < nodes.n_rows; ++n)
       {
-        const std::size_t first = blocks.size() - n_joined;
-        const Block       joined{blocks[first].level + 1,
-                           blocks[first].step,
-                           blocks[first].n_results * n_joined};
-        Hdf5File          file(directory + "/solution/" + joined.file_name(),
-                      MPI_COMM_SELF);
-        write_references(file, first, "", "", "");
-        file.finish();
-        blocks.resize(first);
-        blocks.push_back(joined);
+        const unsigned int node = without_bubbles ? without_bubbles->key(n) : n;
+        tables.add(values.stress[node], values.strain[node]);
       }
-  }
-
-  void
-  VtkhdfWriter::write_references(Hdf5File          &file,
-                                 const std::size_t  first_block,
-                                 const std::string &folder,
-                                 const std::string &point_group,
-                                 const std::string &cell_group) const
-  {
-    std::vector<Hdf5Part> point_parts, cell_parts;
-    for (std::size_t i = first_block; i < blocks.size(); ++i)
-      {
-        const std::string name = folder + blocks[i].file_name();
-        point_parts.push_back(
-          {name, blocks[i].n_results * nodes.n_global_rows});
-        cell_parts.push_back({name, blocks[i].n_results * cells.n_global_rows});
-      }
-    for (const std::string &name : point_data)
-      file.write_virtual(point_group + name,
-                         name,
-                         point_parts,
-                         nodes.n_columns);
-    for (const std::string &name : cell_data)
-      file.write_virtual(cell_group + name, name, cell_parts, cells.n_columns);
-  }
-
-  void
-  VtkhdfWriter::write_index() const
-  {
-    Hdf5File file(directory + "/solution.vtkhdf", MPI_COMM_SELF);
-    file.create_group("VTKHDF");
-    file.write_number_attribute("VTKHDF", "Version", {2, 0});
-    file.write_text_attribute("VTKHDF", "Type", "UnstructuredGrid");
-    for (const std::string &name : mesh_tables)
-      file.link("VTKHDF/" + name, "solution/mesh.h5", name);
-
-    file.create_group("VTKHDF/PointData");
-    file.create_group("VTKHDF/CellData");
-    write_references(
-      file, 0, "solution/", "VTKHDF/PointData/", "VTKHDF/CellData/");
-    for (const std::string &name : static_cell_data)
-      file.link("VTKHDF/CellData/" + name, "solution/mesh.h5", name);
-
-    write_index_steps(file);
-    file.finish();
-  }
-
-  void
-  VtkhdfWriter::write_index_steps(Hdf5File &file) const
-  {
-    const std::string steps = "VTKHDF/Steps";
-    file.create_group(steps);
-    file.write_number_attribute(steps,
-                                "NSteps",
-                                {static_cast<std::int64_t>(times.size())});
-    file.write_from_root(steps + "/Values", times);
-
-    // Where the tables of each step begin: the mesh and what belongs to it are
-    // the same rows for all.
-    const std::vector<std::int64_t> same(times.size(), 0);
-    file.write_from_root(steps + "/PartOffsets", same);
-    file.write_from_root(steps + "/NumberOfParts",
-                         std::vector<std::int64_t>(times.size(), 1));
-    file.write_from_root(steps + "/PointOffsets", same);
-    file.write_from_root(steps + "/CellOffsets", same, 1);
-    file.write_from_root(steps + "/ConnectivityIdOffsets", same, 1);
-
-    const auto consecutive = [&](const hsize_t n_rows) {
-      std::vector<std::int64_t> offsets(times.size());
-      for (std::size_t i = 0; i < offsets.size(); ++i)
-        offsets[i] = i * n_rows;
-      return offsets;
-    };
-    file.create_group(steps + "/PointDataOffsets");
-    for (const std::string &name : point_data)
-      file.write_from_root(steps + "/PointDataOffsets/" + name,
-                           consecutive(nodes.n_global_rows));
-    file.create_group(steps + "/CellDataOffsets");
-    for (const std::string &name : cell_data)
-      file.write_from_root(steps + "/CellDataOffsets/" + name,
-                           consecutive(cells.n_global_rows));
-    for (const std::string &name : static_cell_data)
-      file.write_from_root(steps + "/CellDataOffsets/" + name, same);
+    tables.write(file);
+    file.write("CellData/error_estimate",
+               stress.error().of_cells.data(),
+               cells);
   }
 } // namespace corotet

@@ -76,7 +76,8 @@ namespace corotet
     while (!stepper.is_done())
       {
         stepper.next(record);
-        record.wall_time = seconds();
+        stress_is_present = false;
+        record.wall_time  = seconds();
         report_inversions(record);
         ScopedTimer timer(wall_times.output);
         for (const auto &observer : observers)
@@ -119,6 +120,7 @@ namespace corotet
   {
     // What the failed step has left in the system is not the state.
     system.set_state(stepper.state());
+    stress_is_present = false;
     ScopedTimer timer(wall_times.output);
     for (const auto &observer : observers)
       if (stepper.has_partial_step())
@@ -137,7 +139,24 @@ namespace corotet
             [this] {
               return system.elasticity().cell_results(system.displacement());
             },
-            last};
+            last,
+            [this]() -> StressField & { return present_stress(); }};
+  }
+
+  StressField &
+  Simulation::present_stress()
+  {
+    if (!stress)
+      stress =
+        std::make_unique<StressField>(disc,
+                                      system.reference_element(),
+                                      parameters.material.materials(
+                                        mesh.regions()),
+                                      parameters.material.rotation_placement());
+    if (!stress_is_present)
+      stress->set_displacement(system.displacement());
+    stress_is_present = true;
+    return *stress;
   }
 
   void

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
+#include <corotet/output/csv.h>
 #include <corotet/output/history_writer.h>
 #include <corotet/output/modes_writer.h>
 #include <corotet/output/observers.h>
@@ -12,6 +13,8 @@
 #include <corotet/studies/convergence_study.h>
 #include <corotet/studies/recorded_run.h>
 #include <corotet/studies/run_parameters.h>
+
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -94,12 +97,12 @@ namespace corotet
       }
     if (simulation_parameters.type == "modes")
       {
-        verification.initialize(modes_columns(output.probe_names()));
+        verification.initialize(column_names(modes_example(output)));
         ModalAnalysis analysis(simulation_parameters, file.folder(), comm, log);
         ModesWriter   writer(output, directory, analysis);
         return record("modes.csv", [&] { compute_modes(analysis, writer); });
       }
-    verification.initialize(history_columns(output.probe_names()));
+    verification.initialize(column_names(history_example(output)));
     Simulation simulation(simulation_parameters, file.folder(), comm, log);
     const auto observers = make_observers(output,
                                           directory,

@@ -5,6 +5,7 @@
 #include <corotet/base/memory.h>
 #include <corotet/base/text.h>
 #include <corotet/output/history_writer.h>
+#include <corotet/output/stress_probes.h>
 #include <corotet/simulation/modal_analysis.h>
 #include <corotet/studies/study_run.h>
 
@@ -28,8 +29,9 @@ namespace corotet
     class LastRow : public Observer
     {
     public:
-      explicit LastRow(const Probes &probes)
+      LastRow(const Probes &probes, const StressProbes &stress_probes)
         : probes(probes)
+        , stress_probes(stress_probes)
       {}
 
       void
@@ -43,10 +45,15 @@ namespace corotet
       {
         newton_iterations += state.record.newton_iterations;
         linear_iterations += state.record.linear_iterations;
-        if (state.last || row.is_null())
-          row = history_row(state.record,
-                            probes.names(),
-                            probes.displacements(state.displacement));
+        if (!state.last && !row.is_null())
+          return;
+        row = history_row(state.record,
+                          probes.names(),
+                          probes.displacements(state.displacement));
+        if (!stress_probes.names().empty())
+          add_stress_columns(row,
+                             stress_probes.names(),
+                             stress_probes.stresses(state.stress()));
       }
 
       void
@@ -56,6 +63,7 @@ namespace corotet
       }
 
       Probes       probes;
+      StressProbes stress_probes;
       Json         row;
       RunSummary   summary;
       unsigned int newton_iterations = 0;
@@ -74,15 +82,6 @@ namespace corotet
       result.steps           = summary.steps;
       result.wall_times      = summary.wall_times;
       result.total_wall_time = summary.total_wall_time;
-    }
-
-    std::vector<std::string>
-    names_of(const std::vector<ProbePoint> &probes)
-    {
-      std::vector<std::string> names;
-      for (const ProbePoint &probe : probes)
-        names.push_back(probe.name);
-      return names;
     }
 
     Json
@@ -199,7 +198,8 @@ namespace corotet
     Json entries = file.values();
     entries.erase("Convergence study");
     entries.erase("Verification");
-    entries["Output"] = parameters.output.probes;
+    entries["Output"] = {parameters.output.probes,
+                         parameters.output.stress_probes};
     return entries;
   }
 
@@ -221,7 +221,9 @@ namespace corotet
   {
     std::vector<std::unique_ptr<Observer>> observers;
     observers.push_back(std::make_unique<LastRow>(
-      Probes(parameters.output.probe_points(), simulated->discretization())));
+      Probes(parameters.output.probe_points(), simulated->discretization()),
+      StressProbes(parameters.output.stress_probe_points(),
+                   simulated->discretization())));
     const auto &last = static_cast<const LastRow &>(*observers.front());
     try
       {

@@ -39,10 +39,10 @@ def require(condition, message):
         sys.exit(f"check_vtkhdf: {message}")
 
 
-def read_steps(directory):
+def read_steps(directory, file="solution.vtkhdf"):
     """Yields (time, grid) of each step."""
     reader = vtkHDFReader()
-    reader.SetFileName(os.path.join(directory, "solution.vtkhdf"))
+    reader.SetFileName(os.path.join(directory, file))
     reader.UpdateInformation()
     times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
     if times is None:

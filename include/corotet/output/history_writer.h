@@ -5,12 +5,14 @@
 #define corotet_output_history_writer_h
 
 #include <corotet/output/probes.h>
+#include <corotet/output/stress_probes.h>
 #include <corotet/simulation/observer.h>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,11 +27,18 @@ namespace corotet
               const std::vector<std::string>          &names,
               const std::vector<dealii::Tensor<1, 3>> &displacements);
 
+  /// Adds the columns of the stress at the probes called @p names [Pa].
+  void
+  add_stress_columns(
+    nlohmann::ordered_json                           &row,
+    const std::vector<std::string>                   &names,
+    const std::vector<dealii::SymmetricTensor<2, 3>> &stresses);
+
   /**
-   * The columns of history.csv with probes of these names.
+   * A row that history.csv has with these @p parameters, of a body at rest.
    */
-  std::vector<std::string>
-  history_columns(const std::vector<std::string> &probe_names);
+  nlohmann::ordered_json
+  history_example(const OutputParameters &parameters);
 
   /**
    * Writes history.csv: a row per step, step 0 included, each complete in the
@@ -39,7 +48,10 @@ namespace corotet
   class HistoryWriter : public Observer
   {
   public:
-    HistoryWriter(const std::string &directory, const Probes &probes);
+    /// Columns of @p stress_probes are the last ones.
+    HistoryWriter(const std::string                 &directory,
+                  const Probes                      &probes,
+                  const std::optional<StressProbes> &stress_probes = {});
     ~HistoryWriter() override;
 
     /// Throws MachineError if the file cannot be written, as does step().
@@ -62,6 +74,7 @@ namespace corotet
 
     std::string                             path;
     Probes                                  probes;
+    std::optional<StressProbes>             stress_probes;
     std::ofstream                           file;
     std::unique_ptr<nlohmann::ordered_json> row;
   };

@@ -6,7 +6,10 @@
 
 #include <corotet/output/output_parameters.h>
 #include <corotet/output/probes.h>
+#include <corotet/output/stress_probes.h>
 #include <corotet/simulation/modal_analysis.h>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
@@ -14,14 +17,15 @@
 namespace corotet
 {
   /**
-   * The columns of modes.csv with probes of these names.
+   * A row that modes.csv has with these @p parameters, without numbers.
    */
-  std::vector<std::string>
-  modes_columns(const std::vector<std::string> &probe_names);
+  nlohmann::ordered_json
+  modes_example(const OutputParameters &parameters);
 
   /**
    * Writes the results of a modal analysis: modes.csv with a row per mode, the
-   * shapes as the steps of solution.vtkhdf, and summary.json.
+   * shapes as the steps of solution.vtkhdf (and stress_points.vtkhdf), and
+   * summary.json.
    *
    * @p analysis must outlive this object. Members are collective.
    */
@@ -41,13 +45,17 @@ namespace corotet
 
   private:
     void
-    write_table() const;
+    write_table();
     void
-    write_shapes() const;
+    write_shapes();
 
     std::string    directory;
     ModalAnalysis &analysis;
     Probes         probes;
+    StressProbes   stress_probes;
+    StressField    stress;
+    bool           with_stress_at_nodes;
+    bool           with_stress_at_points;
   };
 } // namespace corotet
 

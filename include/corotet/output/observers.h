@@ -16,9 +16,9 @@ namespace corotet
 {
   /**
    * All observers of a run, in the order in which they are to be called:
-   * time series, history, summary, progress. They write into @p directory,
-   * which must exist. @p end_time in s. @p discretization and @p log must
-   * outlive them.
+   * time series, that of stress points, history, summary, progress. They write
+   * into @p directory, which must exist. @p end_time in s. @p discretization
+   * and @p log must outlive them.
    *
    * Throws InputError if a probe is wrong. Collective.
    */

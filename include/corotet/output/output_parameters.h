@@ -13,14 +13,17 @@
 namespace corotet
 {
   /**
-   * A point of the undeformed body [m] whose displacement goes into the
-   * history.
+   * A point of the undeformed body [m] whose displacement or stress goes into
+   * the history.
    */
   struct ProbePoint
   {
     std::string      name;
     dealii::Point<3> position;
   };
+
+  std::vector<std::string>
+  names_of(const std::vector<ProbePoint> &probes);
 
   /**
    * The parameters of section Output.
@@ -39,9 +42,24 @@ namespace corotet
     std::vector<ProbePoint>
     probe_points() const;
 
-    /// The names of these probes. Throws InputError.
-    std::vector<std::string>
-    probe_names() const;
+    /// What entry Stress probes lists, likewise; the history's own columns do
+    /// not matter.
+    std::vector<ProbePoint>
+    stress_probe_points() const;
+
+    /// Whether stress is written at the nodes, with the estimate of its error.
+    bool
+    has_stress_at_nodes() const
+    {
+      return stress == "nodes" || stress == "both";
+    }
+
+    /// Whether stress is written at quadrature points.
+    bool
+    has_stress_at_points() const
+    {
+      return stress == "quadrature points" || stress == "both";
+    }
 
     /**
      * The output directory of a run of @p parameter_file: as set, or
@@ -56,6 +74,8 @@ namespace corotet
     double       time_between_results = 0;
     unsigned int steps_between_rows   = 1;
     std::string  probes;
+    std::string  stress = "none";
+    std::string  stress_probes;
   };
 } // namespace corotet
 

@@ -14,6 +14,18 @@
 
 namespace corotet
 {
+  /// How far outside of a cell a point may be, in barycentric coordinates:
+  /// round-off in the coordinates of a point on the surface.
+  inline constexpr double probe_tolerance = 1e-8;
+
+  /// Throws the InputError, blamed on @p entry, for a probe at @p x that is
+  /// outside the body. Collective.
+  [[noreturn]] void
+  throw_outside_of_body(const std::string      &entry,
+                        const std::string      &name,
+                        const dealii::Point<3> &x,
+                        const Discretization   &discretization);
+
   /**
    * Points of the undeformed body, anywhere in it, at which a displacement is
    * evaluated: u(x) = sum_i u_i N_i(x) in the cell that contains x.

@@ -7,6 +7,7 @@
 #include <corotet/output/history_writer.h>
 #include <corotet/simulation/observer.h>
 
+#include <optional>
 #include <string>
 
 namespace corotet
@@ -16,14 +17,22 @@ namespace corotet
    * complete or absent. Not a number is written as null.
    *
    * @p history, which must be called before this observer and must outlive it,
-   * gives the last row.
+   * gives the last row. With @p with_error_estimate the summary has that of the
+   * last state's stress.
    */
   class SummaryWriter : public Observer
   {
   public:
     SummaryWriter(const std::string   &directory,
                   const HistoryWriter &history,
-                  const MPI_Comm       comm);
+                  const MPI_Comm       comm,
+                  const bool           with_error_estimate = false);
+
+    void
+    step(const Snapshot &state) override;
+
+    void
+    save(const Snapshot &state) override;
 
     /// Throws MachineError if the file cannot be written.
     void
@@ -33,6 +42,14 @@ namespace corotet
     std::string          directory;
     const HistoryWriter &history;
     MPI_Comm             comm;
+    bool                 with_error_estimate;
+    /// Of the last state: |sigma* - sigma|_E [sqrt(J)], and relative.
+    struct ErrorEstimate
+    {
+      double energy_norm;
+      double relative;
+    };
+    std::optional<ErrorEstimate> error_estimate;
   };
 
   /**

@@ -99,6 +99,16 @@ namespace corotet
       return solver.n_linear_iterations();
     }
 
+    /// For displacements, by linear elasticity.
+    StressField
+    stress_field() const
+    {
+      return {disc,
+              reference,
+              parameters.material.materials(mesh.regions()),
+              Rotation::none};
+    }
+
     /// What is known of the run at its end. The number of steps is that of the
     /// modes.
     RunSummary

@@ -8,6 +8,7 @@
 #include <corotet/discretization/discretization.h>
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/error_norms.h>
+#include <corotet/operators/stress_field.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -82,6 +83,8 @@ namespace corotet
     std::function<CellResults()> cell_results;
     /// Whether no step follows (the run ends here).
     bool last;
+    /// The stress of this state. Collective.
+    std::function<StressField &()> stress = {};
   };
 
   /**

@@ -90,6 +90,9 @@ namespace corotet
     errors();
     Snapshot
     snapshot(const StepRecord &record, const bool last);
+    /// Of the present displacement. Made when it is first asked for.
+    StressField &
+    present_stress();
     double
     seconds() const;
 
@@ -105,6 +108,9 @@ namespace corotet
     StructuralSystem      system;
     Stepper               stepper;
     bool                  is_started = false;
+
+    std::unique_ptr<StressField> stress;
+    bool                         stress_is_present = false;
     /// Of the last report.
     unsigned int reported_inverted   = 0;
     unsigned int reported_degenerate = 0;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_stress_probes_h
+#define corotet_output_stress_probes_h
+
+#include <corotet/operators/stress_field.h>
+#include <corotet/output/output_parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Points of the undeformed body, anywhere in it, at which the recovered
+   * stress is evaluated. Where materials meet: the mean of theirs, so that the
+   * distribution over ranks makes no difference.
+   *
+   * @p discretization must outlive this object.
+   */
+  class StressProbes
+  {
+  public:
+    /// Throws InputError blamed on Output/Stress probes if a point is outside
+    /// the body (by more than 1e-8 of a cell). Collective.
+    StressProbes(const std::vector<ProbePoint> &points,
+                 const Discretization          &discretization);
+
+    const std::vector<std::string> &
+    names() const
+    {
+      return probe_names;
+    }
+
+    /// Stress of each probe [Pa], on all ranks. Recovers it if that is not
+    /// done. Collective.
+    std::vector<dealii::SymmetricTensor<2, 3>>
+    stresses(StressField &field) const;
+
+  private:
+    /// A probe in an owned cell.
+    struct Located
+    {
+      unsigned int        probe;
+      unsigned int        cell;
+      std::vector<double> shape_values;
+    };
+
+    MPI_Comm                 comm;
+    std::vector<std::string> probe_names;
+    std::vector<Located>     located;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_stress_tables_h
+#define corotet_output_stress_tables_h
+
+#include <corotet/output/vtkhdf_series.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /// Components of a symmetric tensor in VTK's order, by name.
+  inline const std::array<std::string, 6> vtk_components{
+    {"xx", "yy", "zz", "xy", "yz", "xz"}};
+
+  /// The components of a symmetric tensor in VTK's order.
+  std::array<double, 6>
+  in_vtk_order(const dealii::SymmetricTensor<2, 3> &tensor);
+
+  /**
+   * Tables of stress for a time series: stress and strain (six columns in
+   * VTK's order), von_mises (a list) and principal_stress (three columns,
+   * largest first).
+   */
+  class StressTables
+  {
+  public:
+    /// Their names and columns.
+    static const std::vector<VtkhdfSeries::Table> &
+    tables();
+
+    /// @p rows tells this rank's share; columns are not read.
+    explicit StressTables(const Hdf5Rows &rows);
+
+    /// The next row: stress [Pa] and strain [-].
+    void
+    add(const dealii::SymmetricTensor<2, 3> &sigma,
+        const dealii::SymmetricTensor<2, 3> &epsilon);
+
+    /// Writes all rows to group PointData of @p file. Collective.
+    void
+    write(Hdf5File &file) const;
+
+  private:
+    Hdf5Rows rows;
+    /// In the order of tables().
+    std::array<std::vector<double>, 4> values;
+  };
+} // namespace corotet
+
+#endif

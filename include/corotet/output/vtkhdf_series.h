@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_vtkhdf_series_h
+#define corotet_output_vtkhdf_series_h
+
+#include <corotet/output/hdf5_file.h>
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * A time series for ParaView: NAME.vtkhdf, a temporal UnstructuredGrid of
+   * VTKHDF 2.0 with one mesh for all results.
+   *
+   * Numbers are in files beside it, NAME/mesh.h5 (once) and
+   * NAME/step_NNNNNN.h5 (one per result, NNNNNN is the step), which the caller
+   * writes, by all ranks together. NAME.vtkhdf itself refers to them by
+   * relative names only (external links and virtual datasets), so the folder
+   * can be moved. It is replaced after each result, and each file is complete
+   * or absent: so a run that is killed leaves every finished result readable.
+   *
+   * References cost time, to write and to read, so there must not be one to
+   * each of thousands of results: NAME/block_NNNNNN.h5 refers to 32 results
+   * from that of step NNNNNN on, NAME/block_2_NNNNNN.h5 to 32 of such blocks,
+   * and so on.
+   */
+  class VtkhdfSeries
+  {
+  public:
+    /// A table of each result, and its number of columns (0: a plain list).
+    struct Table
+    {
+      std::string name;
+      hsize_t     n_columns;
+    };
+
+    /**
+     * Writes into @p directory. A result is due at the first step at or after
+     * each multiple of @p time_between_results [s] (0: every step). @p n_joined
+     * blocks make a larger one.
+     */
+    VtkhdfSeries(const std::string &directory,
+                 const std::string &name,
+                 const double       time_between_results,
+                 const std::size_t  n_joined);
+
+    /// What each result has: tables with a row per point and per cell.
+    std::vector<Table> point_data;
+    std::vector<Table> cell_data;
+    /// Cell data in the mesh file: lists, the same for all results.
+    std::vector<std::string> static_cell_data;
+    /// Over all ranks.
+    hsize_t n_points = 0;
+    hsize_t n_cells  = 0;
+
+    /// Makes the folder. Throws MachineError. Collective.
+    void
+    make_folder(const MPI_Comm comm) const;
+
+    /// Of the file that the caller writes once: Points, Types, Connectivity,
+    /// Offsets, the static cell data, and what write_sizes() writes.
+    std::string
+    mesh_file() const
+    {
+      return directory + "/" + name + "/mesh.h5";
+    }
+
+    /// The numbers of points, cells and connectivity ids. Collective.
+    void
+    write_sizes(Hdf5File &file, const hsize_t n_connectivity_ids) const;
+
+    bool
+    is_due(const double time) const;
+
+    /// Whether a state of @p time is later than the last result.
+    bool
+    is_new(const double time) const
+    {
+      return times.empty() || time > times.back();
+    }
+
+    /// Of the file that the caller writes for the result of a step: the tables
+    /// of all points and cells, in groups PointData and CellData.
+    std::string
+    result_file(const unsigned int step) const;
+
+    /// Makes these groups. Collective.
+    static void
+    create_groups(Hdf5File &file, const std::string &parent = "");
+
+    /// Makes a result that is complete part of the series. Throws MachineError.
+    /// Collective.
+    void
+    add_result(const unsigned int step, const double time, const MPI_Comm comm);
+
+  private:
+    /// A file in the folder that has or refers to the numbers of @p n_results
+    /// results in a row; @p step is the step of the first.
+    struct Block
+    {
+      unsigned int level;
+      unsigned int step;
+      std::size_t  n_results;
+
+      std::string
+      file_name() const;
+    };
+
+    /// Replaces the last blocks by one, as long as there are enough of the same
+    /// level. On rank 0.
+    void
+    join_blocks();
+    /// Writes NAME.vtkhdf. On rank 0.
+    void
+    write_index() const;
+    void
+    write_index_steps(Hdf5File &file) const;
+    /// Writes the tables that stand for those of all blocks from number @p
+    /// first_block on, into the groups in @p parent (with a slash at the end,
+    /// or empty), which it makes; @p folder is that of the blocks relative to
+    /// the file's.
+    void
+    write_references(Hdf5File          &file,
+                     const std::size_t  first_block,
+                     const std::string &folder,
+                     const std::string &parent) const;
+
+    std::string directory;
+    std::string name;
+    double      time_between_results;
+    std::size_t n_joined;
+
+    /// Of all results so far.
+    std::vector<double> times;
+    std::vector<Block>  blocks;
+  };
+} // namespace corotet
+
+#endif

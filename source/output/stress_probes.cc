@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/output/probes.h>
+#include <corotet/output/stress_probes.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  using dealii::Point;
+  using dealii::SymmetricTensor;
+  namespace mpi = dealii::Utilities::MPI;
+
+  StressProbes::StressProbes(const std::vector<ProbePoint> &points,
+                             const Discretization          &discretization)
+    : comm(discretization.communicator())
+  {
+    const auto &fe = discretization.finite_element().base_element(0);
+    for (const auto &[name, x] : points)
+      {
+        const std::size_t n_before = located.size();
+        for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+          {
+            const Point<3> xi = reference_coordinates(discretization, c, x);
+            if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) <
+                -probe_tolerance)
+              continue;
+            Located probe{static_cast<unsigned int>(probe_names.size()), c, {}};
+            for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
+              probe.shape_values.push_back(fe.shape_value(i, xi));
+            located.push_back(probe);
+          }
+        if (mpi::max(located.size() - n_before, comm) == 0)
+          throw_outside_of_body("Output/Stress probes",
+                                name,
+                                x,
+                                discretization);
+        probe_names.push_back(name);
+      }
+  }
+
+  std::vector<SymmetricTensor<2, 3>>
+  StressProbes::stresses(StressField &field) const
+  {
+    field.recover();
+    // For each probe and material: six sums over cells, and their number.
+    const unsigned int  n_materials = field.law().n_materials();
+    std::vector<double> sums(7 * n_materials * probe_names.size(), 0.);
+    for (const Located &probe : located)
+      {
+        const SymmetricTensor<2, 3> sigma =
+          field.recovered(probe.cell, probe.shape_values);
+        double *const sum = &sums[7 * (n_materials * probe.probe +
+                                       field.law().material_index(probe.cell))];
+        for (unsigned int k = 0; k < 6; ++k)
+          sum[k] += sigma.access_raw_entry(k);
+        ++sum[6];
+      }
+    mpi::sum(sums, comm, sums);
+
+    std::vector<SymmetricTensor<2, 3>> result(probe_names.size());
+    for (unsigned int p = 0; p < result.size(); ++p)
+      {
+        unsigned int n_present = 0;
+        for (unsigned int m = 0; m < n_materials; ++m)
+          {
+            const double *const sum = &sums[7 * (n_materials * p + m)];
+            if (sum[6] == 0)
+              continue;
+            ++n_present;
+            for (unsigned int k = 0; k < 6; ++k)
+              result[p].access_raw_entry(k) += sum[k] / sum[6];
+          }
+        result[p] /= n_present;
+      }
+    return result;
+  }
+} // namespace corotet

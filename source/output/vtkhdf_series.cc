@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/output/vtkhdf_series.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+namespace corotet
+{
+  namespace
+  {
+    // What is stored once, by name: all that VTK's reader wants in group
+    // VTKHDF.
+    const std::vector<std::string> mesh_tables{"NumberOfPoints",
+                                               "NumberOfCells",
+                                               "NumberOfConnectivityIds",
+                                               "Points",
+                                               "Connectivity",
+                                               "Offsets",
+                                               "Types"};
+  } // namespace
+
+  VtkhdfSeries::VtkhdfSeries(const std::string &directory,
+                             const std::string &name,
+                             const double       time_between_results,
+                             const std::size_t  n_joined)
+    : directory(directory)
+    , name(name)
+    , time_between_results(time_between_results)
+    , n_joined(n_joined)
+  {}
+
+  void
+  VtkhdfSeries::make_folder(const MPI_Comm comm) const
+  {
+    on_root(comm, [&] {
+      const std::string folder = directory + "/" + name;
+      std::error_code   error;
+      std::filesystem::create_directories(folder, error);
+      if (error)
+        throw MachineError(folder +
+                           ": the folder cannot be made: " + error.message());
+    });
+  }
+
+  void
+  VtkhdfSeries::write_sizes(Hdf5File     &file,
+                            const hsize_t n_connectivity_ids) const
+  {
+    const auto list = [](const hsize_t number) {
+      return std::vector<std::int64_t>{static_cast<std::int64_t>(number)};
+    };
+    file.write_from_root("NumberOfPoints", list(n_points));
+    file.write_from_root("NumberOfCells", list(n_cells));
+    file.write_from_root("NumberOfConnectivityIds", list(n_connectivity_ids));
+  }
+
+  bool
+  VtkhdfSeries::is_due(const double time) const
+  {
+    if (time_between_results == 0)
+      return true;
+    // A step that ends at a multiple, but for round-off, has reached it.
+    const auto interval = [&](const double t) {
+      return std::floor(t / time_between_results + 1e-6);
+    };
+    return interval(time) > interval(times.back());
+  }
+
+  std::string
+  VtkhdfSeries::result_file(const unsigned int step) const
+  {
+    return directory + "/" + name + "/" + Block{0, step, 1}.file_name();
+  }
+
+  void
+  VtkhdfSeries::create_groups(Hdf5File &file, const std::string &parent)
+  {
+    file.create_group(parent + "PointData");
+    file.create_group(parent + "CellData");
+  }
+
+  void
+  VtkhdfSeries::add_result(const unsigned int step,
+                           const double       time,
+                           const MPI_Comm     comm)
+  {
+    times.push_back(time);
+    blocks.push_back({0, step, 1});
+    on_root(comm, [&] {
+      join_blocks();
+      write_index();
+    });
+  }
+
+  std::string
+  VtkhdfSeries::Block::file_name() const
+  {
+    if (level == 0)
+      return fmt::format("step_{:06}.h5", step);
+    if (level == 1)
+      return fmt::format("block_{:06}.h5", step);
+    return fmt::format("block_{}_{:06}.h5", level, step);
+  }
+
+  void
+  VtkhdfSeries::join_blocks()
+  {
+    // Levels never rise from one block to the next.
+    while (blocks.size() >= n_joined &&
+           blocks[blocks.size() - n_joined].level == blocks.back().level)
+      {
+        const std::size_t first = blocks.size() - n_joined;
+        const Block       joined{blocks[first].level + 1,
+                           blocks[first].step,
+                           blocks[first].n_results * n_joined};
+        Hdf5File file(directory + "/" + name + "/" + joined.file_name(),
+                      MPI_COMM_SELF);
+        write_references(file, first, "", "");
+        file.finish();
+        blocks.resize(first);
+        blocks.push_back(joined);
+      }
+  }
+
+  void
+  VtkhdfSeries::write_references(Hdf5File          &file,
+                                 const std::size_t  first_block,
+                                 const std::string &folder,
+                                 const std::string &parent) const
+  {
+    create_groups(file, parent);
+    std::vector<Hdf5Part> point_parts, cell_parts;
+    for (std::size_t i = first_block; i < blocks.size(); ++i)
+      {
+        const std::string file_name = folder + blocks[i].file_name();
+        point_parts.push_back({file_name, blocks[i].n_results * n_points});
+        cell_parts.push_back({file_name, blocks[i].n_results * n_cells});
+      }
+    const auto write = [&](const std::string           &name,
+                           const std::vector<Hdf5Part> &parts,
+                           const hsize_t                n_columns) {
+      file.write_virtual(parent + name, name, parts, n_columns);
+    };
+    for (const Table &table : point_data)
+      write("PointData/" + table.name, point_parts, table.n_columns);
+    for (const Table &table : cell_data)
+      write("CellData/" + table.name, cell_parts, table.n_columns);
+  }
+
+  void
+  VtkhdfSeries::write_index() const
+  {
+    Hdf5File file(directory + "/" + name + ".vtkhdf", MPI_COMM_SELF);
+    file.create_group("VTKHDF");
+    file.write_number_attribute("VTKHDF", "Version", {2, 0});
+    file.write_text_attribute("VTKHDF", "Type", "UnstructuredGrid");
+    const std::string folder = name + "/";
+    for (const std::string &table : mesh_tables)
+      file.link("VTKHDF/" + table, folder + "mesh.h5", table);
+
+    write_references(file, 0, folder, "VTKHDF/");
+    for (const std::string &table : static_cell_data)
+      file.link("VTKHDF/CellData/" + table, folder + "mesh.h5", table);
+
+    write_index_steps(file);
+    file.finish();
+  }
+
+  void
+  VtkhdfSeries::write_index_steps(Hdf5File &file) const
+  {
+    const std::string steps = "VTKHDF/Steps";
+    file.create_group(steps);
+    file.write_number_attribute(steps,
+                                "NSteps",
+                                {static_cast<std::int64_t>(times.size())});
+    file.write_from_root(steps + "/Values", times);
+
+    // Where the tables of each step begin: the mesh and what belongs to it are
+    // the same rows for all.
+    const std::vector<std::int64_t> same(times.size(), 0);
+    file.write_from_root(steps + "/PartOffsets", same);
+    file.write_from_root(steps + "/NumberOfParts",
+                         std::vector<std::int64_t>(times.size(), 1));
+    file.write_from_root(steps + "/PointOffsets", same);
+    file.write_from_root(steps + "/CellOffsets", same, 1);
+    file.write_from_root(steps + "/ConnectivityIdOffsets", same, 1);
+
+    const auto consecutive = [&](const hsize_t n_rows) {
+      std::vector<std::int64_t> offsets(times.size());
+      for (std::size_t i = 0; i < offsets.size(); ++i)
+        offsets[i] = i * n_rows;
+      return offsets;
+    };
+    file.create_group(steps + "/PointDataOffsets");
+    for (const Table &table : point_data)
+      file.write_from_root(steps + "/PointDataOffsets/" + table.name,
+                           consecutive(n_points));
+    file.create_group(steps + "/CellDataOffsets");
+    for (const Table &table : cell_data)
+      file.write_from_root(steps + "/CellDataOffsets/" + table.name,
+                           consecutive(n_cells));
+    for (const std::string &table : static_cell_data)
+      file.write_from_root(steps + "/CellDataOffsets/" + table, same);
+  }
+} // namespace corotet
