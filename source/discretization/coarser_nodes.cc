@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/discretization/coarser_nodes.h>
+#include <corotet/discretization/curved_batches.h>
 #include <corotet/discretization/tetrahedron.h>
 
 #include <deal.II/base/index_set.h>
@@ -51,6 +52,9 @@ namespace corotet
     number_nodes();
     find_parents();
     make_batches();
+    if (const CurvedBatches *curved = finer.batches().curved())
+      cell_batches->set_curved(
+        std::make_shared<const CurvedBatches>(element(), *curved));
   }
 
   void

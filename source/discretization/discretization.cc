@@ -55,6 +55,8 @@ namespace corotet
     inner.insert(inner.begin() + ghosted_cells.first,
                  ghosted.begin(),
                  ghosted.end());
+    if (mesh_pointer->geometry_degree() > 1 && degree() > 1)
+      gather_curved(inner);
     inner.insert(inner.end(), ghosts.begin(), ghosts.end());
     return inner;
   }
@@ -130,5 +132,10 @@ namespace corotet
       }
     positions.set_ghost_state(true);
     make_batches();
+    if (mesh_pointer->geometry_degree() > 1 && degree() > 1)
+      {
+        curve_positions(cells);
+        set_up_curved_cells();
+      }
   }
 } // namespace corotet

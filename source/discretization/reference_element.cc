@@ -108,12 +108,20 @@ namespace corotet
   }
 
   ReferenceElement::PointValues
-  ReferenceElement::tabulate(const Element                element,
-                             const dealii::Quadrature<3> &rule)
+  ReferenceElement::tabulate(const Element                        element,
+                             const std::vector<dealii::Point<3>> &points,
+                             const std::vector<double>           &weights)
   {
-    return corotet::tabulate(*make_finite_element(element),
-                             rule.get_points(),
-                             rule.get_weights());
+    return corotet::tabulate(*make_finite_element(element), points, weights);
+  }
+
+  ReferenceElement::PointValues
+  ReferenceElement::curved_rule(const Element element)
+  {
+    // Rule n is of degree 2n, or 2n-1 if odd.
+    const dealii::QWitherdenVincentSimplex<3> rule(
+      element.has_bubbles() ? 3 : element.degree(), element.has_bubbles());
+    return tabulate(element, rule.get_points(), rule.get_weights());
   }
 
   void

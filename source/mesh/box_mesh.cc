@@ -35,7 +35,8 @@ namespace corotet
 
 
   SerialMesh
-  BoxMesh::create(const std::string & /*folder*/) const
+  BoxMesh::create(const std::string & /*folder*/,
+                  const unsigned int /*n_refinements*/) const
   {
     const double n_tetrahedra = 5. * n_cells[0] * n_cells[1] * n_cells[2];
     if (n_tetrahedra > 1e8)

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/check_surface.h>
+#include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh_quality.h>
 
 #include <fmt/format.h>
@@ -258,6 +259,26 @@ namespace corotet
 
 
   void
+  check_number_of_cells(const std::size_t  n_cells,
+                        const unsigned int n_refinements)
+  {
+    // More would exceed the 32-bit numbers of deal.II's unknowns at degree 3.
+    constexpr double max_n_cells = 3e8;
+    const double     n_refined   = n_cells * std::pow(8., n_refinements);
+    if (n_refined > max_n_cells)
+      throw InputError("Mesh/Refinements",
+                       fmt::format("too many cells: found {} refinements, "
+                                   "which make {:.3g} cells of {}; at most "
+                                   "{:.3g} are allowed",
+                                   n_refinements,
+                                   n_refined,
+                                   n_cells,
+                                   max_n_cells));
+  }
+
+
+
+  void
   refuse_mesh(const SerialMesh &mesh, const std::string &message)
   {
     if (mesh.origin.empty())
@@ -272,6 +293,7 @@ namespace corotet
   {
     check_vertices(mesh);
     check_volumes(mesh);
+    check_curved_cells(mesh);
     const Triangles triangles = check_neighbours(mesh);
     check_surface(mesh, triangles.surface);
     check_faces(mesh, triangles);

@@ -2,7 +2,9 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/base/text.h>
+#include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/gmsh_elements.h>
 #include <corotet/mesh/gmsh_mesh.h>
 
 #include <fmt/format.h>
@@ -17,10 +19,6 @@ namespace corotet
 {
   namespace
   {
-    // What gmsh calls the elements that there may be.
-    constexpr int triangle_type    = 2;
-    constexpr int tetrahedron_type = 4;
-
     // The library's state, which is global: from here to the end of the scope.
     class Session
     {
@@ -91,12 +89,11 @@ namespace corotet
 
 
 
+    // The cells of a geometry, of degree 1.
     void
-    open_and_generate(const std::string &path, const double element_size)
+    generate(const std::string &path, const double element_size)
     {
       gmsh::open(path);
-      if (std::filesystem::path(path).extension() != ".geo")
-        return;
       // After the file, which may set them too.
       gmsh::option::setNumber("Mesh.ElementOrder", 1);
       if (element_size > 0)
@@ -109,40 +106,22 @@ namespace corotet
 
 
 
+    // Refined @p n_refinements times, with vertices on the geometry, and then
+    // of degree @p degree.
     void
-    refuse_other_cells(const std::string &path)
+    refine(const std::string &path,
+           const unsigned int n_refinements,
+           const unsigned int degree)
     {
-      std::vector<int>                      types;
-      std::vector<std::vector<std::size_t>> elements, nodes;
-      gmsh::model::mesh::getElements(types, elements, nodes, 3);
-
-      std::vector<std::string> others;
-      bool                     tetrahedra = false;
-      for (unsigned int i = 0; i < types.size(); ++i)
-        if (types[i] == tetrahedron_type)
-          tetrahedra = true;
-        else
-          {
-            std::string         name;
-            int                 dimension, order, n_nodes, n_primary_nodes;
-            std::vector<double> coordinates;
-            gmsh::model::mesh::getElementProperties(types[i],
-                                                    name,
-                                                    dimension,
-                                                    order,
-                                                    n_nodes,
-                                                    coordinates,
-                                                    n_primary_nodes);
-            others.push_back(
-              fmt::format("{} of the type '{}'", elements[i].size(), name));
-          }
-      if (!others.empty())
-        throw InputError("",
-                         path + ": cells other than tetrahedra with 4 nodes: " +
-                           "found " + join(others) +
-                           "; only 'Tetrahedron 4' is allowed");
-      if (!tetrahedra)
-        throw InputError("", path + ": the mesh has no tetrahedra");
+      std::vector<std::size_t> elements, nodes;
+      gmsh::model::mesh::getElementsByType(gmsh_elements::tetrahedra(path).type,
+                                           elements,
+                                           nodes);
+      check_number_of_cells(elements.size(), n_refinements);
+      for (unsigned int i = 0; i < n_refinements; ++i)
+        gmsh::model::mesh::refine();
+      if (degree > 1)
+        gmsh::model::mesh::setOrder(degree);
     }
 
 
@@ -210,23 +189,27 @@ namespace corotet
           positions.emplace(tags[i], i);
       }
 
-      unsigned int
-      vertex(SerialMesh &mesh, const std::size_t tag)
+      dealii::Point<3>
+      position(const SerialMesh &mesh, const std::size_t tag) const
       {
-        const auto position = positions.find(tag);
-        if (position == positions.end())
+        const auto found = positions.find(tag);
+        if (found == positions.end())
           throw InputError("",
                            fmt::format("{}: an element has the node {}, which "
                                        "the file does not contain",
                                        mesh.origin,
                                        tag));
+        const double *x = coordinates.data() + 3 * found->second;
+        return {x[0], x[1], x[2]};
+      }
+
+      unsigned int
+      vertex(SerialMesh &mesh, const std::size_t tag)
+      {
         const auto [number, is_new] =
           numbers.emplace(tag, mesh.vertices.size());
         if (is_new)
-          {
-            const double *x = coordinates.data() + 3 * position->second;
-            mesh.vertices.emplace_back(x[0], x[1], x[2]);
-          }
+          mesh.vertices.push_back(position(mesh, tag));
         return number->second;
       }
 
@@ -239,17 +222,22 @@ namespace corotet
 
 
     void
-    read_cells(SerialMesh &mesh, Nodes &nodes, const PhysicalGroups &groups)
+    read_cells(SerialMesh                      &mesh,
+               Nodes                           &nodes,
+               const gmsh_elements::Tetrahedra &kind,
+               const PhysicalGroups            &groups)
     {
-      std::size_t      n_left_out = 0;
-      gmsh::vectorpair entities;
+      const std::size_t n          = kind.order.size();
+      std::size_t       n_left_out = 0;
+      gmsh::vectorpair  entities;
       gmsh::model::getEntities(entities, 3);
+      mesh.geometry_degree = kind.degree;
       for (const auto &[dimension, entity] : entities)
         {
-          std::vector<std::size_t> elements, corners;
-          gmsh::model::mesh::getElementsByType(tetrahedron_type,
+          std::vector<std::size_t> elements, tags;
+          gmsh::model::mesh::getElementsByType(kind.type,
                                                elements,
-                                               corners,
+                                               tags,
                                                entity);
           const auto group = groups.of_entity.find(entity);
           if (group == groups.of_entity.end() && !groups.names.empty())
@@ -259,13 +247,21 @@ namespace corotet
             }
           const unsigned int region =
             group == groups.of_entity.end() ? 0 : group->second;
-          for (std::size_t i = 0; i < corners.size(); i += 4)
-            mesh.cells.push_back({{{nodes.vertex(mesh, corners[i]),
-                                    nodes.vertex(mesh, corners[i + 1]),
-                                    nodes.vertex(mesh, corners[i + 2]),
-                                    nodes.vertex(mesh, corners[i + 3])}},
-                                  region});
+          for (std::size_t i = 0; i < tags.size(); i += n)
+            {
+              mesh.cells.push_back({{{nodes.vertex(mesh, tags[i]),
+                                      nodes.vertex(mesh, tags[i + 1]),
+                                      nodes.vertex(mesh, tags[i + 2]),
+                                      nodes.vertex(mesh, tags[i + 3])}},
+                                    region});
+              if (kind.degree == 1)
+                continue;
+              mesh.cells.back().curve = mesh.curved_nodes.size() / n;
+              for (const unsigned int j : kind.order)
+                mesh.curved_nodes.push_back(nodes.position(mesh, tags[i + j]));
+            }
         }
+      remove_straight_maps(mesh);
       if (n_left_out > 0)
         mesh.remarks.push_back(
           fmt::format("{} tetrahedra belong to no physical volume, though "
@@ -280,11 +276,8 @@ namespace corotet
     {
       for (const auto &[entity, boundary] : groups.of_entity)
         {
-          std::vector<std::size_t> elements, corners;
-          gmsh::model::mesh::getElementsByType(triangle_type,
-                                               elements,
-                                               corners,
-                                               entity);
+          const std::vector<std::size_t> corners =
+            gmsh_elements::triangles(entity);
           for (std::size_t i = 0; i < corners.size(); i += 3)
             mesh.faces.push_back({{{nodes.vertex(mesh, corners[i]),
                                     nodes.vertex(mesh, corners[i + 1]),
@@ -298,16 +291,16 @@ namespace corotet
     SerialMesh
     read(const std::string &path)
     {
-      refuse_other_cells(path);
-      const PhysicalGroups volumes  = physical_groups(path, 3);
-      const PhysicalGroups surfaces = physical_groups(path, 2);
+      const gmsh_elements::Tetrahedra kind    = gmsh_elements::tetrahedra(path);
+      const PhysicalGroups            volumes = physical_groups(path, 3);
+      const PhysicalGroups            surfaces = physical_groups(path, 2);
 
       SerialMesh mesh;
       mesh.origin         = path;
       mesh.region_names   = volumes.names;
       mesh.boundary_names = surfaces.names;
       Nodes nodes;
-      read_cells(mesh, nodes, volumes);
+      read_cells(mesh, nodes, kind, volumes);
       read_faces(mesh, nodes, surfaces);
       return mesh;
     }
@@ -329,12 +322,21 @@ namespace corotet
                       "Target length of edges for a .geo [m, before scaling]; "
                       "0 leaves it to the file. A .msh needs 0.",
                       dealii::Patterns::Double(0));
+    prm.add_parameter(
+      "Geometry degree",
+      geometry_degree,
+      "Degree of the cells' maps for a .geo [-]: 1 for straight "
+      "cells, 2 or 3 for curved ones along curved surfaces. A "
+      ".msh has that of its cells, and needs 1 here. Elements "
+      "of a lower degree interpolate the geometry.",
+      dealii::Patterns::Integer(1, 3));
   }
 
 
 
   SerialMesh
-  GmshMesh::create(const std::string &folder) const
+  GmshMesh::create(const std::string &folder,
+                   const unsigned int n_refinements) const
   {
     if (file.empty())
       throw InputError("Mesh/gmsh/File",
@@ -343,18 +345,33 @@ namespace corotet
     const std::string path =
       (std::filesystem::path(folder) / file).lexically_normal().string();
     check_file(path);
-    if (element_size > 0 && std::filesystem::path(path).extension() == ".msh")
+    const bool is_geometry = std::filesystem::path(path).extension() == ".geo";
+    if (element_size > 0 && !is_geometry)
       throw InputError("Mesh/gmsh/Element size",
                        fmt::format("only a .geo can be given an element size: "
                                    "found {} for '{}'; 0 is allowed",
                                    element_size,
                                    path));
+    if (geometry_degree > 1 && !is_geometry)
+      throw InputError("Mesh/gmsh/Geometry degree",
+                       fmt::format("a .msh has the degree of its cells: found "
+                                   "{} for '{}'; 1 is allowed",
+                                   geometry_degree,
+                                   path));
 
     try
       {
         const Session session;
-        open_and_generate(path, element_size);
-        return read(path);
+        if (!is_geometry)
+          {
+            gmsh::open(path);
+            return read(path);
+          }
+        generate(path, element_size);
+        refine(path, n_refinements, geometry_degree);
+        SerialMesh mesh    = read(path);
+        mesh.n_refinements = n_refinements;
+        return mesh;
       }
     catch (const Error &)
       {

@@ -5,6 +5,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
 #include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 #include <corotet/mesh/mesh_sources.h>
@@ -14,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corotet
@@ -22,19 +24,16 @@ namespace corotet
   {
     using Names = std::map<unsigned int, std::string>;
 
-    // More would exceed the 32-bit numbers of deal.II's unknowns at degree 3.
-    constexpr double max_n_cells = 3e8;
-
-
-
     SerialMesh
     create_on_root(const MeshParameters &parameters,
                    const std::string    &folder,
                    const MPI_Comm        comm)
     {
       SerialMesh mesh;
-      on_root(comm,
-              [&] { mesh = parameters.source.selected().create(folder); });
+      on_root(comm, [&] {
+        mesh =
+          parameters.source.selected().create(folder, parameters.n_refinements);
+      });
       return mesh;
     }
 
@@ -45,16 +44,8 @@ namespace corotet
                const unsigned int n_refinements,
                const unsigned int n_ranks)
     {
+      check_number_of_cells(mesh.cells.size(), n_refinements);
       const double n_cells = mesh.cells.size() * std::pow(8., n_refinements);
-      if (n_cells > max_n_cells)
-        throw InputError("Mesh/Refinements",
-                         fmt::format("too many cells: found {} refinements, "
-                                     "which make {:.3g} cells of {}; at most "
-                                     "{:.3g} are allowed",
-                                     n_refinements,
-                                     n_cells,
-                                     mesh.cells.size(),
-                                     max_n_cells));
       if (n_cells < n_ranks)
         refuse_mesh(mesh,
                     fmt::format("too few cells: found {} for {} ranks; each "
@@ -128,6 +119,17 @@ namespace corotet
                            "inradius; regular tetrahedron: 70.53 and 1)",
                            quality.smallest_dihedral_angle,
                            quality.worst_aspect_ratio));
+      if (mesh.geometry_degree > 1)
+        log.line(fmt::format(
+          "  {} curved cells of degree {}, smallest Jacobian determinant {:.3g} "
+          "times its mean in the cell",
+          std::count_if(mesh.cells.begin(),
+                        mesh.cells.end(),
+                        [](const SerialMesh::Cell &cell) {
+                          return cell.curve != SerialMesh::straight;
+                        }),
+          mesh.geometry_degree,
+          check_curved_cells(mesh)));
       if (quality.smallest_dihedral_angle < 2)
         log.warning("the mesh has almost flat cells; solvers will need many "
                     "iterations");
@@ -148,7 +150,9 @@ namespace corotet
     source.declare_parameters(prm, "Where the mesh comes from.");
     prm.add_parameter("Refinements",
                       n_refinements,
-                      "How often every tetrahedron is cut into eight [-].",
+                      "How often every tetrahedron is cut into eight [-]. Of a "
+                      ".geo, new vertices lie on the geometry; parts of "
+                      "curved cells lie on these.",
                       dealii::Patterns::Integer(0, 9));
     prm.add_parameter("Scale",
                       scale,
@@ -183,12 +187,12 @@ namespace corotet
     Names regions, boundaries;
     on_root(comm, [&] {
       check_mesh(mesh);
-      check_size(mesh,
-                 n_refinements,
-                 dealii::Utilities::MPI::n_mpi_processes(comm));
-      refine_uniformly(mesh, n_refinements);
-      for (dealii::Point<3> &vertex : mesh.vertices)
-        vertex *= scale;
+      const unsigned int n_left = n_refinements - mesh.n_refinements;
+      check_size(mesh, n_left, dealii::Utilities::MPI::n_mpi_processes(comm));
+      refine_uniformly(mesh, n_left);
+      for (auto *points : {&mesh.vertices, &mesh.curved_nodes})
+        for (dealii::Point<3> &point : *points)
+          point *= scale;
       sort_along_curve(mesh);
 
       log_quality(mesh, log);
@@ -204,5 +208,49 @@ namespace corotet
     log.line("  regions: " + list(region_names) +
              "; boundaries: " + list(boundary_names));
     distribute(mesh, tria);
+    distribute_curved_nodes(mesh);
+  }
+
+
+
+  void
+  Mesh::distribute_curved_nodes(const SerialMesh &mesh)
+  {
+    using namespace dealii::Utilities;
+    const MPI_Comm comm = communicator();
+    curve_degree        = MPI::broadcast(comm, mesh.geometry_degree, 0);
+    if (curve_degree == 1)
+      return;
+    // Cells are numbered on rank 0, and known by these numbers elsewhere.
+    std::vector<unsigned int> cells;
+    for (const auto &cell : tria.active_cell_iterators())
+      if (!cell->is_artificial())
+        cells.push_back(cell->id().get_coarse_cell_id());
+    std::vector<std::vector<double>> nodes_of_ranks;
+    const unsigned int               n = n_curved_nodes();
+    for (const auto &cells_of_rank : MPI::gather(comm, cells))
+      {
+        // Of each cell whether it is curved, and then its nodes.
+        std::vector<double> &nodes = nodes_of_ranks.emplace_back();
+        for (const unsigned int c : cells_of_rank)
+          {
+            const bool is_curved = mesh.cells[c].curve != SerialMesh::straight;
+            nodes.push_back(is_curved);
+            for (unsigned int i = 0; is_curved && i < n; ++i)
+              for (unsigned int a = 0; a < 3; ++a)
+                nodes.push_back(
+                  corotet::curved_nodes(mesh, mesh.cells[c])[i][a]);
+          }
+      }
+    const std::vector<double> nodes = MPI::scatter(comm, nodes_of_ranks);
+    const double             *next  = nodes.data();
+    curves.resize(tria.n_active_cells(), SerialMesh::straight);
+    for (const auto &cell : tria.active_cell_iterators())
+      if (!cell->is_artificial() && *next++ != 0)
+        {
+          curves[cell->active_cell_index()] = nodes_of_curves.size() / n;
+          for (unsigned int i = 0; i < n; ++i, next += 3)
+            nodes_of_curves.emplace_back(next[0], next[1], next[2]);
+        }
   }
 } // namespace corotet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh_quality.h>
 
 #include <algorithm>
@@ -76,6 +77,7 @@ namespace corotet
           std::max(quality.worst_aspect_ratio,
                    longest_edge / (2 * std::sqrt(6.) * inradius));
       }
+    quality.volume += volume_by_curvature(mesh);
     quality.smallest_dihedral_angle =
       std::acos(std::min(largest_cosine, 1.)) * 180 / std::numbers::pi;
     return quality;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/triangulation.h>
 
 #include <deal.II/base/utilities.h>
@@ -164,9 +165,12 @@ namespace corotet
     make_triangulation(mesh, tria);
     tria.refine_global(n_refinements);
     SerialMesh refined = make_serial_mesh(tria);
-    mesh.vertices      = std::move(refined.vertices);
-    mesh.cells         = std::move(refined.cells);
-    mesh.faces         = std::move(refined.faces);
+    if (mesh.geometry_degree > 1)
+      inherit_curves(mesh, tria, refined);
+    mesh.vertices     = std::move(refined.vertices);
+    mesh.cells        = std::move(refined.cells);
+    mesh.faces        = std::move(refined.faces);
+    mesh.curved_nodes = std::move(refined.curved_nodes);
   }
 
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/operators/assembled_matrix.h>
+#include <corotet/operators/curved_kernel.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -30,8 +31,21 @@ namespace corotet
     using V     = Simd<double>;
     using Block = V[3][3];
 
-    // The block of nodes i, j of mu (lambda / mu D + D^T + tr D I), with D the
-    // integral of grad N_i (x) grad N_j, from the means of products of
+    // mu (lambda / mu D + D^T + tr D I).
+    COROTET_ALWAYS_INLINE void
+    isotropic_block(const Block &D, const V lame_ratio, Block &K)
+    {
+      const V trace = D[0][0] + D[1][1] + D[2][2];
+      static_for<9>([&](auto ab) {
+        constexpr int a = ab / 3, b = ab % 3;
+        K[a][b] = lame_ratio * D[a][b] + D[b][a];
+        if constexpr (a == b)
+          K[a][b] += trace;
+      });
+    }
+
+    // The block of nodes i, j, with D the integral of grad N_i (x) grad N_j,
+    // from the means of products of
     // derivatives of N_i and N_j and from the gradients of the kernel.
     COROTET_ALWAYS_INLINE void
     stiffness_block(const double *products,
@@ -50,13 +64,7 @@ namespace corotet
         D[a][b] =
           g[a] * half[0][b] + g[3 + a] * half[1][b] + g[6 + a] * half[2][b];
       });
-      const V trace = D[0][0] + D[1][1] + D[2][2];
-      static_for<9>([&](auto ab) {
-        constexpr int a = ab / 3, b = ab % 3;
-        K[a][b] = lame_ratio * D[a][b] + D[b][a];
-        if constexpr (a == b)
-          K[a][b] += trace;
-      });
+      isotropic_block(D, lame_ratio, K);
     }
   } // namespace
 
@@ -173,6 +181,25 @@ namespace corotet
   }
 
   void
+  AssembledMatrix::add_lanes(const unsigned int first,
+                             const unsigned int n_cells,
+                             const unsigned int i,
+                             const unsigned int j,
+                             const V (&K)[3][3])
+  {
+    alignas(sizeof(V)) double lanes[9][batch_size];
+    for (unsigned int ab = 0; ab < 9; ++ab)
+      store_aligned(K[ab / 3][ab % 3], lanes[ab]);
+    for (unsigned int lane = 0; lane < n_cells; ++lane)
+      {
+        double block[3][3];
+        for (unsigned int ab = 0; ab < 9; ++ab)
+          block[ab / 3][ab % 3] = lanes[ab][lane];
+        add_block(first + lane, i, j, block);
+      }
+  }
+
+  void
   AssembledMatrix::add_batch(const unsigned int              first,
                              const unsigned int              n_cells,
                              const CellCoefficients<double> &coefficients,
@@ -188,21 +215,64 @@ namespace corotet
         {
           Block K;
           stiffness_block(&reference.gradient_products(i, j, 0), g, ratio, K);
-          alignas(sizeof(V)) double lanes[9][batch_size];
           for (unsigned int ab = 0; ab < 9; ++ab)
             {
-              V value = c_K * K[ab / 3][ab % 3];
+              K[ab / 3][ab % 3] *= c_K;
               if (ab % 4 == 0)
-                value += masses * reference.mass(i, j);
-              store_aligned(value, lanes[ab]);
+                K[ab / 3][ab % 3] += masses * reference.mass(i, j);
             }
-          for (unsigned int lane = 0; lane < n_cells; ++lane)
+          add_lanes(first, n_cells, i, j, K);
+        }
+  }
+
+  void
+  AssembledMatrix::add_curved_batch(
+    const unsigned int              first,
+    const unsigned int              n_cells,
+    const CellCoefficients<double> &coefficients,
+    const double                    c_K,
+    const V                         masses)
+  {
+    const CurvedBatches &curved = *nodes.batches().curved();
+    const unsigned int   n = reference.n_nodes, n_points = curved.n_points();
+    const unsigned int   batch  = nodes.batches().place(first).first;
+    const auto          &values = curved.shapes().values;
+    const V ratio = load_aligned<batch_size>(coefficients.lame_ratio);
+
+    // Gradients of the shape functions at the points, [q][node], and weights.
+    point_gradients.resize(n_points * n);
+    point_weights.resize(n_points);
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        using Kernel = CurvedKernel<1, double>;
+        const Kernel::Point point(curved, batch, q);
+        V                   g[3][3];
+        Kernel::gradients(point, coefficients, g);
+        point_weights[q] = point.number(9);
+        const double *dN = &curved.shapes().gradients(q, 0, 0);
+        for (unsigned int i = 0; i < n; ++i, dN += 3)
+          for (unsigned int a = 0; a < 3; ++a)
+            point_gradients[q * n + i][a] =
+              dN[0] * g[0][a] + dN[1] * g[1][a] + dN[2] * g[2][a];
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i; j < n; ++j)
+        {
+          Block D{}, K;
+          V     mass{};
+          for (unsigned int q = 0; q < n_points; ++q)
             {
-              double block[3][3];
-              for (unsigned int ab = 0; ab < 9; ++ab)
-                block[ab / 3][ab % 3] = lanes[ab][lane];
-              add_block(first + lane, i, j, block);
+              const auto &gi = point_gradients[q * n + i];
+              const auto &gj = point_gradients[q * n + j];
+              static_for<9>([&](auto ab) {
+                D[ab / 3][ab % 3] +=
+                  c_K * point_weights[q] * gi[ab / 3] * gj[ab % 3];
+              });
+              mass += masses * point_weights[q] * (values[q][i] * values[q][j]);
             }
+          isotropic_block(D, ratio, K);
+          static_for<3>([&](auto a) { K[a][a] += mass; });
+          add_lanes(first, n_cells, i, j, K);
         }
   }
 
@@ -220,12 +290,17 @@ namespace corotet
     const auto   add = [&](const unsigned int begin, const unsigned int end) {
       for (unsigned int first = begin; first < end; first += batch_size)
         {
-          const unsigned int batch = nodes.batches().place(first).first;
-          add_batch(first,
-                    std::min(batch_size, end - first),
-                    coefficients[batch],
-                    c_K,
-                    consistent * load_aligned<batch_size>(masses[batch].mass));
+          const unsigned int batch  = nodes.batches().place(first).first;
+          const auto        *curved = nodes.batches().curved();
+          const auto function = curved != nullptr && curved->has(batch) ?
+                                    &AssembledMatrix::add_curved_batch :
+                                    &AssembledMatrix::add_batch;
+          (this->*function)(first,
+                            std::min(batch_size, end - first),
+                            coefficients[batch],
+                            c_K,
+                            consistent *
+                              load_aligned<batch_size>(masses[batch].mass));
         }
     };
     add(0, nodes.n_owned_cells());

@@ -283,9 +283,8 @@ namespace corotet
       return 0;
     const unsigned int n_batches = discretization.batches().n_owned_batches();
     linearized_tangent           = tangent;
-    linearization.resize_fast(
-      static_cast<std::size_t>(n_batches) * batch_size *
-      linearization_size(reference, placement, tangent));
+    linearization.resize_fast(linearization_size(
+      reference, discretization.batches(), placement, tangent));
     unsigned int n_clamped = 0;
     linearization_sweep(discretization.element(),
                         placement,

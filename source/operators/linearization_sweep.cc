@@ -44,9 +44,10 @@ namespace corotet
           n += (clamped >> lane & 1u) != 0 && shapes.volume[lane] > 0;
     }
 
-    template <int n_nodes, Tangent tangent>
+    template <int n_nodes, Tangent tangent, typename IsCurved>
     __attribute__((flatten)) void
-    linearize_at_points(const ReferenceElement &reference,
+    linearize_at_points(const IsCurved          is_curved,
+                        const ReferenceElement &reference,
                         const ElasticData      &data,
                         const unsigned int      first,
                         const unsigned int      end,
@@ -54,20 +55,22 @@ namespace corotet
                         double                 *linearization,
                         unsigned int           &n_clamped)
     {
-      using Kernel     = QuadratureKernel<n_nodes>;
-      const auto &rule = reference.stiffness_rule;
-      const auto  size =
-        batch_size * linearization_size(reference, data.rotation, tangent);
+      using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u;
           typename Kernel::Geometry    g;
           Kernel::load(data, batch, displacement, g, u);
-          const V      mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
-          Writer       numbers{linearization + size * std::size_t(batch)};
+          const V     mu = lanes(shapes.mu), lambda = lanes(shapes.lambda);
+          const auto &rule =
+            cell_rule(is_curved, reference, data.batches, batch);
+          Writer numbers{
+            linearization +
+            linearization_start<IsCurved::value>(
+              reference, data.batches, data.rotation, tangent, batch)};
           unsigned int clamped = 0;
-          for (unsigned int q = 0; q < rule.weights.size(); ++q)
+          for (unsigned int q = 0; q < n_points(rule); ++q)
             {
               V F[3][3], R[3][3];
               Kernel::gradient(rule, q, g, u, F);
@@ -86,9 +89,10 @@ namespace corotet
         }
     }
 
-    template <int n_nodes, Rotation rotation>
+    template <int n_nodes, Rotation rotation, typename IsCurved>
     __attribute__((flatten)) void
-    linearize_by_cell(const ReferenceElement &reference,
+    linearize_by_cell(const IsCurved          is_curved,
+                      const ReferenceElement &reference,
                       const ElasticData      &data,
                       const unsigned int      first,
                       const unsigned int      end,
@@ -96,11 +100,7 @@ namespace corotet
                       double                 *linearization,
                       unsigned int           &n_clamped)
     {
-      using Kernel     = QuadratureKernel<n_nodes>;
-      const auto &rule = reference.stiffness_rule;
-      const auto  size =
-        batch_size *
-        linearization_size(reference, rotation, Tangent::consistent);
+      using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.shapes[batch];
@@ -111,8 +111,13 @@ namespace corotet
                                               displacement,
                                               u);
           load_rotated(data, batch, g);
-          Writer numbers{linearization + size * std::size_t(batch)};
-          V      R[3][3], B[3][3], S[6], G_inverse[6], moment[3]{};
+          const auto &rule =
+            cell_rule(is_curved, reference, data.batches, batch);
+          Writer numbers{
+            linearization +
+            linearization_start<IsCurved::value>(
+              reference, data.batches, rotation, Tangent::consistent, batch)};
+          V R[3][3], B[3][3], S[6], G_inverse[6], moment[3]{};
           rotations_of(data, batch, R);
           Kernel::gradient(reference.centre, 0, g, u, B);
           add_transposed(R, B);
@@ -121,7 +126,7 @@ namespace corotet
           numbers.write(G_inverse);
           if constexpr (rotation == Rotation::cell_centre_variational)
             numbers.write(S);
-          for (unsigned int q = 0; q < rule.weights.size(); ++q)
+          for (unsigned int q = 0; q < n_points(rule); ++q)
             {
               Kernel::gradient(rule, q, g, u, B);
               add_transposed(R, B);
@@ -133,7 +138,7 @@ namespace corotet
                                     lanes(shapes.mu),
                                     B,
                                     sigma);
-                  add_moment(rule.weights[q] * lanes(shapes.volume),
+                  add_moment(weight_at(rule, q) * lanes(shapes.volume),
                              sigma,
                              B,
                              moment);
@@ -147,17 +152,63 @@ namespace corotet
             }
         }
     }
+
+    template <int n_nodes, Rotation rotation, Tangent tangent>
+    void
+    linearize(const ReferenceElement &reference,
+              const ElasticData      &data,
+              const unsigned int      first,
+              const unsigned int      end,
+              const double           *displacement,
+              double                 *linearization,
+              unsigned int           &n_clamped)
+    {
+      for_each_kind(data.batches,
+                    first,
+                    end,
+                    [&](const auto begin, const auto stop, const auto curved) {
+                      const auto run = [&](const auto &function) {
+                        function(curved,
+                                 reference,
+                                 data,
+                                 begin,
+                                 stop,
+                                 displacement,
+                                 linearization,
+                                 n_clamped);
+                      };
+                      using IsCurved = std::remove_const_t<decltype(curved)>;
+                      if constexpr (rotation == Rotation::quadrature_points)
+                        run(linearize_at_points<n_nodes, tangent, IsCurved>);
+                      else
+                        run(linearize_by_cell<n_nodes, rotation, IsCurved>);
+                    });
+    }
   } // namespace
 
   unsigned int
-  linearization_size(const ReferenceElement &reference,
-                     const Rotation          rotation,
-                     const Tangent           tangent)
+  linearization_size(const unsigned int n_points,
+                     const Rotation     rotation,
+                     const Tangent      tangent)
   {
-    const unsigned int n_points = reference.stiffness_rule.weights.size();
     if (rotation == Rotation::quadrature_points)
       return (tangent == Tangent::consistent ? 15 : 9) * n_points;
     return (rotation == Rotation::cell_centre ? 6 : 15) + 9 * n_points;
+  }
+
+  std::size_t
+  linearization_size(const ReferenceElement &reference,
+                     const CellBatches      &batches,
+                     const Rotation          rotation,
+                     const Tangent           tangent)
+  {
+    std::size_t size =
+      std::size_t(batches.n_owned_batches()) *
+      linearization_size(n_points(reference.stiffness_rule), rotation, tangent);
+    if (const CurvedBatches *curved = batches.curved())
+      size += std::size_t(curved->n_batches()) *
+              linearization_size(curved->n_points(), rotation, tangent);
+    return batch_size * size;
   }
 
   LinearizationSweep
@@ -170,12 +221,9 @@ namespace corotet
                  rotation,
                  tangent,
                  [&](const auto kernel, const auto r, const auto t) {
-                   constexpr int      n_nodes = decltype(kernel)::type::n_nodes;
-                   constexpr Rotation rotation = decltype(r)::value;
-                   if constexpr (rotation == Rotation::quadrature_points)
-                     result = linearize_at_points<n_nodes, decltype(t)::value>;
-                   else
-                     result = linearize_by_cell<n_nodes, rotation>;
+                   result = linearize<decltype(kernel)::type::n_nodes,
+                                      decltype(r)::value,
+                                      decltype(t)::value>;
                  });
     return result;
   }

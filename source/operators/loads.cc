@@ -171,15 +171,24 @@ namespace corotet
     const auto &rule = reference.load_rule;
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       {
-        const CellGeometry &geometry = discretization.geometry(c);
-        const auto          nodes    = discretization.cell_nodes(c);
-        const Point<3>      origin   = discretization.node_position(nodes[0]);
-        const Tensor<2, 3>  J        = invert(geometry.inverse_jacobian);
+        const CellGeometry &geometry  = discretization.geometry(c);
+        const bool          is_curved = discretization.is_curved(c);
+        const auto          nodes     = discretization.cell_nodes(c);
+        const Point<3>      origin    = discretization.node_position(nodes[0]);
+        const Tensor<2, 3>  J         = invert(geometry.inverse_jacobian);
         for (unsigned int q = 0; q < rule.weights.size(); ++q)
           {
-            const Tensor<1, 3> b =
-              value(origin + J * rule.points[q], Tensor<1, 3>()) *
-              (rule.weights[q] * geometry.volume);
+            Point<3> x      = origin + J * rule.points[q];
+            double   volume = geometry.volume;
+            if (is_curved)
+              {
+                x = Point<3>();
+                for (unsigned int i = 0; i < reference.n_nodes; ++i)
+                  x +=
+                    rule.values[q][i] * discretization.node_position(nodes[i]);
+                volume = determinant(discretization.jacobian(c, rule, q)) / 6;
+              }
+            const Tensor<1, 3> b = value(x, Tensor<1, 3>()) * (rule.weights[q] * volume);
             for (unsigned int i = 0; i < reference.n_nodes; ++i)
               for (unsigned int a = 0; a < 3; ++a)
                 f.local_element(3 * nodes[i] + a) += b[a] * rule.values[q][i];

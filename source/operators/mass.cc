@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/discretization/curved_batches.h>
 #include <corotet/operators/mass.h>
 
 #include <deal.II/base/mpi.h>
@@ -53,6 +54,44 @@ namespace corotet
     return shares;
   }
 
+  namespace
+  {
+    // The same for a curved cell: the consistent diagonal and row sums by the
+    // rule of curved cells, or quadrature at the nodes.
+    std::vector<double>
+    curved_shares(const Discretization                &discretization,
+                  const unsigned int                   cell,
+                  const ReferenceElement::PointValues &nodes,
+                  const std::vector<double>           &straight,
+                  const MassType                       type)
+    {
+      const CurvedBatches &curved = *discretization.batches().curved();
+      const auto          &values = curved.shapes().values;
+      const auto [batch, lane]    = discretization.batches().place(cell);
+      const double       *numbers = curved.numbers<double>(batch);
+      const unsigned int  n       = straight.size();
+      std::vector<double> shares(n);
+      double              sum = 0;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          if (type == MassType::nodal_quadrature)
+            shares[i] = straight[i] *
+                        determinant(discretization.jacobian(cell, nodes, i));
+          else
+            for (unsigned int q = 0; q < curved.n_points(); ++q)
+              shares[i] +=
+                numbers[(CurvedBatches::n_numbers * q + 9) * batch_size +
+                        lane] *
+                values[q][i] * (type == MassType::row_sum ? 1. : values[q][i]);
+          sum += shares[i];
+        }
+      if (type != MassType::consistent)
+        for (double &share : shares)
+          share /= sum;
+      return shares;
+    }
+  } // namespace
+
   Mass::Mass(const Discretization                 &discretization,
              const ReferenceElement               &reference,
              const std::map<unsigned int, double> &densities,
@@ -69,6 +108,11 @@ namespace corotet
       for (unsigned int i = 0; i < reference.n_nodes; ++i)
         shares[i] = reference.mass[i][i];
 
+    const ReferenceElement::PointValues at_nodes = ReferenceElement::tabulate(
+      discretization.element(),
+      discretization.finite_element().base_element(0).get_unit_support_points(),
+      std::vector<double>(reference.n_nodes, 1.));
+
     discretization.initialize_vector(mass_diagonal);
     double owned_mass = 0;
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
@@ -82,10 +126,16 @@ namespace corotet
           continue;
         owned_mass += cell_mass;
         const auto nodes = discretization.cell_nodes(c);
-        for (unsigned int i = 0; i < reference.n_nodes; ++i)
-          for (unsigned int a = 0; a < 3; ++a)
-            mass_diagonal.local_element(3 * nodes[i] + a) +=
-              shares[i] * cell_mass;
+        const auto add   = [&](const std::vector<double> &shares) {
+          for (unsigned int i = 0; i < reference.n_nodes; ++i)
+            for (unsigned int a = 0; a < 3; ++a)
+              mass_diagonal.local_element(3 * nodes[i] + a) +=
+                shares[i] * cell_mass;
+        };
+        if (discretization.is_curved(c))
+          add(curved_shares(discretization, c, at_nodes, shares, type));
+        else
+          add(shares);
       }
     mass_diagonal.compress(dealii::VectorOperation::add);
     mass_diagonal.update_ghost_values();

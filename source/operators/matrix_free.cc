@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/curved_batches.h>
 #include <corotet/operators/matrix_free.h>
 
 namespace corotet
@@ -14,6 +15,9 @@ namespace corotet
     , data{nodes.batches(), nullptr, nullptr, 0}
   {
     nodes.initialize_vector(diagonal_of_A);
+    if (const CurvedBatches *curved = nodes.batches().curved();
+        curved != nullptr && std::is_same_v<T, float>)
+      curved->make_floats();
   }
 
   template <typename T>

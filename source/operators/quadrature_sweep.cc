@@ -51,19 +51,21 @@ namespace corotet
       return polar_decomposition(F, R);
     }
 
-    template <int n_nodes, bool at_points>
+    template <int n_nodes, bool at_points, typename IsCurved>
     __attribute__((flatten)) void
-    sweep_state(const ReferenceElement &reference,
-                const ElasticData      &data,
-                const unsigned int      first,
-                const unsigned int      end,
-                const double           *displacement,
-                PointResults           &results)
+    run_state(const IsCurved          is_curved,
+              const ReferenceElement &reference,
+              const ElasticData      &data,
+              const unsigned int      first,
+              const unsigned int      end,
+              const double           *displacement,
+              PointResults           &results)
     {
-      using Kernel     = QuadratureKernel<n_nodes>;
-      const auto &rule = reference.stiffness_rule;
+      using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
+          const auto &rule =
+            cell_rule(is_curved, reference, data.batches, batch);
           const CellShapes            &shapes = data.shapes[batch];
           typename Kernel::NodalValues u;
           typename Kernel::Geometry    g;
@@ -75,7 +77,7 @@ namespace corotet
           V       det_F       = determinant_of_F(grad_u), energy{};
           const V mu          = lanes(shapes.mu),
                   half_lambda = 0.5 * lanes(shapes.lambda);
-          for (unsigned int q = 0; q < rule.weights.size(); ++q)
+          for (unsigned int q = 0; q < n_points(rule); ++q)
             {
               Kernel::gradient(rule, q, g, u, grad_u);
               const V det = determinant_of_F(grad_u);
@@ -85,7 +87,7 @@ namespace corotet
               V e[6];
               corotational_strain(grad_u, R, e);
               const V trace = e[0] + e[1] + e[2];
-              energy += rule.weights[q] *
+              energy += weight_at(rule, q) *
                         (mu * (e[0] * e[0] + e[1] * e[1] + e[2] * e[2] +
                                2. * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5])) +
                          half_lambda * trace * trace);
@@ -101,14 +103,15 @@ namespace corotet
     }
 
     // f_i = sum_q w_q P(F_q) grad N_i, with the rotation of each point.
-    template <int n_nodes>
+    template <int n_nodes, typename IsCurved>
     __attribute__((flatten)) void
-    sweep_force_at_points(const ReferenceElement &reference,
-                          ElasticData            &data,
-                          const unsigned int      first,
-                          const unsigned int      end,
-                          const double           *displacement,
-                          double                 *sums)
+    run_force_at_points(const IsCurved          is_curved,
+                        const ReferenceElement &reference,
+                        ElasticData            &data,
+                        const unsigned int      first,
+                        const unsigned int      end,
+                        const double           *displacement,
+                        double                 *sums)
     {
       using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
@@ -126,8 +129,9 @@ namespace corotet
               found |= polar_decomposition(F, R);
               corotational_stress(R, lambda, mu, F, P);
             };
-          Kernel::integrate(
-            reference.stiffness_rule, g, lanes(shapes.volume), u, f, stress);
+          const auto &rule =
+            cell_rule(is_curved, reference, data.batches, batch);
+          Kernel::integrate(rule, g, lanes(shapes.volume), u, f, stress);
           data.counts.add(found, shapes);
           scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
         }
@@ -137,14 +141,15 @@ namespace corotet
     // dA_q = R^T dF_q - W(w) A_q, so to the force of frozen rotations comes
     // w . m with the moment m, the axial vector of sum_q w_q sigma_q A_q^T, and
     // G w = a(R^T dF) at the centre: a stress P = R W(G^{-1} m) there.
-    template <int n_nodes>
+    template <int n_nodes, typename IsCurved>
     __attribute__((flatten)) void
-    sweep_variational_force(const ReferenceElement &reference,
-                            ElasticData            &data,
-                            const unsigned int      first,
-                            const unsigned int      end,
-                            const double           *displacement,
-                            double                 *sums)
+    run_variational_force(const IsCurved          is_curved,
+                          const ReferenceElement &reference,
+                          ElasticData            &data,
+                          const unsigned int      first,
+                          const unsigned int      end,
+                          const double           *displacement,
+                          double                 *sums)
     {
       using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
@@ -159,7 +164,9 @@ namespace corotet
           data.counts.add(polar_decomposition(F, R), shapes);
           const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda),
                   volume = lanes(shapes.volume);
-          V          moment[3]{};
+          V           moment[3]{};
+          const auto &rule =
+            cell_rule(is_curved, reference, data.batches, batch);
           const auto stress =
             [&](const unsigned int q, V(&F)[3][3], V(&P)[3][3]) {
               V A[3][3], sigma[3][3];
@@ -167,12 +174,9 @@ namespace corotet
               transposed_times(R, F, A);
               stress_of_stretch(lambda, mu, A, sigma);
               times(R, sigma, P);
-              add_moment(reference.stiffness_rule.weights[q] * volume,
-                         sigma,
-                         A,
-                         moment);
+              add_moment(weight_at(rule, q) * volume, sigma, A, moment);
             };
-          Kernel::integrate(reference.stiffness_rule, g, volume, u, f, stress);
+          Kernel::integrate(rule, g, volume, u, f, stress);
           V S[6], G_inverse[6], n[3], RW[3][3];
           stretch(R, F, S);
           inverse_spin_tensor(S, G_inverse);
@@ -183,14 +187,15 @@ namespace corotet
         }
     }
 
-    template <int n_nodes>
+    template <int n_nodes, typename IsCurved>
     __attribute__((flatten)) void
-    sweep_tangent(const ReferenceElement &reference,
-                  const ElasticData      &data,
-                  const unsigned int      first,
-                  const unsigned int      end,
-                  const double           *source,
-                  double                 *sums)
+    run_tangent(const IsCurved          is_curved,
+                const ReferenceElement &reference,
+                const ElasticData      &data,
+                const unsigned int      first,
+                const unsigned int      end,
+                const double           *source,
+                double                 *sums)
     {
       using Kernel = QuadratureKernel<n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
@@ -207,10 +212,78 @@ namespace corotet
             [&](const unsigned int, const V(&grad_u)[3][3], V(&P)[3][3]) {
               corotational_tangent(R, lambda, mu, grad_u, P);
             };
-          Kernel::integrate(
-            reference.stiffness_rule, g, lanes(shapes.volume), u, f, stress);
+          const auto &rule =
+            cell_rule(is_curved, reference, data.batches, batch);
+          Kernel::integrate(rule, g, lanes(shapes.volume), u, f, stress);
           scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
         }
+    }
+  } // namespace
+
+  namespace
+  {
+    template <int n_nodes, bool at_points>
+    void
+    sweep_state(const ReferenceElement &reference,
+                const ElasticData      &data,
+                const unsigned int      first,
+                const unsigned int      end,
+                const double           *displacement,
+                PointResults           &results)
+    {
+      for_each_kind(data.batches,
+                    first,
+                    end,
+                    [&](const auto begin, const auto stop, const auto curved) {
+                      run_state<n_nodes, at_points>(curved,
+                                                    reference,
+                                                    data,
+                                                    begin,
+                                                    stop,
+                                                    displacement,
+                                                    results);
+                    });
+    }
+
+    template <int n_nodes, bool variational>
+    void
+    sweep_force(const ReferenceElement &reference,
+                ElasticData            &data,
+                const unsigned int      first,
+                const unsigned int      end,
+                const double           *displacement,
+                double                 *sums)
+    {
+      for_each_kind(
+        data.batches,
+        first,
+        end,
+        [&](const auto begin, const auto stop, const auto curved) {
+          if constexpr (variational)
+            run_variational_force<n_nodes>(
+              curved, reference, data, begin, stop, displacement, sums);
+          else
+            run_force_at_points<n_nodes>(
+              curved, reference, data, begin, stop, displacement, sums);
+        });
+    }
+
+    template <int n_nodes>
+    void
+    sweep_tangent(const ReferenceElement &reference,
+                  const ElasticData      &data,
+                  const unsigned int      first,
+                  const unsigned int      end,
+                  const double           *source,
+                  double                 *sums)
+    {
+      for_each_kind(data.batches,
+                    first,
+                    end,
+                    [&](const auto begin, const auto stop, const auto curved) {
+                      run_tangent<n_nodes>(
+                        curved, reference, data, begin, stop, source, sums);
+                    });
     }
   } // namespace
 
@@ -234,8 +307,8 @@ namespace corotet
     with_kernel<double>(element, [&](const auto kernel) {
       constexpr int n_nodes = decltype(kernel)::type::n_nodes;
       result                = rotation == Rotation::quadrature_points ?
-                                sweep_force_at_points<n_nodes> :
-                                sweep_variational_force<n_nodes>;
+                                sweep_force<n_nodes, false> :
+                                sweep_force<n_nodes, true>;
     });
     return result;
   }

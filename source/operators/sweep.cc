@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/operators/curved_kernel.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/sweep.h>
 #include <corotet/operators/with_kernel.h>
@@ -11,39 +12,69 @@ namespace corotet
   {
     // Flat: what it calls becomes one piece of code with constants for counters
     // and registers for arrays; with calls it is six times slower.
-    template <typename Kernel, typename T, Terms terms>
+    template <typename Kernel, typename T, Terms terms, typename IsCurved>
     __attribute__((flatten)) void
+    run_form(const IsCurved,
+             const FormData<T> &data,
+             const unsigned int first,
+             const unsigned int end,
+             const T           *source,
+             T                 *sums)
+    {
+      constexpr bool         with_stiffness = terms != Terms::mass;
+      constexpr bool         with_mass      = terms != Terms::stiffness;
+      constexpr unsigned int n              = n_lanes<T> / batch_size;
+      for (unsigned int batch = first; batch < end; batch += n)
+        {
+          typename Kernel::NodalValues u, v;
+          gather_batch<Kernel::n_nodes>(data.batches, batch, source, u);
+          Simd<T> masses{};
+          if constexpr (with_mass)
+            masses = data.mass_factor *
+                     load_aligned<n_lanes<T>>(data.masses[batch / n].mass);
+          if constexpr (IsCurved::value)
+            CurvedKernel<Kernel::n_nodes, T>::template apply<with_stiffness,
+                                                             with_mass>(
+              *data.batches.curved(),
+              batch,
+              data.coefficients + batch / n,
+              T(1 / Kernel::stiffness_scale),
+              masses * T(1 / Kernel::mass_scale),
+              u,
+              v);
+          else
+            Kernel::template apply<with_stiffness, with_mass>(
+              data.coefficients + batch / n, masses, nullptr, u, v);
+          scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
+        }
+    }
+
+    template <typename Kernel, typename T, Terms terms>
+    void
     sweep_form(const FormData<T> &data,
                const unsigned int first,
                const unsigned int end,
                const T           *source,
                T                 *sums)
     {
-      constexpr unsigned int n = n_lanes<T> / batch_size;
-      for (unsigned int batch = first; batch < end; batch += n)
-        {
-          typename Kernel::NodalValues u, v;
-          gather_batch<Kernel::n_nodes>(data.batches, batch, source, u);
-          Simd<T> masses{};
-          if constexpr (terms != Terms::stiffness)
-            masses = data.mass_factor *
-                     load_aligned<n_lanes<T>>(data.masses[batch / n].mass);
-          Kernel::template apply<terms != Terms::mass,
-                                 terms != Terms::stiffness>(
-            data.coefficients + batch / n, masses, nullptr, u, v);
-          scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
-        }
+      for_each_kind(data.batches,
+                    first,
+                    end,
+                    [&](const auto begin, const auto stop, const auto curved) {
+                      run_form<Kernel, T, terms>(
+                        curved, data, begin, stop, source, sums);
+                    });
     }
 
     // K_aa = (lambda + mu) D_aa + mu tr D at node i, with D the integral of
     // grad N_i (x) grad N_i.
     template <typename Kernel, typename T, Terms terms>
     __attribute__((flatten)) void
-    sweep_diagonal(const FormData<T> &data,
-                   const unsigned int first,
-                   const unsigned int end,
-                   const T *,
-                   T *sums)
+    run_diagonal(const std::false_type,
+                 const FormData<T> &data,
+                 const unsigned int first,
+                 const unsigned int end,
+                 T                 *sums)
     {
       constexpr int          n_nodes  = Kernel::n_nodes;
       constexpr auto        &products = Kernel::diagonal_products;
@@ -81,108 +112,47 @@ namespace corotet
         }
     }
 
-    // F = I + grad u at the centres of the cells.
-    template <typename Kernel>
-    COROTET_ALWAYS_INLINE void
-    deformation_gradient(const CellShapes                   &shapes,
-                         const typename Kernel::NodalValues &u,
-                         Simd<double> (&F)[3][3])
-    {
-      Simd<double> by_xi[3][3];
-      Kernel::centre_gradient(u, by_xi);
-      static_for<3>([&](auto b) {
-        static_for<3>([&](auto a) {
-          Simd<double> sum = broadcast(a == b ? 1. : 0.);
-          static_for<3>([&](auto k) {
-            sum += by_xi[a][k] *
-                   load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
-          });
-          F[a][b] = sum;
-        });
-      });
-    }
-
-    // Rotates the gradients of the cells.
-    COROTET_ALWAYS_INLINE void
-    store_rotated(const Simd<double> (&R)[3][3],
-                  const CellShapes         &shapes,
-                  CellCoefficients<double> &coefficients)
-    {
-      const Simd<double> scale = load_aligned<batch_size>(shapes.scale);
-      static_for<3>([&](auto k) {
-        Simd<double> g[3];
-        static_for<3>([&](auto b) {
-          g[b] = scale *
-                 load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
-        });
-        static_for<3>([&](auto a) {
-          store_aligned(R[a][0] * g[0] + R[a][1] * g[1] + R[a][2] * g[2],
-                        coefficients.gradients[3 * k + a]);
-        });
-      });
-    }
-
-    // Strain of the body at rest as the rotations see it, sym(R) - I, in the
-    // kernel's units.
-    template <typename Kernel>
-    COROTET_ALWAYS_INLINE void
-    strain_offset(const Simd<double> (&R)[3][3],
-                  const CellShapes       &shapes,
-                  typename Kernel::Strain offset)
-    {
-      const Simd<double> s =
-        load_aligned<batch_size>(shapes.scale) * Kernel::strain_scale;
-      static_for<3>([&](auto a) { offset[a] = s * (R[a][a] - 1.); });
-      offset[3] = s * (R[1][2] + R[2][1]);
-      offset[4] = s * (R[0][2] + R[2][0]);
-      offset[5] = s * (R[0][1] + R[1][0]);
-    }
-
-    template <typename Kernel, bool rotate, bool with_force>
+    template <typename Kernel, typename T, Terms terms>
     __attribute__((flatten)) void
-    sweep_elastic(ElasticData       &data,
-                  const unsigned int first,
-                  const unsigned int end,
-                  const double      *source,
-                  double            *sums)
+    run_diagonal(const std::true_type,
+                 const FormData<T> &data,
+                 const unsigned int first,
+                 const unsigned int end,
+                 T                 *sums)
     {
-      for (unsigned int batch = first; batch < end; ++batch)
+      constexpr bool         with_mass = terms != Terms::stiffness;
+      constexpr unsigned int n         = n_lanes<T> / batch_size;
+      for (unsigned int batch = first; batch < end; batch += n)
         {
-          const CellShapes            &shapes = data.shapes[batch];
-          typename Kernel::NodalValues u, v;
-          gather_differences<Kernel::n_nodes>(data.batches, batch, source, u);
-          Simd<double> R[3][3];
-          if constexpr (rotate)
-            {
-              Simd<double> F[3][3];
-              deformation_gradient<Kernel>(shapes, u, F);
-              const PolarLanes lanes = polar_decomposition(F, R);
-              data.counts.add(lanes, shapes);
-              store_rotated(R, shapes, data.new_coefficients[batch]);
-            }
-          else
-            rotations_of(data, batch, R);
-          if constexpr (with_force)
-            {
-              typename Kernel::Strain offset;
-              strain_offset<Kernel>(R, shapes, offset);
-              Kernel::template apply<true, false, true>(
-                &data.coefficients[batch], Simd<double>{}, &offset, u, v);
-              scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
-            }
+          Simd<T> masses{}, v[Kernel::n_nodes][3];
+          if constexpr (with_mass)
+            masses = data.mass_factor *
+                     load_aligned<n_lanes<T>>(data.masses[batch / n].mass);
+          CurvedKernel<Kernel::n_nodes, T>::template diagonal<with_mass>(
+            *data.batches.curved(),
+            batch,
+            data.coefficients[batch / n],
+            masses,
+            v);
+          scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
         }
     }
 
-    template <bool rotate, bool with_force>
-    ElasticSweep
-    elastic_sweep(const Element element)
+    template <typename Kernel, typename T, Terms terms>
+    void
+    sweep_diagonal(const FormData<T> &data,
+                   const unsigned int first,
+                   const unsigned int end,
+                   const T *,
+                   T *sums)
     {
-      ElasticSweep result = nullptr;
-      with_kernel<double>(element, [&](const auto kernel) {
-        using Kernel = typename decltype(kernel)::type;
-        result       = sweep_elastic<Kernel, rotate, with_force>;
-      });
-      return result;
+      for_each_kind(data.batches,
+                    first,
+                    end,
+                    [&](const auto begin, const auto stop, const auto curved) {
+                      run_diagonal<Kernel, T, terms>(
+                        curved, data, begin, stop, sums);
+                    });
     }
   } // namespace
 
@@ -243,23 +213,5 @@ namespace corotet
       result = decltype(kernel)::type::mass_scale;
     });
     return result;
-  }
-
-  ElasticSweep
-  rotation_sweep(const Element element)
-  {
-    return elastic_sweep<true, false>(element);
-  }
-
-  ElasticSweep
-  force_sweep(const Element element)
-  {
-    return elastic_sweep<false, true>(element);
-  }
-
-  ElasticSweep
-  rotation_and_force_sweep(const Element element)
-  {
-    return elastic_sweep<true, true>(element);
   }
 } // namespace corotet

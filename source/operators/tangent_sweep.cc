@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/operators/curved_kernel.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/quadrature_kernel.h>
 #include <corotet/operators/rotated_frame.h>
@@ -36,19 +37,23 @@ namespace corotet
     };
 
     // f = c_M M u. Changes u.
-    template <typename CellKernel>
+    template <typename CellKernel, bool is_curved>
     COROTET_ALWAYS_INLINE void
     apply_mass(const TangentData &data,
                const unsigned int batch,
                V (&u)[CellKernel::n_nodes][3],
                V (&f)[CellKernel::n_nodes][3])
     {
-      const V masses = data.mass_factor * CellKernel::mass_scale *
-                       lanes(data.masses[batch].mass);
-      CellKernel::template apply<false, true>(nullptr, masses, nullptr, u, f);
+      const V masses = data.mass_factor * lanes(data.masses[batch].mass);
+      if constexpr (is_curved)
+        CurvedKernel<CellKernel::n_nodes, double>::template apply<false, true>(
+          *data.elastic.batches.curved(), batch, nullptr, 0., masses, u, f);
+      else
+        CellKernel::template apply<false, true>(
+          nullptr, CellKernel::mass_scale * masses, nullptr, u, f);
     }
 
-    template <typename CellKernel>
+    template <typename CellKernel, bool is_curved>
     COROTET_ALWAYS_INLINE void
     gather_with_mass(const TangentData &data,
                      const unsigned int batch,
@@ -66,33 +71,38 @@ namespace corotet
       V copy[n_nodes][3];
       static_for<3 * n_nodes>(
         [&](auto ia) { copy[ia / 3][ia % 3] = u[ia / 3][ia % 3]; });
-      apply_mass<CellKernel>(data, batch, copy, f);
+      apply_mass<CellKernel, is_curved>(data, batch, copy, f);
     }
 
-    template <typename CellKernel, Tangent tangent>
+    template <typename CellKernel, Tangent tangent, typename IsCurved>
     __attribute__((flatten)) void
-    tangent_at_points(const TangentData &data,
+    tangent_at_points(const IsCurved     is_curved,
+                      const TangentData &data,
                       const unsigned int first,
                       const unsigned int end,
                       const double      *source,
                       double            *sums)
     {
-      using Kernel     = QuadratureKernel<CellKernel::n_nodes>;
-      const auto &rule = data.reference.stiffness_rule;
-      const auto  size =
-        batch_size * linearization_size(data.reference,
-                                        Rotation::quadrature_points,
-                                        tangent);
+      using Kernel = QuadratureKernel<CellKernel::n_nodes>;
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.elastic.shapes[batch];
           typename Kernel::NodalValues u, f;
           typename Kernel::Geometry    g;
-          gather_with_mass<CellKernel>(data, batch, source, u, f);
+          gather_with_mass<CellKernel, IsCurved::value>(
+            data, batch, source, u, f);
           Kernel::load(shapes, g);
           const V mu     = data.frozen_factor * lanes(shapes.mu),
                   lambda = data.frozen_factor * lanes(shapes.lambda);
-          Reader     numbers{data.linearization + size * std::size_t(batch)};
+          const auto &rule =
+            cell_rule(is_curved, data.reference, data.elastic.batches, batch);
+          Reader numbers{
+            data.linearization +
+            linearization_start<IsCurved::value>(data.reference,
+                                                 data.elastic.batches,
+                                                 Rotation::quadrature_points,
+                                                 tangent,
+                                                 batch)};
           const auto stress =
             [&](const unsigned int, const V(&dF)[3][3], V(&P)[3][3]) {
               V R[3][3], A[3][3], sigma[3][3];
@@ -121,9 +131,10 @@ namespace corotet
     // sym(H - W(w) B) and P R^T by sigma(H - W(w) B) + W(w) sigma. In the
     // variational force, the stress W(n) at the centre, G n = m, changes by
     // W(w) W(n) + W(dn), where G dn = dm - dG n.
-    template <typename CellKernel, Rotation rotation>
+    template <typename CellKernel, Rotation rotation, typename IsCurved>
     __attribute__((flatten)) void
-    tangent_by_cell(const TangentData &data,
+    tangent_by_cell(const IsCurved     is_curved,
+                    const TangentData &data,
                     const unsigned int first,
                     const unsigned int end,
                     const double      *source,
@@ -132,21 +143,26 @@ namespace corotet
       using Kernel = QuadratureKernel<CellKernel::n_nodes>;
       constexpr bool variational =
         rotation == Rotation::cell_centre_variational;
-      const auto &rule = data.reference.stiffness_rule;
-      const auto  size =
-        batch_size *
-        linearization_size(data.reference, rotation, Tangent::consistent);
       for (unsigned int batch = first; batch < end; ++batch)
         {
           const CellShapes            &shapes = data.elastic.shapes[batch];
           typename Kernel::NodalValues u, f;
           typename Kernel::Geometry    g;
-          gather_with_mass<CellKernel>(data, batch, source, u, f);
+          gather_with_mass<CellKernel, IsCurved::value>(
+            data, batch, source, u, f);
           load_rotated(data.elastic, batch, g);
           const V mu = lanes(shapes.mu), lambda = lanes(shapes.lambda),
                   volume = lanes(shapes.volume);
-          Reader numbers{data.linearization + size * std::size_t(batch)};
-          V      G_inverse[6], S[6], H[3][3], a[3], w[3], dm[3]{};
+          const auto &rule =
+            cell_rule(is_curved, data.reference, data.elastic.batches, batch);
+          Reader numbers{
+            data.linearization +
+            linearization_start<IsCurved::value>(data.reference,
+                                                 data.elastic.batches,
+                                                 rotation,
+                                                 Tangent::consistent,
+                                                 batch)};
+          V G_inverse[6], S[6], H[3][3], a[3], w[3], dm[3]{};
           numbers.read(G_inverse);
           if constexpr (variational)
             numbers.read(S);
@@ -169,7 +185,7 @@ namespace corotet
               isotropic_stress(lambda, mu, WB, P);
               if constexpr (variational)
                 {
-                  const V weight = rule.weights[q] * volume;
+                  const V weight = weight_at(rule, q) * volume;
                   V       d_sigma[3][3];
                   isotropic_stress(lambda, mu, e, d_sigma);
                   add_moment(weight, d_sigma, B, dm);
@@ -209,6 +225,27 @@ namespace corotet
                                        sums);
         }
     }
+
+    template <typename CellKernel, Rotation rotation, Tangent tangent>
+    void
+    apply(const TangentData &data,
+          const unsigned int first,
+          const unsigned int end,
+          const double      *source,
+          double            *sums)
+    {
+      for_each_kind(data.elastic.batches,
+                    first,
+                    end,
+                    [&](const auto begin, const auto stop, const auto curved) {
+                      if constexpr (rotation == Rotation::quadrature_points)
+                        tangent_at_points<CellKernel, tangent>(
+                          curved, data, begin, stop, source, sums);
+                      else
+                        tangent_by_cell<CellKernel, rotation>(
+                          curved, data, begin, stop, source, sums);
+                    });
+    }
   } // namespace
 
   TangentSweep
@@ -221,12 +258,9 @@ namespace corotet
                  rotation,
                  tangent,
                  [&](const auto kernel, const auto r, const auto t) {
-                   using CellKernel = typename decltype(kernel)::type;
-                   constexpr Rotation rotation = decltype(r)::value;
-                   if constexpr (rotation == Rotation::quadrature_points)
-                     result = tangent_at_points<CellKernel, decltype(t)::value>;
-                   else
-                     result = tangent_by_cell<CellKernel, rotation>;
+                   result = apply<typename decltype(kernel)::type,
+                                  decltype(r)::value,
+                                  decltype(t)::value>;
                  });
     return result;
   }

@@ -34,15 +34,18 @@ namespace corotet::tests
 
   inline SerialMesh
   read_gmsh(const std::string &file,
-            const std::string &folder       = "",
-            const std::string &element_size = "0")
+            const std::string &folder        = "",
+            const std::string &element_size  = "0",
+            const std::string &degree        = "1",
+            const unsigned int n_refinements = 0)
   {
     GmshMesh                 source;
     dealii::ParameterHandler prm;
     source.declare_parameters(prm);
     prm.set("File", file);
     prm.set("Element size", element_size);
-    return source.create(folder);
+    prm.set("Geometry degree", degree);
+    return source.create(folder, n_refinements);
   }
 
   /// Sum of the areas of the listed faces of each boundary.

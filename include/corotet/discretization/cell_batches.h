@@ -6,11 +6,13 @@
 
 #include <corotet/base/simd.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace corotet
 {
+  class CurvedBatches;
   class Nodes;
 
   /// Registers of this many cells are what batches are counted in; a register
@@ -50,6 +52,20 @@ namespace corotet
     n_batches() const
     {
       return at_end.size();
+    }
+
+    /// What there is to know about batches with curved cells; null if no cell
+    /// of the rank is curved.
+    const CurvedBatches *
+    curved() const
+    {
+      return curved_batches.get();
+    }
+
+    void
+    set_curved(const std::shared_ptr<const CurvedBatches> &curved)
+    {
+      curved_batches = curved;
     }
 
     /// Batch and lane of a local cell.
@@ -101,6 +117,7 @@ namespace corotet
     std::vector<unsigned char>            at_end;
     std::vector<Chunk>                    plan;
     std::pair<unsigned int, unsigned int> ghosted_chunks;
+    std::shared_ptr<const CurvedBatches>  curved_batches;
   };
 } // namespace corotet
 

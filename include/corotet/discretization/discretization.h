@@ -5,6 +5,7 @@
 #define corotet_discretization_discretization_h
 
 #include <corotet/discretization/nodes.h>
+#include <corotet/discretization/reference_element.h>
 #include <corotet/mesh/mesh.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -16,8 +17,8 @@
 namespace corotet
 {
   /**
-   * Geometry of a straight-sided cell: x = p0 + J xi, with xi in the reference
-   * tetrahedron.
+   * Geometry of a cell: x = p0 + J xi, with xi in the reference tetrahedron; of
+   * a curved cell J at its centre.
    */
   struct CellGeometry
   {
@@ -47,11 +48,18 @@ namespace corotet
    * FE_SimplexP(p), p = 1, 2, 3, or FE_SimplexP_Bubbles(2), on a distributed
    * mesh.
    *
+   * Curved cells have the mesh's map, or if that is of a higher degree than the
+   * element, its interpolant of the element's degree: so positions are finite
+   * element functions, x = sum_i N_i(xi) X_i with the positions X_i of the
+   * nodes, in every cell.
+   *
    * @p mesh must outlive this object.
    */
   class Discretization : public Nodes
   {
   public:
+    /// Throws InputError if a curved cell is folded at a point that matters.
+    /// Collective.
     Discretization(const Mesh &mesh, const Element element);
 
     const Mesh &
@@ -70,6 +78,32 @@ namespace corotet
     geometry(const unsigned int cell) const
     {
       return geometries[cell];
+    }
+
+    bool
+    is_curved(const unsigned int cell) const
+    {
+      return !curved_cells.empty() && curved_cells[cell] != 0;
+    }
+
+    /// dx / dxi of a cell, straight or curved, at point @p q of a rule with
+    /// this element's functions.
+    dealii::Tensor<2, 3>
+    jacobian(const unsigned int                   cell,
+             const ReferenceElement::PointValues &rule,
+             const unsigned int                   q) const
+    {
+      const auto             nodes  = cell_nodes(cell);
+      const dealii::Point<3> origin = node_position(nodes[0]);
+      dealii::Tensor<2, 3>   J;
+      for (unsigned int i = 1; i < nodes.size(); ++i)
+        {
+          const dealii::Tensor<1, 3> x = node_position(nodes[i]) - origin;
+          for (unsigned int a = 0; a < 3; ++a)
+            for (unsigned int k = 0; k < 3; ++k)
+              J[a][k] += x[a] * rule.gradients[q][i][k];
+        }
+      return J;
     }
 
     /// The surface, as far as it belongs to owned cells.
@@ -100,6 +134,7 @@ namespace corotet
       return fe;
     }
 
+    /// That of straight cells.
     const dealii::MappingFE<3> &
     mapping() const
     {
@@ -119,10 +154,19 @@ namespace corotet
     /// All local cells, in the order of Nodes.
     std::vector<CellIterator>
     order_cells();
+    /// Puts curved cells side by side where they are near each other.
+    void
+    gather_curved(std::vector<CellIterator> &cells) const;
     void
     renumber_nodes(const std::vector<CellIterator> &cells);
     void
     set_up_cells(const std::vector<CellIterator> &cells);
+    /// Positions of the nodes of curved cells.
+    void
+    curve_positions(const std::vector<CellIterator> &cells);
+    /// Geometries of curved cells, and what kernels need of them.
+    void
+    set_up_curved_cells();
 
     const Mesh           *mesh_pointer;
     dealii::FESystem<3>   fe;
@@ -132,6 +176,8 @@ namespace corotet
     std::vector<CellGeometry> geometries;
     std::vector<BoundaryFace> surface;
     Vector                    positions;
+    /// By local cell; empty if no cell of any rank is curved.
+    std::vector<unsigned char> curved_cells;
   };
 } // namespace corotet
 

@@ -170,8 +170,8 @@ namespace corotet
     std::vector<unsigned int>             nodes_of_cells;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
-                                       vector_partitioner;
-    std::unique_ptr<const CellBatches> cell_batches;
+                                 vector_partitioner;
+    std::unique_ptr<CellBatches> cell_batches;
   };
 } // namespace corotet
 

@@ -7,7 +7,6 @@
 #include <corotet/discretization/element.h>
 
 #include <deal.II/base/point.h>
-#include <deal.II/base/quadrature.h>
 #include <deal.II/base/table.h>
 
 #include <array>
@@ -37,9 +36,24 @@ namespace corotet
 
     explicit ReferenceElement(const Element element);
 
-    /// For a rule that is none of those below.
+    /// The functions of @p element at some points. Weights are scaled.
     static PointValues
-    tabulate(const Element element, const dealii::Quadrature<3> &rule);
+    tabulate(const Element                        element,
+             const std::vector<dealii::Point<3>> &points,
+             const std::vector<double>           &weights);
+
+    /**
+     * For stiffness and mass of curved cells with maps of at most the element's
+     * degree p: of degree 2p; 4, 11, 24 points; with bubbles of degree 5, 14
+     * points. So, with q <= p for the degree of the map,
+     * - volumes are exact, of degree 3(q-1), and so are forces of constant
+     *   stresses, of degree p-1 + 2(q-1);
+     * - what full order takes, degree 2(p-1), is there;
+     * - the mass matrix is definite: it is a product of functions that, on a
+     *   straight cell, would be exact.
+     */
+    static PointValues
+    curved_rule(const Element element);
 
     unsigned int degree;
     unsigned int n_nodes;

@@ -25,7 +25,8 @@ namespace corotet
     declare_parameters(dealii::ParameterHandler &prm) override;
 
     SerialMesh
-    create(const std::string &folder) const override;
+    create(const std::string &folder,
+           const unsigned int n_refinements = 0) const override;
 
   private:
     std::array<double, 3>       origin  = {{0, 0, 0}};

@@ -12,7 +12,8 @@ namespace corotet
    * Makes sure that a mesh can be computed on, or throws an InputError that
    * says what is wrong and where (in the coordinates of @p mesh):
    * - there are cells, and indices of vertices are in range;
-   * - every volume is positive;
+   * - every volume is positive, that of the straight cell with the vertices of
+   *   a curved one, too, and curved cells have no folds;
    * - a triangle belongs to one cell, or to two that lie on its two sides;
    * - no two vertices of the surface coincide, and nowhere does the surface
    *   touch itself other than in shared vertices and edges. (Where cells do not
@@ -25,6 +26,11 @@ namespace corotet
    */
   void
   check_mesh(SerialMesh &mesh);
+
+  /// Throws an InputError if so many cells, refined so often, are too many.
+  void
+  check_number_of_cells(const std::size_t  n_cells,
+                        const unsigned int n_refinements);
 
   /**
    * Throws the InputError that says @p message about @p mesh: blamed on the

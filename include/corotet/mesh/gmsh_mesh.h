@@ -16,7 +16,8 @@ namespace corotet
    * gmsh's names and ids. Without any physical volume all cells belong to
    * region 0; if there are some, tetrahedra outside of them are left out with a
    * remark, as gmsh does when it writes a file. Nodes that no element uses are
-   * dropped. Cells other than straight-sided tetrahedra are refused.
+   * dropped. Tetrahedra have 4, 10 or 20 nodes; those whose nodes are off the
+   * straight position become curved cells. Other cells are refused.
    */
   class GmshMesh : public MeshSource
   {
@@ -25,11 +26,13 @@ namespace corotet
     declare_parameters(dealii::ParameterHandler &prm) override;
 
     SerialMesh
-    create(const std::string &folder) const override;
+    create(const std::string &folder,
+           const unsigned int n_refinements = 0) const override;
 
   private:
-    std::string file;
-    double      element_size = 0;
+    std::string  file;
+    double       element_size    = 0;
+    unsigned int geometry_degree = 1;
   };
 } // namespace corotet
 

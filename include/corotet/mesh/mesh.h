@@ -8,6 +8,7 @@
 #include <corotet/base/selectable.h>
 #include <corotet/mesh/mesh_source.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
 
 #include <map>
@@ -119,10 +120,48 @@ namespace corotet
       return tria.get_communicator();
     }
 
+    /// Degree q of the maps of curved cells; 1 if there are none. The
+    /// triangulation has the straight cells with the same vertices.
+    unsigned int
+    geometry_degree() const
+    {
+      return curve_degree;
+    }
+
+    /**
+     * Images of the support points of FE_SimplexP(q) under the map of a curved
+     * cell, owned or ghost, that the triangulation gives this
+     * active_cell_index(); none if it is straight.
+     */
+    dealii::ArrayView<const dealii::Point<3>>
+    curved_nodes(const unsigned int cell) const
+    {
+      if (curve_degree == 1 || curves[cell] == SerialMesh::straight)
+        return {};
+      const std::size_t n = n_curved_nodes();
+      return {nodes_of_curves.data() + n * curves[cell], n};
+    }
+
   private:
+    void
+    distribute_curved_nodes(const SerialMesh &mesh);
+
+    /// Of a curved cell.
+    unsigned int
+    n_curved_nodes() const
+    {
+      return (curve_degree + 1) * (curve_degree + 2) * (curve_degree + 3) / 6;
+    }
+
     dealii::parallel::fullydistributed::Triangulation<3> tria;
     MeshNames                                            region_names;
     MeshNames                                            boundary_names;
+
+    unsigned int curve_degree = 1;
+    /// Number of each active cell among the curved ones, or
+    /// SerialMesh::straight; empty if there are none.
+    std::vector<unsigned int>     curves;
+    std::vector<dealii::Point<3>> nodes_of_curves;
   };
 } // namespace corotet
 

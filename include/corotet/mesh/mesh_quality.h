@@ -35,7 +35,8 @@ namespace corotet
   std::array<dealii::Point<3>, 4>
   cell_vertices(const SerialMesh &mesh, const SerialMesh::Cell &cell);
 
-  /// Volumes must be positive.
+  /// Volumes must be positive. Angles and aspect ratios are those of the
+  /// straight cells with the same vertices.
   MeshQuality
   mesh_quality(const SerialMesh &mesh);
 } // namespace corotet

@@ -24,10 +24,14 @@ namespace corotet
     /**
      * The mesh, with coordinates as the source has them. Called on one rank
      * only, so it must not communicate. Relative file names are relative to @p
-     * folder, that of the parameter file. Throws InputError.
+     * folder, that of the parameter file. A source that knows the geometry
+     * makes the uniform refinements by itself, with new vertices on it, and
+     * says so in SerialMesh::n_refinements; others make none. Throws
+     * InputError.
      */
     virtual SerialMesh
-    create(const std::string &folder) const = 0;
+    create(const std::string &folder,
+           const unsigned int n_refinements = 0) const = 0;
   };
 } // namespace corotet
 

@@ -7,6 +7,7 @@
 #include <deal.II/base/point.h>
 
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,12 +20,18 @@ namespace corotet
    */
   struct SerialMesh
   {
+    /// Of a cell that is not curved.
+    static constexpr unsigned int straight =
+      std::numeric_limits<unsigned int>::max();
+
     /// A tetrahedron: p3 sees the triangle p0 p1 p2 counter-clockwise
     /// [seed, 2.1.2.1], and the region it belongs to.
     struct Cell
     {
       std::array<unsigned int, 4> vertices;
       unsigned int                region;
+      /// Number among the curved cells, or straight.
+      unsigned int curve = straight;
     };
 
     /// A triangle of the surface (in any orientation), and the boundary it
@@ -40,6 +47,15 @@ namespace corotet
     /// Faces on the surface that belong to a named boundary. Others need not be
     /// listed.
     std::vector<Face> faces;
+
+    /// Degree q of the maps that make curved cells of the reference
+    /// tetrahedron: 2 or 3, or 1 if there are none.
+    unsigned int geometry_degree = 1;
+    /// Images of the support points of FE_SimplexP(q), of one curved cell after
+    /// another. The first four are the cell's vertices.
+    std::vector<dealii::Point<3>> curved_nodes;
+    /// How often the source has refined the mesh by itself.
+    unsigned int n_refinements = 0;
 
     /// Names by id. A region or boundary that the source gives no name is known
     /// by its id only.

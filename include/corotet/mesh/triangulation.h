@@ -29,7 +29,8 @@ namespace corotet
   SerialMesh
   make_serial_mesh(const dealii::Triangulation<3> &tria);
 
-  /// Cuts every cell into eight, @p n_refinements times.
+  /// Cuts every cell into eight, @p n_refinements times. Parts of curved cells
+  /// are curved as these are.
   void
   refine_uniformly(SerialMesh &mesh, const unsigned int n_refinements);
 

@@ -12,6 +12,7 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -63,6 +64,20 @@ namespace corotet
               const CellCoefficients<double> &coefficients,
               const double                    c_K,
               const Simd<double>              masses);
+    /// The same for a batch with curved cells.
+    void
+    add_curved_batch(const unsigned int              first,
+                     const unsigned int              n_cells,
+                     const CellCoefficients<double> &coefficients,
+                     const double                    c_K,
+                     const Simd<double>              masses);
+    /// Adds block i, j of these cells and its transpose.
+    void
+    add_lanes(const unsigned int first,
+              const unsigned int n_cells,
+              const unsigned int i,
+              const unsigned int j,
+              const Simd<double> (&K)[3][3]);
     /// Adds block i, j of a cell and its transpose; @p block is overwritten.
     void
     add_block(const unsigned int cell,
@@ -85,6 +100,10 @@ namespace corotet
     std::vector<std::uint16_t> block_positions;
     /// Local cells with prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
+
+    /// Of the curved batch at hand, [point][node] and [point].
+    dealii::AlignedVector<std::array<Simd<double>, 3>> point_gradients;
+    dealii::AlignedVector<Simd<double>>                point_weights;
   };
 } // namespace corotet
 

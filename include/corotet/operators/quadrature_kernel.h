@@ -6,15 +6,17 @@
 
 #include <corotet/discretization/reference_element.h>
 #include <corotet/material/corotational_simd.h>
+#include <corotet/operators/cell_rule.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/sweep.h>
 
 namespace corotet
 {
   /**
-   * Integrals over batch_size straight-sided cells by quadrature, for laws that
-   * the factored kernel does not know: whatever varies inside a cell. Nodal
-   * values are arrays [node][component], one cell per lane.
+   * Integrals over batch_size cells by quadrature, for laws that the factored
+   * kernel does not know, whatever varies inside a cell, and for curved cells.
+   * Nodal values are arrays [node][component], one cell per lane. A Rule is one
+   * of cell_rule.h.
    */
   template <int n>
   class QuadratureKernel
@@ -26,7 +28,8 @@ namespace corotet
 
     using NodalValues = V[n_nodes][3];
     using Tensor2     = V[3][3];
-    /// Gradients of the reference coordinates, [3 (k - 1) + component].
+    /// Gradients of the reference coordinates, of curved cells at the centre,
+    /// [3 (k - 1) + component].
     using Geometry = V[9];
 
     /// The geometry at rest.
@@ -51,20 +54,22 @@ namespace corotet
     }
 
     /// grad u at point @p q of @p rule: row a is the gradient of component a.
+    template <typename Rule>
     static COROTET_ALWAYS_INLINE void
-    gradient(const ReferenceElement::PointValues &rule,
-             const unsigned int                   q,
-             const Geometry                      &g,
-             const NodalValues                   &u,
-             Tensor2                             &result)
+    gradient(const Rule        &rule,
+             const unsigned int q,
+             const Geometry    &g,
+             const NodalValues &u,
+             Tensor2           &result)
     {
-      const double *dN = &rule.gradients(q, 0, 0);
+      const double *dN = derivatives_at(rule, q);
       Tensor2       by_xi{};
       static_for<n_nodes>([&](auto i) {
         static_for<9>([&](auto ak) {
           by_xi[ak / 3][ak % 3] += dN[3 * i + ak % 3] * u[i][ak / 3];
         });
       });
+      to_centre(rule, q, by_xi);
       static_for<9>([&](auto ab) {
         V sum{};
         static_for<3>(
@@ -74,12 +79,13 @@ namespace corotet
     }
 
     /// f_i += P grad N_i at point @p q of @p rule.
+    template <typename Rule>
     static COROTET_ALWAYS_INLINE void
-    add(const ReferenceElement::PointValues &rule,
-        const unsigned int                   q,
-        const Geometry                      &g,
-        const Tensor2                       &P,
-        NodalValues                         &f)
+    add(const Rule        &rule,
+        const unsigned int q,
+        const Geometry    &g,
+        const Tensor2     &P,
+        NodalValues       &f)
     {
       Tensor2 by_xi;
       static_for<9>([&](auto ak) {
@@ -88,7 +94,8 @@ namespace corotet
           [&](auto b) { sum += P[ak / 3][b] * g[3 * (ak % 3) + b]; });
         by_xi[ak / 3][ak % 3] = sum;
       });
-      const double *dN = &rule.gradients(q, 0, 0);
+      from_centre(rule, q, by_xi);
+      const double *dN = derivatives_at(rule, q);
       static_for<n_nodes>([&](auto i) {
         static_for<9>([&](auto ak) {
           f[i][ak / 3] += dN[3 * i + ak % 3] * by_xi[ak / 3][ak % 3];
@@ -100,22 +107,22 @@ namespace corotet
      * f_i += integral of P(grad u) grad N_i. @p stress(q, grad u, P) computes
      * the first Piola-Kirchhoff stress at point q of @p rule.
      */
-    template <typename Stress>
+    template <typename Rule, typename Stress>
     static COROTET_ALWAYS_INLINE void
-    integrate(const ReferenceElement::PointValues &rule,
-              const Geometry                      &g,
-              const V                              volume,
-              const NodalValues                   &u,
-              NodalValues                         &f,
-              const Stress                        &stress)
+    integrate(const Rule        &rule,
+              const Geometry    &g,
+              const V            volume,
+              const NodalValues &u,
+              NodalValues       &f,
+              const Stress      &stress)
     {
-      const unsigned int n_points = rule.weights.size();
-      for (unsigned int q = 0; q < n_points; ++q)
+      const unsigned int n_q = n_points(rule);
+      for (unsigned int q = 0; q < n_q; ++q)
         {
           Tensor2 grad_u, P;
           gradient(rule, q, g, u, grad_u);
           stress(q, grad_u, P);
-          const V weight = rule.weights[q] * volume;
+          const V weight = weight_at(rule, q) * volume;
           static_for<9>([&](auto ab) { P[ab / 3][ab % 3] *= weight; });
           add(rule, q, g, P, f);
         }

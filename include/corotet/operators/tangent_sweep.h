@@ -5,6 +5,7 @@
 #define corotet_operators_tangent_sweep_h
 
 #include <corotet/discretization/reference_element.h>
+#include <corotet/operators/cell_rule.h>
 #include <corotet/operators/sweep.h>
 
 /**
@@ -26,14 +27,45 @@ namespace corotet
 
   /// Numbers per cell that linearization_sweep() stores.
   unsigned int
+  linearization_size(const unsigned int n_points,
+                     const Rotation     rotation,
+                     const Tangent      tangent);
+
+  /// Those of all owned batches.
+  std::size_t
   linearization_size(const ReferenceElement &reference,
+                     const CellBatches      &batches,
                      const Rotation          rotation,
                      const Tangent           tangent);
 
+  /// First number of a batch. Those of curved ones follow those of all as if
+  /// they were straight.
+  template <bool is_curved>
+  inline std::size_t
+  linearization_start(const ReferenceElement &reference,
+                      const CellBatches      &batches,
+                      const Rotation          rotation,
+                      const Tangent           tangent,
+                      const unsigned int      batch)
+  {
+    const std::size_t size =
+      linearization_size(n_points(reference.stiffness_rule), rotation, tangent);
+    if constexpr (is_curved)
+      {
+        const CurvedBatches &curved = *batches.curved();
+        return batch_size *
+               (size * batches.n_owned_batches() +
+                linearization_size(curved.n_points(), rotation, tangent) *
+                  std::size_t(curved.index(batch)));
+      }
+    else
+      return batch_size * size * batch;
+  }
+
   /**
    * Stores the linearization of batches [first, end) at @p displacement, where
-   * the cells' rotations must have been taken: linearization_size() numbers
-   * per cell, [batch][number][lane]. Adds to @p n_clamped the cells where the
+   * the cells' rotations must have been taken: for each batch
+   * [number][lane]. Adds to @p n_clamped the cells where the
    * derivative of a rotation was clamped.
    */
   using LinearizationSweep = void (*)(const ReferenceElement &reference,

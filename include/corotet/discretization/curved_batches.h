@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_curved_batches_h
+#define corotet_discretization_curved_batches_h
+
+#include <corotet/discretization/cell_batches.h>
+#include <corotet/discretization/reference_element.h>
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <limits>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The batches that hold curved cells, as kernels take them. Their cells are
+   * integrated over by quadrature, the straight ones among them, too.
+   *
+   * With the Jacobian J(xi) of a cell's map x(xi), gradients are those by xi
+   * times J^{-1} = (J^{-1} J_c) J_c^{-1}, where J_c is that of the centre.
+   * J_c^{-1} is the CellGeometry of the cell. So only J^{-1} J_c, close to the
+   * identity, distinguishes a curved cell from a straight one: gradients by xi
+   * times that matrix are gradients by the centre's coordinates, and all that
+   * is done with these, rotations above all, is the same.
+   *
+   * All elements on the same cells share these numbers, and the points, which
+   * are those of the finest element: coarser forms are Galerkin projections.
+   */
+  class CurvedBatches
+  {
+  public:
+    /// Per point: J^{-1} J_c by rows, and the point's share of the volume.
+    static constexpr unsigned int n_numbers = 10;
+
+    /**
+     * With @p element's own points, and the numbers of straight cells so far.
+     * @param is_curved By local cell.
+     */
+    CurvedBatches(const Element                     element,
+                  const CellBatches                &batches,
+                  const std::vector<unsigned char> &is_curved);
+
+    /// The same cells for another element.
+    CurvedBatches(const Element element, const CurvedBatches &other);
+
+    /// To be called before numbers().
+    void
+    set(const std::pair<unsigned int, unsigned int> &place,
+        const unsigned int                           point,
+        const dealii::Tensor<2, 3>                  &matrix,
+        const double                                 weight);
+
+    /// Whether the register of cells that @p batch belongs to has curved ones.
+    /// A register is one of floats: floats_per_batch batches.
+    bool
+    has(const unsigned int batch) const
+    {
+      return maps->index[batch / floats_per_batch] != none;
+    }
+
+    /// Numbers of the register of T that starts with @p batch,
+    /// [point][number][lane].
+    template <typename T>
+    const T *
+    numbers(const unsigned int batch) const
+    {
+      const std::size_t register_size =
+        std::size_t(n_lanes<T>) * n_numbers * n_points();
+      const std::size_t i = maps->index[batch / floats_per_batch];
+      if constexpr (std::is_same_v<T, double>)
+        return maps->numbers.data() +
+               (i * floats_per_batch + batch % floats_per_batch) *
+                 register_size;
+      else
+        return maps->float_numbers.data() + i * register_size;
+    }
+
+    /// Makes the numbers of floats: once, by who needs them.
+    void
+    make_floats() const;
+
+    unsigned int
+    n_points() const
+    {
+      return shape_functions.weights.size();
+    }
+
+    /// The element's functions at the points, with the weights of straight
+    /// cells.
+    const ReferenceElement::PointValues &
+    shapes() const
+    {
+      return shape_functions;
+    }
+
+    /// The same as numbers of type T: [point][node][value, three derivatives].
+    template <typename T>
+    const T *
+    shape_numbers() const
+    {
+      if constexpr (std::is_same_v<T, double>)
+        return shapes_double.data();
+      else
+        return shapes_float.data();
+    }
+
+    /// Number of a batch among those that are curved.
+    unsigned int
+    index(const unsigned int batch) const
+    {
+      return maps->index[batch / floats_per_batch] * floats_per_batch +
+             batch % floats_per_batch;
+    }
+
+    /// Batches that are curved, of owned and of ghost cells.
+    unsigned int
+    n_batches() const
+    {
+      return maps->n_registers * floats_per_batch;
+    }
+
+  private:
+    static constexpr unsigned int none =
+      std::numeric_limits<unsigned int>::max();
+
+    struct Maps
+    {
+      /// Of each register of floats its number among the curved ones, or none.
+      std::vector<unsigned int>     index;
+      unsigned int                  n_registers = 0;
+      dealii::AlignedVector<double> numbers;
+      dealii::AlignedVector<float>  float_numbers;
+    };
+
+    void
+    set_shapes();
+
+    ReferenceElement::PointValues shape_functions;
+    std::vector<double>           shapes_double;
+    std::vector<float>            shapes_float;
+    std::shared_ptr<Maps>         maps;
+  };
+
+  /**
+   * Calls @p function(begin, stop, is_curved) for the runs of straight and of
+   * curved batches in [first, end); is_curved is std::true_type or
+   * std::false_type. @p first and @p end are multiples of floats_per_batch, or
+   * the ends of owned or of all batches.
+   */
+  template <typename Function>
+  COROTET_ALWAYS_INLINE void
+  for_each_kind(const CellBatches &batches,
+                const unsigned int first,
+                const unsigned int end,
+                const Function    &function)
+  {
+    const CurvedBatches *const curved = batches.curved();
+    if (curved == nullptr)
+      {
+        function(first, end, std::false_type());
+        return;
+      }
+    for (unsigned int begin = first, stop = first; begin < end; begin = stop)
+      {
+        const bool is_curved = curved->has(begin);
+        while (stop < end && curved->has(stop) == is_curved)
+          ++stop;
+        if (is_curved)
+          function(begin, stop, std::true_type());
+        else
+          function(begin, stop, std::false_type());
+      }
+  }
+} // namespace corotet
+
+#endif

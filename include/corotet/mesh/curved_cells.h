@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_curved_cells_h
+#define corotet_mesh_curved_cells_h
+
+#include <corotet/mesh/serial_mesh.h>
+
+#include <deal.II/base/table.h>
+#include <deal.II/grid/tria.h>
+
+namespace corotet
+{
+  /**
+   * Polynomial maps x(xi) of one degree q, at fixed points of the reference
+   * tetrahedron. A map is given by its nodes: the images of the support points
+   * of FE_SimplexP(q).
+   */
+  class MapAtPoints
+  {
+  public:
+    MapAtPoints(const unsigned int                   degree,
+                const std::vector<dealii::Point<3>> &points);
+
+    unsigned int
+    n_nodes() const
+    {
+      return values.size(1);
+    }
+
+    unsigned int
+    n_points() const
+    {
+      return values.size(0);
+    }
+
+    /// x at point @p q.
+    dealii::Point<3>
+    position(const dealii::Point<3> *nodes, const unsigned int q) const
+    {
+      dealii::Point<3> x;
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+        x += values[q][i] * nodes[i];
+      return x;
+    }
+
+    /// dx_a / dxi_k at point @p q.
+    dealii::Tensor<2, 3>
+    jacobian(const dealii::Point<3> *nodes, const unsigned int q) const
+    {
+      dealii::Tensor<2, 3> J;
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+        J += outer_product(nodes[i], gradients[q][i]);
+      return J;
+    }
+
+  private:
+    dealii::Table<2, double>               values;
+    dealii::Table<2, dealii::Tensor<1, 3>> gradients;
+  };
+
+  /// Support points of FE_SimplexP(@p degree): the vertices come first.
+  std::vector<dealii::Point<3>>
+  map_points(const unsigned int degree);
+
+  /// Nodes of the map of a curved cell of @p mesh.
+  const dealii::Point<3> *
+  curved_nodes(const SerialMesh &mesh, const SerialMesh::Cell &cell);
+
+  /// Forgets the maps of cells that are straight but for round-off.
+  void
+  remove_straight_maps(SerialMesh &mesh);
+
+  /**
+   * Smallest determinant of the Jacobians of curved cells over its mean in the
+   * cell [-]: 1 for a straight one; infinity if none is curved. Throws
+   * InputError, as check_mesh() does, unless it is positive. Looks at the
+   * points with barycentric coordinates of i / 6, of the map itself and of its
+   * interpolants of lower degree above 1.
+   */
+  double
+  check_curved_cells(const SerialMesh &mesh);
+
+  /// Volumes of curved cells less those of the straight ones with the same
+  /// vertices, summed up [m^3]. Exact.
+  double
+  volume_by_curvature(const SerialMesh &mesh);
+
+  /**
+   * Gives the cells of @p refined, the active ones of @p tria in their order,
+   * the curves of the cells of @p coarse that they are parts of, which are
+   * those on level 0 of @p tria. Moves vertices there, too.
+   */
+  void
+  inherit_curves(const SerialMesh               &coarse,
+                 const dealii::Triangulation<3> &tria,
+                 SerialMesh                     &refined);
+} // namespace corotet
+
+#endif

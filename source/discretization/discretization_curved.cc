@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What curved cells add to the discretization.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/discretization/curved_batches.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/mesh/curved_cells.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    // Cells that may be put into another order: few enough to be near each
+    // other, many enough for most batches to be of one kind.
+    constexpr unsigned int window = 32 * n_lanes<float>;
+  } // namespace
+
+  void
+  Discretization::gather_curved(std::vector<CellIterator> &cells) const
+  {
+    const auto sort = [&](const unsigned int begin, const unsigned int end) {
+      // Curved cells at the end of a window, then at the start of the next.
+      bool first = false;
+      for (unsigned int c = begin; c < end; c += window, first = !first)
+        std::stable_partition(
+          cells.begin() + c,
+          cells.begin() + std::min(c + window, end),
+          [&](const CellIterator &cell) {
+            const bool is_curved =
+              !mesh_pointer->curved_nodes(cell->active_cell_index()).empty();
+            return is_curved == first;
+          });
+    };
+    sort(0, ghosted_cells.first);
+    sort(ghosted_cells.first, ghosted_cells.second);
+    sort(ghosted_cells.second, n_owned);
+  }
+
+  void
+  Discretization::curve_positions(const std::vector<CellIterator> &cells)
+  {
+    const unsigned int q = mesh_pointer->geometry_degree();
+    const unsigned int r = std::min(q, degree());
+    // Through the interpolant of degree r; for r = q that is the map itself.
+    const MapAtPoints at_r(q, map_points(r));
+    const MapAtPoints at_nodes(r, fe.base_element(0).get_unit_support_points());
+    std::vector<Point<3>> nodes(at_r.n_points());
+    curved_cells.resize(cells.size());
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        const auto curve =
+          mesh_pointer->curved_nodes(cells[c]->active_cell_index());
+        if (curve.empty())
+          continue;
+        curved_cells[c] = 1;
+        for (unsigned int v = 0; v < 4; ++v)
+          Assert(curve[v].distance(cells[c]->vertex(v)) <=
+                   1e-10 * cells[c]->diameter(),
+                 dealii::ExcInternalError());
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          nodes[i] = at_r.position(curve.data(), i);
+        for (unsigned int i = 0; i < n_cell_nodes; ++i)
+          {
+            const Point<3> x = at_nodes.position(nodes.data(), i);
+            for (unsigned int a = 0; a < 3; ++a)
+              positions.local_element(3 * cell_nodes(c)[i] + a) = x[a];
+          }
+      }
+  }
+
+  void
+  Discretization::set_up_curved_cells()
+  {
+    const auto curved =
+      std::make_shared<CurvedBatches>(element(), *cell_batches, curved_cells);
+    const auto &rule = curved->shapes();
+    const auto  centre =
+      ReferenceElement::tabulate(element(), {Point<3>(0.25, 0.25, 0.25)}, {1.});
+    on_all_ranks(communicator(), [&] {
+      std::vector<Tensor<2, 3>> J(rule.weights.size());
+      for (unsigned int c = 0; c < curved_cells.size(); ++c)
+        if (curved_cells[c])
+          {
+            const Tensor<2, 3> J_centre = jacobian(c, centre, 0);
+            double             smallest = determinant(J_centre), volume = 0;
+            for (unsigned int q = 0; q < J.size(); ++q)
+              {
+                J[q] = jacobian(c, rule, q);
+                volume += rule.weights[q] * determinant(J[q]) / 6;
+                smallest = std::min(smallest, determinant(J[q]));
+              }
+            if (!(smallest > 0))
+              throw InputError(
+                "Discretization/Degree",
+                fmt::format("a curved cell at ({:.6g}, {:.6g}, {:.6g}) is "
+                            "folded: found a Jacobian determinant of {:.3g} "
+                            "times its mean at a quadrature point of degree "
+                            "{}; it must be positive, so make the mesh finer "
+                            "there",
+                            node_position(cell_nodes(c)[0])[0],
+                            node_position(cell_nodes(c)[0])[1],
+                            node_position(cell_nodes(c)[0])[2],
+                            smallest / (6 * std::abs(volume)),
+                            degree()));
+            geometries[c].inverse_jacobian = invert(J_centre);
+            geometries[c].volume           = volume;
+            for (unsigned int q = 0; q < J.size(); ++q)
+              curved->set(cell_batches->place(c),
+                          q,
+                          invert(J[q]) * J_centre,
+                          rule.weights[q] * determinant(J[q]) / (6 * volume));
+          }
+    });
+    if (curved->n_batches() > 0)
+      cell_batches->set_curved(curved);
+  }
+} // namespace corotet

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Curved cells: from gmsh in all formats, refined, checked.
+
+#include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/triangulation.h>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/tools.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+
+namespace
+{
+  const std::string meshes = COROTET_SOURCE_DIR "/meshes";
+  const std::string sphere = "sphere_octant.geo";
+
+  std::size_t
+  n_curved(const SerialMesh &mesh)
+  {
+    return std::count_if(mesh.cells.begin(),
+                         mesh.cells.end(),
+                         [](const SerialMesh::Cell &cell) {
+                           return cell.curve != SerialMesh::straight;
+                         });
+  }
+
+  // Relative error of the volume of the octant of a sphere.
+  double
+  volume_error(const SerialMesh &mesh)
+  {
+    return std::abs(mesh_quality(mesh).volume / (7 * std::acos(-1.) / 6) - 1);
+  }
+
+  // A tetrahedron with ten nodes, in gmsh's order; the middle of the first edge
+  // is at (0.5, y, 0).
+  std::string
+  tetrahedron(const std::string &y)
+  {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 "
+           "0\n3 0 1 0\n4 0 0 1\n5 .5 " +
+           y +
+           " 0\n6 .5 .5 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n"
+           "$EndNodes\n$Elements\n1\n1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n"
+           "$EndElements\n";
+  }
+} // namespace
+
+// Refinement by gmsh puts vertices on the spheres: facets miss h^2 of the
+// volume. Maps of degree q interpolate them: h^4 at least.
+TEST(CurvedCells, SphereVolume)
+{
+  EXPECT_EQ(read_gmsh(sphere, meshes).curved_nodes.size(), 0u);
+  for (const std::string degree : {"1", "2", "3"})
+    {
+      SerialMesh coarse = read_gmsh(sphere, meshes, "0", degree);
+      SerialMesh fine   = read_gmsh(sphere, meshes, "0", degree, 1);
+      check_mesh(coarse);
+      check_mesh(fine);
+      EXPECT_EQ(fine.n_refinements, 1u);
+      EXPECT_EQ(fine.cells.size(), 8 * coarse.cells.size());
+      EXPECT_EQ(fine.geometry_degree, std::stoul(degree));
+      EXPECT_LT(n_curved(fine), fine.cells.size());
+      const double order = std::log2(volume_error(coarse) / volume_error(fine));
+      if (degree == "1")
+        {
+          EXPECT_NEAR(order, 2, 0.2);
+        }
+      else
+        {
+          EXPECT_GT(order, 3.7) << degree;
+        }
+      EXPECT_LT(volume_error(fine), degree == "1" ? 0.03 : 2e-4) << degree;
+    }
+}
+
+// Files of every format hold what was made: the same nodes to the digits of
+// ASCII.
+TEST(CurvedCells, AllFormats)
+{
+  const TemporaryFolder folder;
+  for (const int degree : {2, 3})
+    {
+      const SerialMesh expected =
+        read_gmsh(sphere, meshes, "0", std::to_string(degree));
+      for (const double version : {2.2, 4.1})
+        for (const int binary : {0, 1})
+          {
+            const std::string file = folder / "sphere.msh";
+            gmsh::initialize(0, nullptr, false, false);
+            gmsh::option::setNumber("General.Terminal", 0);
+            gmsh::open(meshes + "/" + sphere);
+            gmsh::model::mesh::generate(3);
+            gmsh::model::mesh::setOrder(degree);
+            gmsh::option::setNumber("Mesh.MshFileVersion", version);
+            gmsh::option::setNumber("Mesh.Binary", binary);
+            gmsh::write(file);
+            gmsh::finalize();
+
+            SerialMesh mesh = read_gmsh(file);
+            EXPECT_EQ(mesh.geometry_degree, static_cast<unsigned int>(degree));
+            EXPECT_EQ(n_curved(mesh), n_curved(expected));
+            EXPECT_NEAR(mesh_quality(mesh).volume,
+                        mesh_quality(expected).volume,
+                        1e-13);
+            check_mesh(mesh);
+            EXPECT_EQ(mesh.boundary_names, expected.boundary_names);
+            EXPECT_NEAR(boundary_areas(mesh).at(4),
+                        boundary_areas(expected).at(4),
+                        1e-13);
+          }
+    }
+}
+
+// Parts of a curved cell lie on it: the volume remains, and so do straight
+// cells.
+TEST(CurvedCells, Refinement)
+{
+  for (const std::string degree : {"2", "3"})
+    {
+      SerialMesh        mesh   = read_gmsh(sphere, meshes, "0", degree);
+      const double      volume = mesh_quality(mesh).volume;
+      const std::size_t n      = n_curved(mesh);
+      mesh.vertices.shrink_to_fit();
+      refine_uniformly(mesh, 2);
+      EXPECT_EQ(n_curved(mesh), 64 * n);
+      EXPECT_NEAR(mesh_quality(mesh).volume, volume, 1e-12);
+      check_mesh(mesh);
+      for (const SerialMesh::Cell &cell : mesh.cells)
+        for (unsigned int v = 0; v < 4; ++v)
+          if (cell.curve != SerialMesh::straight)
+            {
+              EXPECT_LE(curved_nodes(mesh, cell)[v].distance(
+                          mesh.vertices[cell.vertices[v]]),
+                        1e-14);
+            }
+    }
+}
+
+// Ten nodes at straight positions make a straight cell. The middle of an edge
+// that is moved by y inwards adds y / 3 to the volume of 1/6: an integral of
+// the quadratic function of the edge over the two faces there. From y = 1/4 on,
+// the map folds at a vertex.
+TEST(CurvedCells, OneCell)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder.write("cell.msh", tetrahedron("0"));
+  SerialMesh            mesh = read_gmsh(file);
+  EXPECT_EQ(mesh.geometry_degree, 1u);
+  EXPECT_TRUE(mesh.curved_nodes.empty());
+
+  folder.write("cell.msh", tetrahedron("-0.1"));
+  mesh = read_gmsh(file);
+  EXPECT_EQ(mesh.geometry_degree, 2u);
+  ASSERT_EQ(n_curved(mesh), 1u);
+  check_mesh(mesh);
+
+  folder.write("cell.msh", tetrahedron("0.3"));
+  const std::string text = refusal([&] {
+    SerialMesh mesh = read_gmsh(file);
+    check_mesh(mesh);
+  });
+  EXPECT_EQ(text.substr(0, text.find("of -")),
+            file + ": 1 of 1 curved cells is folded: found a Jacobian "
+                   "determinant ");
+  EXPECT_NE(text.find("it must be positive everywhere, so make the mesh finer"),
+            std::string::npos);
+}
+
+TEST(CurvedCells, Refusals)
+{
+  const TemporaryFolder folder;
+  std::string           text = tetrahedron("0");
+  const std::string     elements("1\n1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n");
+  text.replace(text.find(elements),
+               elements.size(),
+               "2\n1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n2 4 2 1 2 1 2 3 4\n");
+  const std::string file = folder.write("mixed.msh", text);
+  EXPECT_EQ(refusal([&] { read_gmsh(file); }),
+            file + ": tetrahedra of several degrees: found 'Tetrahedron 4', "
+                   "'Tetrahedron 10'; one of these is allowed");
+  EXPECT_EQ(refusal([&] { read_gmsh(file, "", "0", "2"); }),
+            "Mesh/gmsh/Geometry degree: a .msh has the degree of its cells: "
+            "found 2 for '" +
+              file + "'; 1 is allowed");
+}

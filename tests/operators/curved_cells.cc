@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Operators on curved cells, in meshes that have straight ones, too. Where a
+// test says "exact", polynomials are integrated by rules of their degree.
+
+#include <corotet/discretization/coarser_nodes.h>
+#include <corotet/operators/effective_operator.h>
+#include <corotet/operators/surface.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "../curved_mesh.h"
+#include "random_states.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  std::string
+  material(const Element element, const std::string &text = "")
+  {
+    return element_text(element) +
+           "subsection Material\n set Young's modulus = 1e3\n set Poisson's "
+           "ratio = 0.4\n set Density = 2\n" +
+           text + "end\n";
+  }
+
+  Elasticity
+  elasticity(const Body &body, const Rotation rotation)
+  {
+    return {body.discretization,
+            body.system.reference_element(),
+            body.parameters.material.materials(body.mesh.regions()),
+            rotation};
+  }
+
+  Vector
+  random_vector(const Body &body, const unsigned int seed)
+  {
+    std::mt19937                           generator(seed);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<double> numbers(3 * body.discretization.n_global_nodes());
+    for (double &x : numbers)
+      x = number(generator);
+    Vector v;
+    body.discretization.initialize_vector(v);
+    for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        v.local_element(3 * n + a) =
+          numbers[3 * body.discretization.global_node(n) + a];
+    v.update_ghost_values();
+    return v;
+  }
+
+  Vector
+  owned(const Vector &v)
+  {
+    Vector result(v);
+    result.zero_out_ghost_values();
+    return result;
+  }
+
+  const std::vector<std::pair<std::string, Rotation>> all_placements{
+    {"linear", Rotation::none},
+    {"cell centre", Rotation::cell_centre},
+    {"quadrature points", Rotation::quadrature_points},
+    {"cell centre, variational", Rotation::cell_centre_variational}};
+} // namespace
+
+class CurvedCells : public testing::TestWithParam<Curved>
+{};
+
+// Both kinds of cells are there, and the batches know.
+TEST_P(CurvedCells, MeshIsMixed)
+{
+  const Body body(half_curved_box(GetParam().q), material(GetParam().element));
+  unsigned int n = 0;
+  for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
+    n += body.discretization.is_curved(c);
+  EXPECT_EQ(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 40u);
+  EXPECT_EQ(body.discretization.n_global_cells(), 80u);
+}
+
+// An affine deformation F x is in the space. Its stress P is constant, so the
+// internal force is that of the tractions P n on the surface, inside it is
+// zero, and the energy is the volume times a constant: all exact. A rigid
+// motion has P = 0; the force is compared with that of a stretch.
+TEST_P(CurvedCells, PatchTest)
+{
+  const Body  body(half_curved_box(GetParam().q), material(GetParam().element));
+  const auto &reference = body.system.reference_element();
+  const Tensor<2, 3> Q  = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 1.1);
+  Tensor<2, 3>       stretch({{1.2, 0.1, 0.}, {0.1, 0.9, 0.2}, {0., 0.2, 1.1}});
+  Tensor<2, 3>       identity(dealii::unit_symmetric_tensor<3>());
+  double             unit = 0;
+  for (const auto &[name, placement] : all_placements)
+    for (const Tensor<2, 3> &S : {stretch, identity})
+      {
+        const bool         linear = placement == Rotation::none;
+        const Tensor<2, 3> R = linear ? identity : Q, F = R * S;
+        const Vector       u =
+          body.interpolate([&](const Point<3> &x) { return F * x - x; });
+        Elasticity   elastic = elasticity(body, placement);
+        const Vector f       = force(elastic, u);
+
+        const IsotropicMaterial m      = elastic.material(0);
+        const auto              strain = corotational_strain(F - identity, R);
+        const Tensor<2, 3>      P = corotational_stress(m, F - identity, R);
+        Vector                  expected(f);
+        expected = 0;
+        for (const BoundaryFace &face : body.discretization.boundary_faces())
+          for_each_surface_point(
+            body.discretization,
+            reference,
+            face,
+            nullptr,
+            [&](const SurfacePoint &point) {
+              const Tensor<1, 3> t = P * point.area;
+              for (const unsigned int i : reference.face_nodes[face.face])
+                for (unsigned int a = 0; a < 3; ++a)
+                  expected.local_element(
+                    3 * body.discretization.cell_nodes(face.cell)[i] + a) +=
+                    t[a] *
+                    reference.face_rules[face.face].values[point.index][i];
+            });
+        expected.compress(dealii::VectorOperation::add);
+        unit = std::max(unit, expected.linfty_norm());
+        EXPECT_GT(unit, 1);
+        EXPECT_LE(largest_difference(f, expected), 1e-12 * unit) << name;
+
+        const double volume =
+          displaced_volume(body.discretization, reference, u) / determinant(F);
+        const ElasticState state = elastic.state(u);
+        EXPECT_NEAR(state.energy,
+                    volume * energy_density(m, strain),
+                    1e-12 * unit)
+          << name;
+        EXPECT_NEAR(state.min_det_F, determinant(F), 1e-12);
+        const CellResults results = elastic.cell_results(u);
+        for (unsigned int c = 0; c < results.det_F.size(); ++c)
+          {
+            EXPECT_NEAR(results.det_F[c], determinant(F), 1e-12);
+            EXPECT_NEAR(results.von_mises[c],
+                        von_mises(stress(m, strain)),
+                        1e-12 * m.mu);
+          }
+      }
+}
+
+// Where the force has an energy it is its gradient, and the consistent tangent
+// is the derivative of the force: central differences with errors of h^2 and
+// of round-off over h. The tangent with frozen rotations is that of linear
+// elasticity in the rotated frame: symmetric.
+TEST_P(CurvedCells, Derivatives)
+{
+  const Body body(half_curved_box(GetParam().q), material(GetParam().element));
+  const double h = 1e-5;
+  for (const auto &[name, placement] : placements)
+    {
+      const Vector u       = displacement(body, states[1], 1., 1);
+      const Vector v       = random_direction(body);
+      Elasticity   elastic = elasticity(body, placement);
+      const Vector plus    = force(elastic, moved(u, h, v));
+      const double E_plus  = elastic.state(moved(u, h, v)).energy;
+      const Vector minus   = force(elastic, moved(u, -h, v));
+      const double E_minus = elastic.state(moved(u, -h, v)).energy;
+      const Vector f       = force(elastic, u);
+      if (elastic.is_symmetric(Tangent::consistent))
+        {
+          EXPECT_NEAR((E_plus - E_minus) / (2 * h),
+                      f * owned(v),
+                      1e-9 * f.l2_norm() * owned(v).l2_norm())
+            << name;
+        }
+      Vector difference(plus), Kv(plus);
+      difference.add(-1., minus);
+      difference *= 1 / (2 * h);
+      elastic.linearize(u, Tangent::consistent);
+      elastic.apply_linearization(Kv, v, 1., 0., nullptr, nullptr);
+      EXPECT_LE(largest_difference(Kv, difference),
+                1e-7 * difference.linfty_norm())
+        << name;
+
+      const Vector w = random_vector(body, 3);
+      Vector       Kw(plus);
+      if (placement == Rotation::quadrature_points)
+        {
+          elastic.linearize(u, Tangent::frozen_rotation);
+          elastic.apply_linearization(Kv, v, 1., 0., nullptr, nullptr);
+          elastic.apply_linearization(Kw, w, 1., 0., nullptr, nullptr);
+        }
+      else
+        {
+          elastic.apply_tangent(Kv, v);
+          elastic.apply_tangent(Kw, w);
+          Vector by_quadrature(Kv);
+          elastic.apply_tangent_by_quadrature(by_quadrature, v);
+          EXPECT_LE(largest_difference(by_quadrature, Kv),
+                    1e-13 * Kv.linfty_norm());
+        }
+      EXPECT_NEAR(Kv * owned(w), Kw * owned(v), 1e-12 * std::abs(Kv * owned(v)))
+        << name;
+    }
+}
+
+// A by the kernels, as a matrix, and from its parts; its diagonal; with the
+// mass that there is.
+TEST_P(CurvedCells, EffectiveOperator)
+{
+  const Element element = GetParam().element;
+  Body          body(half_curved_box(GetParam().q), material(element));
+  Elasticity    elastic = elasticity(body, Rotation::cell_centre);
+  elastic.update_rotations(displacement(body, states[1], 1., 1));
+  const std::vector<unsigned char> free(3 * body.discretization.n_local_nodes(),
+                                        0);
+  EffectiveOperator A(body.discretization, elastic, body.system.mass(), free);
+  const double      c_K = 0.7, c_M = 500;
+  A.update(c_K, c_M);
+  const Vector v = random_vector(body, 5);
+  Vector       product(owned(v)), Kv(product), Mv(product);
+  A.vmult(product, owned(v));
+  elastic.apply_tangent(Kv, v);
+  body.system.mass().apply(Mv, v);
+  Kv *= c_K;
+  Kv.add(c_M, Mv);
+  EXPECT_LE(largest_difference(product, Kv), 1e-13 * Kv.linfty_norm());
+  A.matrix().vmult(product, owned(v));
+  EXPECT_LE(largest_difference(product, Kv), 1e-13 * Kv.linfty_norm());
+  const double unit = A.diagonal().linfty_norm();
+  for (unsigned int i = 0; i < product.locally_owned_size(); ++i)
+    {
+      const auto row = body.discretization.partitioner()->local_to_global(i);
+      EXPECT_NEAR(A.diagonal().local_element(i),
+                  A.matrix().diag_element(row),
+                  1e-13 * unit);
+    }
+}
+
+// Coarser forms are Galerkin projections P^T A P, by kernels in double and
+// single precision and as a matrix: they share the points of the finest one.
+TEST_P(CurvedCells, CoarserForms)
+{
+  const Element element = GetParam().element;
+  Body          body(half_curved_box(GetParam().q), material(element));
+  Elasticity    elastic = elasticity(body, Rotation::cell_centre);
+  elastic.update_rotations(displacement(body, states[1], 1., 1));
+  const Mass        &mass = body.system.mass();
+  const CoarserNodes coarser(body.discretization);
+  // The mass of bubbles is diagonal, that of coarser elements is not.
+  const double c_M = element.has_bubbles() ? 0 : 500;
+
+  MatrixFree<double> fine(body.discretization, {}), coarse(coarser, {});
+  for (MatrixFree<double> *A : {&fine, &coarse})
+    A->set_terms(1.,
+                 elastic.coefficients().data(),
+                 c_M,
+                 mass.cell_masses().data(),
+                 nullptr);
+  Vector x, fine_x, fine_y, y, z;
+  for (Vector *vector : {&x, &y, &z})
+    coarser.initialize_vector(*vector);
+  for (Vector *vector : {&fine_x, &fine_y})
+    body.discretization.initialize_vector(*vector);
+  for (unsigned int n = 0; n < coarser.n_owned_nodes(); ++n)
+    for (unsigned int a = 0; a < 3; ++a)
+      x.local_element(3 * n + a) =
+        std::sin(7. * body.discretization.node_position(coarser.key(n))[a] + a);
+  x.update_ghost_values();
+  coarser.prolongate_add(fine_x, x);
+  x.zero_out_ghost_values();
+  fine.vmult(fine_y, fine_x);
+  coarser.restrict_to(y, fine_y);
+  coarse.vmult(z, x);
+  EXPECT_LE(largest_difference(z, y), 1e-13 * y.linfty_norm());
+
+  AssembledMatrix matrix(coarser,
+                         std::vector<unsigned char>(3 * coarser.n_local_nodes(),
+                                                    0));
+  matrix.update(1., elastic.coefficients(), c_M, mass.cell_masses(), nullptr);
+  matrix.matrix().vmult(z, x);
+  EXPECT_LE(largest_difference(z, y), 1e-13 * y.linfty_norm());
+}
+
+// Rows of the mass matrix sum up to the integrals of the functions, and these
+// to the volume; a lumped mass has the same sum. All exact.
+TEST_P(CurvedCells, Mass)
+{
+  const Element            element = GetParam().element;
+  std::vector<std::string> types{"consistent", "diagonal scaling"};
+  if (element.has_bubbles())
+    types = {"nodal quadrature"};
+  for (const std::string &type : types)
+    {
+      Body         body(half_curved_box(GetParam().q),
+                material(element) +
+                  "subsection Discretization\n set Mass = " + type + "\nend\n");
+      const Vector one = body.interpolate(
+        [](const Point<3> &) { return Tensor<1, 3>({1, 0, 0}); });
+      Vector zero(one), f(owned(one));
+      zero = 0;
+      zero.update_ghost_values();
+      const double volume = displaced_volume(body.discretization,
+                                             body.system.reference_element(),
+                                             zero);
+      double       sum    = 0;
+      for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
+        sum += body.discretization.geometry(c).volume;
+      sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+      EXPECT_NEAR(sum, volume, 1e-13);
+      EXPECT_NEAR(body.system.mass().total(), 2 * volume, 1e-13);
+      body.system.mass().apply(f, one);
+      EXPECT_NEAR(f * owned(one), 2 * volume, 1e-12);
+      for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
+        EXPECT_GT(body.system.mass().diagonal().local_element(i), 0);
+    }
+}
+
+// Straight cells that are described as curved ones give what straight ones do,
+// to round-off; with a rotation for each point if these are the same points.
+TEST_P(CurvedCells, StraightMaps)
+{
+  const Element    element  = GetParam().element;
+  const SerialMesh straight = box("1, 2, 1", "2, 3, 2", 0.2);
+  const SerialMesh mapped =
+    curved(straight, GetParam().q, [](const Point<3> &x) { return x; });
+  const std::string text =
+    material(element) +
+    "subsection Loads\n set Body force = x; 1; y * z\nend\n"
+    "subsection Boundary conditions\n set Traction = x-max: x; y; z\n"
+    " set Pressure = y-max: x + z\nend\n";
+  Body         a(straight, text), b(mapped, text);
+  const Vector u = displacement(a, states[1], 1., 1), v = random_vector(a, 4);
+  ASSERT_TRUE(b.discretization.is_curved(0));
+  ASSERT_FALSE(a.discretization.is_curved(0));
+
+  const auto compare = [](const Vector &x, const Vector &y) {
+    EXPECT_LE(largest_difference(x, y), 2e-13 * x.linfty_norm());
+  };
+  for (const auto &[name, placement] : all_placements)
+    {
+      if (placement == Rotation::quadrature_points && !element.has_bubbles())
+        continue;
+      Elasticity e = elasticity(a, placement), d = elasticity(b, placement);
+      compare(force(e, u), force(d, u));
+      EXPECT_NEAR(e.state(u).energy,
+                  d.state(u).energy,
+                  1e-13 * e.state(u).energy);
+      Vector x(owned(u)), y(x);
+      e.apply_tangent(x, v);
+      d.apply_tangent(y, v);
+      compare(x, y);
+      for (const Tangent tangent :
+           {Tangent::frozen_rotation, Tangent::consistent})
+        if (!e.is_by_cell(tangent))
+          {
+            e.linearize(u, tangent);
+            d.linearize(u, tangent);
+            const auto masses = [&](const Body &body) {
+              return element.has_bubbles() ?
+                       nullptr :
+                       body.system.mass().cell_masses().data();
+            };
+            e.apply_linearization(x, v, 1.3, 20., masses(a), nullptr);
+            d.apply_linearization(y, v, 1.3, 20., masses(b), nullptr);
+            compare(x, y);
+          }
+    }
+  compare(a.system.mass().diagonal(), b.system.mass().diagonal());
+  a.state.u.copy_locally_owned_data_from(u);
+  b.state.u.copy_locally_owned_data_from(u);
+  compare(a.system.evaluate(a.state, 0., 1.).external,
+          b.system.evaluate(b.state, 0., 1.).external);
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements,
+                         CurvedCells,
+                         testing::ValuesIn(curved_elements));

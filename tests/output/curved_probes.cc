@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Probes in curved cells.
+
+#include <corotet/output/probes.h>
+
+#include <gtest/gtest.h>
+
+#include "../curved_mesh.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+// Points inside of all cells, on their faces and edges, of which some lie on
+// the curved surface, and vertices. An affine displacement is in the space: it
+// is found to the round-off of 20 terms of order one.
+TEST(Probes, CurvedCells)
+{
+  const std::vector<Point<3>> places{{0.2, 0.3, 0.4},
+                                     {0.5, 0.1, 0.},
+                                     {0.3, 0., 0.3},
+                                     {1. / 3, 1. / 3, 1. / 3},
+                                     {0., 0.7, 0.},
+                                     {1., 0., 0.}};
+  const auto                  affine = [](const Point<3> &x) {
+    return Tensor<1, 3>({1 + x[0] - 2 * x[1], x[2] - 3 * x[0], x[1] + x[2]});
+  };
+  for (const unsigned int degree : {2u, 3u})
+    {
+      const SerialMesh        mesh = half_curved_box(degree);
+      const MapAtPoints       map(degree, places);
+      std::vector<ProbePoint> points;
+      for (const SerialMesh::Cell &cell : mesh.cells)
+        for (unsigned int i = 0; i < places.size(); ++i)
+          if (cell.curve != SerialMesh::straight)
+            points.push_back({"p" + std::to_string(points.size()),
+                              map.position(curved_nodes(mesh, cell), i)});
+      ASSERT_EQ(points.size(), 40 * places.size());
+
+      const Body   body(mesh, element_text(degree));
+      const Probes probes(points, body.discretization);
+      const auto   values = probes.displacements(body.interpolate(affine));
+      for (unsigned int p = 0; p < points.size(); ++p)
+        EXPECT_LT((values[p] - affine(points[p].position)).norm(), 1e-13)
+          << points[p].position;
+
+      // Beyond the end at x = 2 + 0.2 z.
+      EXPECT_EQ(refusal([&] {
+                  Probes({{"a", {2.21, 0.7, 1.}}}, body.discretization);
+                }).substr(0, 55),
+                "Output/Probes: probe 'a' at (2.21, 0.7, 1) lies outside");
+    }
+}
