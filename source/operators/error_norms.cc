@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/reference_element.h>
+#include <corotet/discretization/point_geometry.h>
 #include <corotet/operators/error_norms.h>
 
 #include <deal.II/base/mpi.h>
@@ -47,17 +47,16 @@ namespace corotet
     const Vector                                             &u,
     const std::function<PointDisplacement(const Point<3> &)> &reference)
   {
-    const auto rule =
-      ReferenceElement::tabulate(discretization.element(),
-                                 dealii::QWitherdenVincentSimplex<3>(5));
+    const dealii::QWitherdenVincentSimplex<3> quadrature(5);
+    const auto rule = ReferenceElement::tabulate(discretization.element(),
+                                                 quadrature.get_points(),
+                                                 quadrature.get_weights());
     ErrorNorms sums;
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       {
-        const CellGeometry &geometry = discretization.geometry(c);
-        const auto          nodes    = discretization.cell_nodes(c);
-        const Point<3>      origin   = discretization.node_position(nodes[0]);
-        const Tensor<2, 3>  J        = invert(geometry.inverse_jacobian);
-        const IsotropicMaterial &material = materials.at(geometry.region);
+        const auto               nodes = discretization.cell_nodes(c);
+        const IsotropicMaterial &material =
+          materials.at(discretization.geometry(c).region);
         for (unsigned int q = 0; q < rule.weights.size(); ++q)
           {
             Tensor<1, 3> value;
@@ -70,16 +69,20 @@ namespace corotet
                   for (unsigned int k = 0; k < 3; ++k)
                     gradient[a][k] += u_ia * rule.gradients[q][i][k];
                 }
+            const PointGeometry geometry =
+              point_geometry(discretization, rule, c, q);
             gradient = gradient * geometry.inverse_jacobian;
-            const PointDisplacement exact =
-              reference(origin + J * rule.points[q]);
-            const double weight = rule.weights[q] * geometry.volume;
+            const PointDisplacement exact = reference(geometry.position);
             add(sums.error,
                 material,
                 value - exact.value,
                 gradient - exact.gradient,
-                weight);
-            add(sums.reference, material, exact.value, exact.gradient, weight);
+                geometry.volume);
+            add(sums.reference,
+                material,
+                exact.value,
+                exact.gradient,
+                geometry.volume);
           }
       }
     const MPI_Comm comm = discretization.communicator();

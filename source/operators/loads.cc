@@ -188,7 +188,8 @@ namespace corotet
                     rule.values[q][i] * discretization.node_position(nodes[i]);
                 volume = determinant(discretization.jacobian(c, rule, q)) / 6;
               }
-            const Tensor<1, 3> b = value(x, Tensor<1, 3>()) * (rule.weights[q] * volume);
+            const Tensor<1, 3> b =
+              value(x, Tensor<1, 3>()) * (rule.weights[q] * volume);
             for (unsigned int i = 0; i < reference.n_nodes; ++i)
               for (unsigned int a = 0; a < 3; ++a)
                 f.local_element(3 * nodes[i] + a) += b[a] * rule.values[q][i];

@@ -6,7 +6,6 @@
 
 namespace corotet
 {
-  using dealii::Point;
   using dealii::SymmetricTensor;
   using dealii::Tensor;
 
@@ -43,34 +42,6 @@ namespace corotet
         .rotation;
     }
   } // namespace
-
-  PointGeometry
-  point_geometry(const Discretization                &discretization,
-                 const ReferenceElement::PointValues &rule,
-                 const unsigned int                   cell,
-                 const unsigned int                   q)
-  {
-    const CellGeometry &geometry = discretization.geometry(cell);
-    const auto          nodes    = discretization.cell_nodes(cell);
-    Point<3>            position;
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      position += rule.values(q, i) * discretization.node_position(nodes[i]);
-    return {geometry.inverse_jacobian,
-            rule.weights[q] * geometry.volume,
-            position};
-  }
-
-  Point<3>
-  reference_coordinates(const Discretization &discretization,
-                        const unsigned int    cell,
-                        const Point<3>       &x)
-  {
-    // The first node is vertex 0, the origin of the reference cell.
-    const Point<3> origin =
-      discretization.node_position(discretization.cell_nodes(cell)[0]);
-    return Point<3>(discretization.geometry(cell).inverse_jacobian *
-                    (x - origin));
-  }
 
   PointStress::PointStress(
     const Discretization                            &discretization,

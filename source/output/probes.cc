@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/discretization/point_geometry.h>
 #include <corotet/output/probes.h>
 
 #include <deal.II/base/mpi.h>
@@ -29,66 +30,14 @@ namespace corotet
       double       depth = -std::numeric_limits<double>::max();
     };
 
-    // Reference coordinates of a point in a curved cell, from those in the
-    // affine map of its centre: Newton's method. Not a number if the point is
-    // too far away for it.
-    Point<3>
-    in_curved_cell(const Point<3>       &x,
-                   const Point<3>       &start,
-                   const unsigned int    cell,
-                   const Discretization &discretization)
-    {
-      constexpr double nan   = std::numeric_limits<double>::quiet_NaN();
-      const auto      &fe    = discretization.finite_element().base_element(0);
-      const auto       nodes = discretization.cell_nodes(cell);
-      Point<3>         xi    = start;
-      // Quadratic convergence from a cell's size to round-off takes some 6.
-      for (unsigned int k = 0; k < 20; ++k)
-        {
-          Tensor<1, 3> difference = x;
-          Tensor<2, 3> J;
-          for (unsigned int i = 0; i < nodes.size(); ++i)
-            {
-              const Point<3> X = discretization.node_position(nodes[i]);
-              difference -= fe.shape_value(i, xi) * X;
-              J += outer_product(X, fe.shape_grad(i, xi));
-            }
-          const Tensor<1, 3> step = invert(J) * difference;
-          // Several cells away the map means nothing.
-          if (!(step.norm() < 10))
-            return {nan, nan, nan};
-          xi += step;
-          if (step.norm() < 1e-12)
-            return xi;
-        }
-      return {nan, nan, nan};
-    }
-
     Location
     locate(const Point<3> &x, const Discretization &discretization)
     {
-      Location       best;
-      const auto    &fe = discretization.finite_element().base_element(0);
-      const Point<3> middle(0.25, 0.25, 0.25);
+      Location best;
       for (unsigned int cell = 0; cell < discretization.n_owned_cells(); ++cell)
         {
-          const auto nodes = discretization.cell_nodes(cell);
-          // The first node is vertex 0, the origin of the reference cell.
-          Point<3> origin = discretization.node_position(nodes[0]);
-          Point<3> xi;
-          if (discretization.is_curved(cell))
-            {
-              origin = Point<3>();
-              for (unsigned int i = 0; i < nodes.size(); ++i)
-                origin += fe.shape_value(i, middle) *
-                          discretization.node_position(nodes[i]);
-              xi = middle;
-            }
-          xi += discretization.geometry(cell).inverse_jacobian * (x - origin);
-          // Curved cells are within few of their lengths of the affine one.
-          if (discretization.is_curved(cell) && xi.distance(middle) < 3)
-            xi = in_curved_cell(x, xi, cell, discretization);
-          const double depth =
+          const Point<3> xi = reference_coordinates(discretization, cell, x);
+          const double   depth =
             std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]});
           if (depth > best.depth)
             best = {cell, xi, depth};

@@ -100,6 +100,12 @@ namespace corotet
                            command.overrides,
                            one,
                            comm);
+        if (!modes && parameters.reference == "finer run" &&
+            run.simulation()->discretization().mesh().geometry_degree() > 1)
+          throw InputError(
+            "Convergence study/Reference",
+            "found 'finer run' for curved cells; allowed: 'exact "
+            "solution' or 'none', or straight cells");
         if (!modes && parameters.reference == "exact solution" &&
             run.simulation()->structural_system().exact_solution() == nullptr)
           throw InputError("Convergence study/Reference",

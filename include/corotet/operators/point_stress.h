@@ -5,8 +5,7 @@
 #define corotet_operators_point_stress_h
 
 #include <corotet/base/vector.h>
-#include <corotet/discretization/discretization.h>
-#include <corotet/discretization/reference_element.h>
+#include <corotet/discretization/point_geometry.h>
 #include <corotet/material/corotational.h>
 
 #include <map>
@@ -14,34 +13,6 @@
 
 namespace corotet
 {
-  /**
-   * What a cell at rest is like at a point of a rule.
-   */
-  struct PointGeometry
-  {
-    /// Rows are the gradients of the reference coordinates [1/m].
-    dealii::Tensor<2, 3> inverse_jacobian;
-    /// The point's share of the cell's volume [m^3].
-    double volume;
-    /// In m.
-    dealii::Point<3> position;
-  };
-
-  PointGeometry
-  point_geometry(const Discretization                &discretization,
-                 const ReferenceElement::PointValues &rule,
-                 const unsigned int                   cell,
-                 const unsigned int                   q);
-
-  /**
-   * Reference coordinates of the point at @p x of the body at rest, in or near
-   * local cell @p cell.
-   */
-  dealii::Point<3>
-  reference_coordinates(const Discretization   &discretization,
-                        const unsigned int      cell,
-                        const dealii::Point<3> &x);
-
   /**
    * Stress at points of cells, as a function of the displacement.
    *

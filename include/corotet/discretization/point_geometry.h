@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_point_geometry_h
+#define corotet_discretization_point_geometry_h
+
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/reference_element.h>
+
+namespace corotet
+{
+  /**
+   * What a cell at rest is like at a point of a rule.
+   */
+  struct PointGeometry
+  {
+    /// Rows are the gradients of the reference coordinates [1/m].
+    dealii::Tensor<2, 3> inverse_jacobian;
+    /// The point's share of the cell's volume [m^3].
+    double volume;
+    /// In m.
+    dealii::Point<3> position;
+  };
+
+  PointGeometry
+  point_geometry(const Discretization                &discretization,
+                 const ReferenceElement::PointValues &rule,
+                 const unsigned int                   cell,
+                 const unsigned int                   q);
+
+  /**
+   * Reference coordinates of the point at @p x of the body at rest, in or near
+   * local cell @p cell; if it is far away from a curved cell, those of any
+   * point outside of the reference cell.
+   */
+  dealii::Point<3>
+  reference_coordinates(const Discretization   &discretization,
+                        const unsigned int      cell,
+                        const dealii::Point<3> &x);
+} // namespace corotet
+
+#endif
