@@ -7,8 +7,9 @@
 
 For every step:
 - cells are Lagrange tetrahedra (type 71) of one degree, of positive volume, and all finite data of cells and points are there;
-- every node is at its parametric place, as VTK's own cell tells it, to 1e-6 of the cell's size; nodes are shared: no two
-  are at the same place; the mesh is the same in all steps;
+- every node is at its parametric place, as VTK's own cell tells it, to 1e-6 of the cell's size, or if parameters.prm asks for
+  curved cells, nearer to it than to that of any other; nodes are shared: no two are at the same place; the mesh is the same in
+  all steps;
 - the displacement that VTK's shape functions give at each probe is that of history.csv to 1e-12 relative;
 - the time is one of history.csv's, in order; the first and the last are there.
 Probes are those of --probes, else those of the directory's parameters.prm. Everything is read from another working
@@ -78,10 +79,19 @@ def probes_of(directory):
     return read_probes(found.group(1)) if found else {}
 
 
+def is_curved(directory):
+    path = os.path.join(directory, "parameters.prm")
+    if not os.path.exists(path):
+        return False
+    with open(path) as file:
+        return re.search(r"^\s*set Geometry degree\s*= [23]", file.read(), re.MULTILINE) is not None
+
+
 class Mesh:
     """The mesh of a step, checked."""
 
-    def __init__(self, grid, degree):
+    def __init__(self, grid, degree, curved):
+        self.curved = curved
         require(grid.GetNumberOfCells() > 0, "no cells")
         require((vtk_to_numpy(grid.GetCellTypesArray()) == 71).all(), "not all cells are of type 71")
         self.points = vtk_to_numpy(grid.GetPoints().GetData()).copy()
@@ -105,23 +115,39 @@ class Mesh:
         expected = self.origins[:, None] + np.einsum("cij,nj->cni", self.jacobians, parametric)
         size = np.linalg.norm(self.jacobians, axis=(1, 2))
         error = (np.linalg.norm(self.points[self.cells] - expected, axis=2) / size[:, None]).max()
-        require(error < 1e-6, f"a node is {error:.2e} of its cell away from its parametric place")
+        # Half a distance of nodes, which are a third of an edge apart, in sizes of a matrix with three edges.
+        require(error < (0.5 / 3 / np.sqrt(3) if self.curved else 1e-6), f"a node is {error:.2e} of its cell away from its parametric place")
 
     def centres(self):
         return self.points[self.cells[:, :4]].mean(axis=1)
 
-    def locate(self, x):
+    def locate(self, grid, x):
         """The cell that x is in and x's parametric coordinates there."""
         xi = np.linalg.solve(self.jacobians, (x - self.origins)[..., None])[..., 0]
         depth = np.minimum(xi.min(axis=1), 1 - xi.sum(axis=1))
         cell = int(depth.argmax())
+        if self.curved:
+            for cell in np.argsort(-depth)[:50]:
+                xi[cell] = self.solve(grid.GetCell(cell), cell, x, xi[cell])
+                depth[cell] = min(xi[cell].min(), 1 - xi[cell].sum())
+                if depth[cell] > -1e-7:
+                    break
         require(depth[cell] > -1e-7, f"point {x} is outside of the mesh")
         return cell, xi[cell]
 
 
+    def solve(self, vtk_cell, cell, x, xi):
+        """Parametric coordinates in a curved cell: Newton's method with the straight cell's Jacobian, a contraction."""
+        weights = np.zeros(self.cells.shape[1])
+        for _ in range(100):
+            vtk_cell.InterpolateFunctions(xi, weights)
+            xi = xi + np.linalg.solve(self.jacobians[cell], x - weights @ self.points[self.cells[cell]])
+        return np.where(np.isfinite(xi), xi, -1)
+
+
 def interpolate(grid, mesh, x, values):
     """Values of the nodes at x, by VTK's own shape functions."""
-    cell, xi = mesh.locate(x)
+    cell, xi = mesh.locate(grid, x)
     weights = np.zeros(mesh.cells.shape[1])
     grid.GetCell(cell).InterpolateFunctions(xi, weights)
     return weights @ values[mesh.cells[cell]]
@@ -170,7 +196,7 @@ def check(directory, options):
     for time, grid in read_steps(directory):
         times.append(time)
         if mesh is None:
-            mesh = Mesh(grid, options.degree)
+            mesh = Mesh(grid, options.degree, is_curved(directory))
         require((vtk_to_numpy(grid.GetPoints().GetData()) == mesh.points).all(), "the mesh changes")
         require((vtk_to_numpy(grid.GetCells().GetConnectivityArray()) == mesh.cells.ravel()).all(), "the mesh changes")
         point_data = arrays(grid.GetPointData(), POINT_DATA, len(mesh.points))
