@@ -8,7 +8,7 @@ import unittest
 
 from support import CASES, COLUMNS, COLUMNS_AFTER_PROBES, MODES_COLUMNS, MODES_SUMMARY_KEYS, ROOT, SUMMARY_KEYS, ProgramTest
 
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "meshes" / "README.md", *sorted((ROOT / "doc").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "meshes" / "README.md", *sorted((ROOT / "doc").rglob("*.md"))]
 
 
 class Documentation(ProgramTest):
@@ -47,10 +47,18 @@ class Documentation(ProgramTest):
         self.assertEqual([case.name for case in CASES if f"`{case.name}`" not in text], [])
 
     def test_verification(self):
-        # The page has the decks there are, in their order, and no other.
-        text = (ROOT / "doc" / "verification.md").read_text(encoding="utf-8")
-        self.assertEqual(re.findall("^## (.*)$", text, re.MULTILINE),
-                         sorted(deck.stem for deck in (ROOT / "parameters" / "verification").glob("*.prm")))
+        # There are a page, with its picture, and a line of the index for each deck, and no others.
+        decks = sorted(deck.stem for deck in (ROOT / "parameters" / "verification").glob("*.prm"))
+        pages = ROOT / "doc" / "verification"
+        pictures = ROOT / "doc" / "pictures" / "verification"
+        self.assertEqual(sorted(page.stem for page in pages.glob("*.md")), decks)
+        self.assertEqual(sorted(picture.stem for picture in pictures.iterdir()), decks)
+        index = (ROOT / "doc" / "verification.md").read_text(encoding="utf-8")
+        self.assertEqual(re.findall(r"\]\(verification/(\w+)\.md\)", index), decks)
+        for deck in decks:
+            text = (pages / f"{deck}.md").read_text(encoding="utf-8")
+            self.assertTrue(text.startswith(f"# {deck}\n"), deck)
+            self.assertIn(f"](../pictures/verification/{deck}.png)", text)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Pictures of verification decks, doc/pictures/verification/*.png, from their results.
+
+What is drawn follows from the results: the lowest shapes of modes, errors over the size of cells of a study, a computed history and the exact one where a
+check has a formula of time, else the displaced body. LOOKS has what shows a deck better than that.
+"""
+
+import csv
+import dataclasses
+import re
+import shutil
+
+import matplotlib.pyplot as plt
+import numpy as np
+from PIL import Image
+
+from pictures import PICTURES, Results, add_image, cell_edges, image_of, outline, plotter, show_body, surface
+
+FOLDER = PICTURES / "verification"
+COLOURS_OF_A_FILE = 255
+COMPUTED, EXACT, OTHER = "#0072b2", "#d55e00", "#009e73"
+PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"))
+SLANTED, FROM_FRONT, FROM_ABOVE = (0.45, -1, 0.45), (0.25, -1, 0.2), (0.2, 0.25, 1)
+MAY_BE_DRAWN_AS_IT_IS = 0.05  # of the body's size: displacements that are seen without magnification
+
+
+@dataclasses.dataclass
+class Look:
+    """How a body is shown; what is not given follows from its results."""
+    quantity: str = "displacement"
+    times: tuple = ()  # of the states; none: the last
+    all_states: bool = False
+    direction: tuple = SLANTED
+    up: tuple = (0, 0, 1)
+    unit: str = "m"
+    plot: object = None  # draws histories beside or, without a body, in place of it
+    body: bool = True
+
+
+def evaluate(formula, **columns):
+    """A formula of a parameter file; it may contain columns of a history."""
+    functions = {name: getattr(np, name) for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "abs", "pi")}
+    functions |= {"a" + name: getattr(np, "arc" + name) for name in ("sin", "cos", "tan")}
+    return eval(formula.replace("^", "**"), {"__builtins__": {}}, functions | columns)
+
+
+def with_prefix(largest, unit):
+    """A factor and a unit for numbers up to @p largest: 0.002 m are 2 mm."""
+    if not unit:
+        return 1, ""
+    size, prefix = next(((size, prefix) for size, prefix in PREFIXES if largest >= size), PREFIXES[-1])
+    return 1 / size, prefix + unit
+
+
+def exact_history(outcome):
+    """The first column that a check compares with a formula of time or of the step, "max abs(tip_x - FORMULA) = 0", and that formula."""
+    for check in outcome.entry("Checks").split(";"):
+        match = re.search(r"max abs\((\w+) ([-+]) ([^=]*)\)\s*=\s*0 ", check)
+        if not match or not re.search(r"\b(time|step)\b", match.group(3)):
+            continue
+        column, sign, formula = match.groups()
+        formula = formula.strip() if sign == "-" else f"-({formula.strip()})"
+        try:
+            evaluate(formula, time=1.0, step=1.0)
+        except (NameError, SyntaxError):  # it has other columns, too, or goes on behind the parenthesis
+            continue
+        return column, formula
+    return None
+
+
+def draw_exact(figure, history, column, formula):
+    """A computed history on the exact one, and their difference below."""
+    exact = evaluate(formula, time=history["time"], step=history["step"])
+    time, time_unit = with_prefix(history["time"].max(), "s")
+    unit = "N" if column.startswith("reaction") else "m"
+    factor, unit = with_prefix(np.abs(exact).max(), unit)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    above.plot(time * history["time"], factor * exact, color=EXACT, linewidth=4, alpha=0.4, label="exact")
+    above.plot(time * history["time"], factor * history[column], color=COMPUTED, linewidth=1.2, label="computed")
+    above.set_ylabel(f"{column} [{unit}]")
+    above.legend(loc="upper right")
+    below.plot(time * history["time"], factor * (history[column] - exact), color=COMPUTED, linewidth=0.8)
+    below.set_ylabel(f"difference [{unit}]")
+    below.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3))
+    finish((above, below), f"time [{time_unit}]")
+
+
+def finish(axes, abscissa):
+    for one in axes:
+        one.grid(alpha=0.3)
+        one.margins(x=0)
+    axes[-1].set_xlabel(abscissa)
+    axes[0].figure.align_ylabels(axes)
+
+
+def draw_step_load(figure, history):
+    """The tip's saw-tooth and the stress at the root, which jumps: parameters are those of the deck, c = 5000 m/s, 2 p L / E = 1 mm."""
+    time = 1e3 * history["time"]
+    tip, root = figure.subplots(2, 1, sharex=True)
+    tip.plot((0, 0.4, 0.8), (0, 1, 0), color=EXACT, linewidth=4, alpha=0.4, label="exact")
+    tip.plot(time, 1e3 * history["tip_x"], color=COMPUTED, linewidth=1.2, label="computed")
+    tip.set_ylabel("tip_x [mm]")
+    tip.legend(loc="upper right")
+    root.plot((0, 0.2, 0.2, 0.6, 0.6, 0.8), (0, 0, 200, 200, 0, 0), color=EXACT, linewidth=4, alpha=0.4)
+    root.plot(time, -1e-6 * history["reaction_x"] / 4e-4, color=COMPUTED, linewidth=0.8)
+    root.set_ylabel("stress at the root [MPa]")
+    finish((tip, root), "time [ms]")
+
+
+def draw_energies(figure, history):
+    axes = figure.subplots()
+    axes.plot(history["time"], history["external_work"], color=EXACT, linewidth=4, alpha=0.4, label="work of the weight")
+    axes.plot(history["time"], history["kinetic_energy"], color=COMPUTED, linewidth=1.2, label="kinetic energy")
+    axes.plot(history["time"], history["elastic_energy"], color=OTHER, linewidth=1.2, label="elastic energy")
+    axes.set_ylabel("energy [J]")
+    axes.legend()
+    finish((axes,), "time [s]")
+
+
+def draw_conserved(figure, history):
+    """Energies, and how far momenta and the sum of energies are from what they were."""
+    energies, drift = figure.subplots(2, 1, sharex=True)
+    energies.semilogy(history["time"], history["kinetic_energy"], color=COMPUTED, label="kinetic")
+    energies.semilogy(history["time"][1:], history["elastic_energy"][1:], color=OTHER, label="elastic")
+    energies.set_ylabel("energy [J]")
+    energies.legend(loc="lower right")
+    for kind, colour in (("momentum", COMPUTED), ("angular_momentum", OTHER)):
+        vectors = np.stack([history[f"{kind}_{axis}"] for axis in "xyz"])
+        change = np.linalg.norm(vectors - vectors[:, :1], axis=0) / np.linalg.norm(vectors[:, 0])
+        drift.semilogy(history["time"][1:], change[1:], color=colour, label=kind.replace("_", " "))
+    drift.semilogy(history["time"][1:], np.abs(history["energy_balance"][1:]) / history["kinetic_energy"][0], color=EXACT, label="energy")
+    drift.set_ylabel("relative change")
+    drift.legend(loc="center right")
+    finish((energies, drift), "time [s]")
+
+
+LOOKS = {
+    "bar_step_load": Look(body=False, plot=draw_step_load),
+    "bend_45": Look(all_states=True, direction=(-1, -0.6, 0.6)),
+    "cook": Look("von_mises", direction=FROM_ABOVE, up=(0, 1, 0), unit=""),
+    "elastica": Look(all_states=True, direction=FROM_FRONT),
+    "flexure": Look(direction=FROM_ABOVE, up=(0, 1, 0)),
+    "lame_sphere": Look(direction=(-1, -0.8, -0.6), unit=""),
+    "pendulum": Look(all_states=True, direction=FROM_FRONT, plot=draw_energies),
+    "pure_bending": Look(direction=FROM_ABOVE, up=(0, 1, 0)),
+    "ring": Look(times=(0.1, 0.3, 0.5, 0.75, 1), direction=FROM_FRONT),
+    "rotated_body": Look(direction=(0.8, -0.7, 0.7)),
+    "rotated_body_cell_centre": Look(direction=(0.8, -0.7, 0.7)),
+    "spinning_bar": Look(times=(0.05, 0.1, 0.157), direction=FROM_ABOVE, up=(0, 1, 0)),
+    "tumbling_block": Look(times=(0, 1, 2), direction=(0.75, 0.7, 0.25), plot=draw_conserved),
+}
+
+
+def magnification(grids):
+    """What displacements are multiplied by: 1 if that shows, else a round number that makes them up to a tenth of the body."""
+    size = grids[0].length
+    largest = max(np.linalg.norm(grid["displacement"], axis=1).max() for grid in grids)
+    if largest == 0 or largest >= MAY_BE_DRAWN_AS_IT_IS * size:
+        return 1
+    ratio = 0.1 * size / largest
+    power = 10.0 ** np.floor(np.log10(ratio))
+    return power * max(leading for leading in (1, 2, 5) if leading * power <= ratio)
+
+
+def norm_of(mesh, quantity):
+    values = mesh[quantity]
+    return values if values.ndim == 1 else np.linalg.norm(values, axis=1)
+
+
+def image_of_states(grids, look, warp, size=(1280, 900)):
+    """The displaced bodies in one picture with the outline at rest; that picture and the largest value of the quantity shown."""
+    meshes = [surface(grid, warp) for grid in grids]
+    largest = max(norm_of(mesh, look.quantity).max() for mesh in meshes)
+    p = plotter(size)
+    for mesh in meshes:
+        mesh["shown"] = norm_of(mesh, look.quantity)
+        edges = cell_edges(mesh)
+        show_body(p, mesh, "shown", (0, largest or 1))
+        p.add_mesh(edges, color="black", opacity=0.35, line_width=1.5)
+    rest = outline(grids[0])
+    if rest.n_points:
+        p.add_mesh(rest, color="black", line_width=2.5)
+    p.view_vector(np.array(look.direction, dtype=float), look.up)
+    p.enable_parallel_projection()
+    p.reset_camera()
+    return image_of(p), largest
+
+
+def states(run, look):
+    times = run.times if look.all_states else look.times or run.times[-1:]
+    return [run.state(time) for time in times]
+
+
+def draw_body(figure, run, look):
+    grids = states(run, look)
+    warp = magnification(grids)
+    image, largest = image_of_states(grids, look, warp)
+    stress = look.quantity == "von_mises"
+    factor, unit = with_prefix(largest, look.unit and ("Pa" if stress else look.unit))
+    title = "von Mises stress" if stress else "displacement"
+    title += f" [{unit}]" if unit else ""
+    title += f"; displacement drawn x {warp:g}" if stress and warp != 1 else f", drawn x {warp:g}" if warp != 1 else ""
+    add_image(figure, figure.subplots(), image, (0, factor * largest or 1), title)
+
+
+def draw_modes(figure, run, look):
+    """The shapes of the lowest frequencies that are not zero, one of each."""
+    with open(run.directory / "modes.csv", newline="", encoding="utf-8") as file:
+        frequencies = np.array([float(row["frequency"]) for row in csv.DictReader(file)])
+    groups = []
+    for mode, frequency in enumerate(frequencies, start=1):
+        if groups and np.isclose(frequency, frequencies[groups[-1][0] - 1], rtol=1e-4, atol=0):
+            groups[-1].append(mode)
+        elif frequency > 1e-6 * frequencies[-1]:
+            groups.append([mode])
+    images = []
+    for group in groups[:6]:
+        grid = run.state(group[0])
+        images.append(image_of_states([grid], look, magnification([grid]), (800, 600))[0])
+    columns = columns_for(images, *figure.get_size_inches())
+    places = figure.subplots(-(-len(images) // columns), columns, squeeze=False).ravel()
+    for axes in places:
+        axes.axis("off")
+    for axes, image, group in zip(places, images, groups):
+        axes.imshow(image)
+        modes = f"mode{'s' if len(group) > 1 else ''} {', '.join(map(str, group))}"
+        axes.set_title(f"{modes}: {frequencies[group[0] - 1]:.5g} Hz", fontsize=9)
+
+
+def columns_for(images, width, height, title=0.3):
+    """In how many columns images come out largest on a figure of that size [inches]."""
+    rows, columns = np.max([image.shape[:2] for image in images], axis=0)
+
+    def scale(n):
+        return min(width / n / columns, (height / -(-len(images) // n) - title) / rows)
+
+    return max(range(1, len(images) + 1), key=scale)
+
+
+def draw_look(figure, run, look):
+    """The body, histories, or the one beside the other."""
+    if look.body and look.plot:
+        figure.set_size_inches(8, 4)
+        left, right = figure.subfigures(1, 2)
+    else:
+        left = right = figure
+    if look.body:
+        draw_body(left, run, look)
+    if look.plot:
+        look.plot(right, run.history())
+    if not look.body:
+        return "What is computed, on what theory has."
+    several = look.all_states or len(look.times) > 1
+    return f"The {'displaced body at several times' if several else 'last state'} with its cells, and the edges of the body at rest" + \
+        ("; beside that, histories of the run." if look.plot else ".")
+
+
+def draw_results(figure, outcome):
+    """Draws a simulation or an analysis of modes; returns what is seen."""
+    run = Results(outcome.directory)
+    look = LOOKS.get(outcome.deck.stem)
+    exact = None if look else exact_history(outcome)
+    if (outcome.directory / "modes.csv").exists():
+        draw_modes(figure, run, look or Look())
+        return "Shapes of the lowest modes, one of each frequency; colours are displacements."
+    if exact:
+        draw_exact(figure, run.history(), *exact)
+        return f"The computed history on the exact one, and the difference: `{exact[0]}` is to be `{exact[1]}`."
+    return draw_look(figure, run, look or Look())
+
+
+def shrink(path):
+    """Few colours make small files; chosen such that they cover what there is, narrow colour bars as well."""
+    with Image.open(path) as image:
+        small = image.convert("RGB").quantize(COLOURS_OF_A_FILE, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
+    small.save(path, optimize=True)
+
+
+def draw(outcome):
+    """Draws the picture of a deck; returns its caption."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    path = FOLDER / f"{outcome.deck.stem}.png"
+    plt.rcParams["font.size"] = 9
+    study = outcome.directory / "study_l2_over_h.png"
+    if study.exists():
+        shutil.copy(study, path)
+        caption = "Errors over the size of the cells, with slope triangles; drawn by the program."
+    else:
+        figure = plt.figure(figsize=(6.4, 4), layout="constrained")
+        caption = draw_results(figure, outcome)
+        figure.savefig(path, dpi=100)
+        plt.close(figure)
+    shrink(path)
+    return caption
