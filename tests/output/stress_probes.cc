@@ -92,7 +92,8 @@ TEST(StressProbes, ColumnsOfTheHistory)
   set_displacement(body);
   field.set_displacement(body.displacement);
   nlohmann::ordered_json row;
-  add_stress_columns(row, probes_at("a: 0.8 0.5 0.25", body), field);
+  const StressProbes     probes = probes_at("a: 0.8 0.5 0.25", body);
+  add_stress_columns(row, probes.names(), probes.stresses(field));
   const auto sigma = stress(materials.at(8), strain());
   const std::vector<std::pair<std::string, double>> expected{
     {"a_stress_xx", sigma[0][0]},
