@@ -87,7 +87,7 @@ def check(directory, youngs_modulus, nu):
     for (time, grid), (points_time, points_grid) in zip(read_steps(directory), read_steps(directory, "stress_points.vtkhdf"), strict=True):
         require(time == points_time, f"times {time} and {points_time} differ")
         times.append(time)
-        mesh = Mesh(grid, None)
+        mesh = Mesh(grid, None, False)
         nodal = arrays(grid.GetPointData(), POINT_DATA, len(mesh.points))
         errors = arrays(grid.GetCellData(), {"error_estimate"}, len(mesh.cells))["error_estimate"]
         points = vtk_to_numpy(points_grid.GetPoints().GetData())
