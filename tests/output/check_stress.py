@@ -72,7 +72,7 @@ def check_points(grid, mesh, displacement, points, data):
     n = mesh.cells.shape[1]
     found_u, found_strain = [], []
     for x in points:
-        index, xi = mesh.locate(x)
+        index, xi = mesh.locate(grid, x)
         cell = grid.GetCell(index)
         u = displacement[mesh.cells[index]]
         found_u.append(shape_functions(cell, n, xi) @ u)

@@ -135,7 +135,6 @@ class Mesh:
         require(depth[cell] > -1e-7, f"point {x} is outside of the mesh")
         return cell, xi[cell]
 
-
     def solve(self, vtk_cell, cell, x, xi):
         """Parametric coordinates in a curved cell: Newton's method with the straight cell's Jacobian, a contraction."""
         weights = np.zeros(self.cells.shape[1])
