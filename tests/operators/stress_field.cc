@@ -374,5 +374,7 @@ TEST(StressField, OrdersOfConvergence)
       EXPECT_GE(recovered, order_of_recovered[p - 1]) << p;
       EXPECT_LE(second.recovered, smaller[p - 1] * second.raw) << p;
       EXPECT_NEAR(effectivity, 1, off[p - 1]) << p;
+      // By the triangle inequality.
+      EXPECT_LE(std::abs(effectivity - 1), second.recovered / second.raw) << p;
     }
 }
