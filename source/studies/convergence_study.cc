@@ -194,12 +194,14 @@ namespace corotet
 
     const Json kept =
       Json::parse(read_file(path + ".json", comm), nullptr, false);
-    if (kept.is_object() && kept.value("problem", Json()) == problem)
+    if (kept.is_object() && kept.contains("result") &&
+        kept.value("problem", Json()) == problem)
       {
         StudyResult result = result_from_json(study_case, kept.at("result"));
         if (kept.contains("finer_quantities"))
           for (unsigned int i = 0; i < quantities.size(); ++i)
-            if (!quantities[i].reference)
+            if (!quantities[i].reference &&
+                kept.at("finer_quantities").at(i).is_number())
               quantities[i].reference =
                 kept.at("finer_quantities").at(i).get<double>();
         return result;
