@@ -118,8 +118,10 @@ TEST(Bubbles, PatchTest)
       const Point<3> x = body.discretization.node_position(n);
       if (x[0] > 1e-10 && x[0] < 1 - 1e-10 && x[1] > 1e-10 &&
           x[1] < 2 - 1e-10 && x[2] > 1e-10 && x[2] < 1 - 1e-10)
-        for (unsigned int a = 0; a < 3; ++a)
-          EXPECT_LE(std::abs(f.local_element(3 * n + a)), 1e-13 * size);
+        {
+          for (unsigned int a = 0; a < 3; ++a)
+            EXPECT_LE(std::abs(f.local_element(3 * n + a)), 1e-13 * size);
+        }
     }
   // Of strain xx = 1, xy = 0.15, yz = 0.5, xz = 0.25.
   const auto   stresses = body.system.elasticity().cell_results(u).von_mises;
@@ -380,6 +382,8 @@ TEST(Bubbles, OrderOfEigenvalues)
         }
       EXPECT_GE(order, least) << mass;
       if (mass == "diagonal scaling")
-        EXPECT_LE(order, 2.2);
+        {
+          EXPECT_LE(order, 2.2);
+        }
     }
 }
