@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/operators/effective_operator.h>
+#include <corotet/operators/force_round_off.h>
 
 namespace corotet
 {
@@ -24,8 +25,17 @@ namespace corotet
     , elastic(elasticity)
     , mass_matrix(mass)
     , prescribed(is_prescribed)
+    , noise(std::make_unique<ForceRoundOff>(discretization, elasticity))
     , matrix_free(discretization, marked_unknowns(is_prescribed))
   {}
+
+  EffectiveOperator::~EffectiveOperator() = default;
+
+  double
+  EffectiveOperator::round_off(const Vector &v) const
+  {
+    return c_K * noise->of_product(v);
+  }
 
   void
   EffectiveOperator::update(const double c_K, const double c_M)

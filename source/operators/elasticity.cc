@@ -9,7 +9,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <limits>
 
 namespace corotet
 {
@@ -37,8 +36,6 @@ namespace corotet
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       material_of_cell[c] = index.at(discretization.geometry(c).region);
     set_up_cells();
-    if (placement != Rotation::none)
-      estimate_round_off();
   }
 
   void
@@ -64,35 +61,6 @@ namespace corotet
                 shape.scale[lane] * geometry.inverse_jacobian[k][a];
             }
       }
-  }
-
-  void
-  Elasticity::estimate_round_off()
-  {
-    // |f_i| for a strain of a few machine precisions at every point.
-    const double strain = 4 * std::numeric_limits<double>::epsilon();
-    Vector       noise;
-    discretization.initialize_vector(noise);
-    const auto &rule = reference.stiffness_rule;
-    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-      {
-        const CellGeometry &geometry = discretization.geometry(c);
-        const auto          nodes    = discretization.cell_nodes(c);
-        const double        stress =
-          strain * (3 * material(c).lambda + 2 * material(c).mu);
-        for (unsigned int i = 0; i < reference.n_nodes; ++i)
-          for (unsigned int q = 0; q < rule.weights.size(); ++q)
-            {
-              Tensor<1, 3> by_xi;
-              for (unsigned int k = 0; k < 3; ++k)
-                by_xi[k] = rule.gradients[q][i][k];
-              noise.local_element(3 * nodes[i]) +=
-                stress * rule.weights[q] * geometry.volume *
-                (by_xi * geometry.inverse_jacobian).norm();
-            }
-      }
-    noise.compress(dealii::VectorOperation::add);
-    round_off_norm = noise.l2_norm();
   }
 
   ElasticData

@@ -65,6 +65,31 @@ namespace corotet
       for (const std::string &item :
            split_outside_brackets(parameters.point_forces, ','))
         point_forces.push_back(locate(item, tables, log));
+    if (has_follower_pressure())
+      measure_faces();
+  }
+
+  void
+  Loads::measure_faces()
+  {
+    for (const BoundaryFace &face : discretization.boundary_faces())
+      for (const auto &pressure : conditions.pressures)
+        if (face.boundary == pressure.boundary)
+          for_each_surface_point(
+            discretization,
+            reference,
+            face,
+            nullptr,
+            [&](const SurfacePoint &point) {
+              const auto  &t    = point.tangents;
+              const double side = std::max(t[0].norm(), t[1].norm());
+              inverse_height =
+                std::max(inverse_height,
+                         side / cross_product_3d(t[0], t[1]).norm());
+            });
+    inverse_height =
+      dealii::Utilities::MPI::max(inverse_height,
+                                  discretization.communicator());
   }
 
   void
@@ -276,6 +301,13 @@ namespace corotet
   Loads::has_follower_pressure() const
   {
     return follow && !conditions.pressures.empty();
+  }
+
+  double
+  Loads::relative_round_off(const Vector &u) const
+  {
+    return 4 * std::numeric_limits<double>::epsilon() * inverse_height *
+           u.linfty_norm();
   }
 
   void

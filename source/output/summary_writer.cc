@@ -86,6 +86,7 @@ namespace corotet
     nlohmann::ordered_json results;
     results["steps"]    = summary.steps;
     results["end_time"] = summary.end_time;
+    results["preconditioner_builds"] = summary.preconditioner_builds;
     results["final"]    = history.last_row();
     if (summary.errors)
       {

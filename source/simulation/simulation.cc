@@ -183,6 +183,7 @@ namespace corotet
     summary.steps        = record.step;
     summary.end_time     = record.time;
     summary.final_record = record;
+    summary.preconditioner_builds = system.preconditioner_builds();
     if (is_started)
       summary.errors = errors();
     summary.wall_times      = wall_times;

@@ -143,6 +143,16 @@ namespace corotet
                                done + ahead * (end - done) / n;
   }
 
+  double
+  Stepper::duration(const double part) const
+  {
+    if (n_steps == 0)
+      return part * (parameters.end_time - parameters.start_time);
+    // The same number for each step, whatever round-off makes of its ends:
+    // matrices depend on it.
+    return std::ldexp(step_length, std::lround(std::log2(part * n_steps)));
+  }
+
   bool
   Stepper::is_recorded(const unsigned int step,
                        const double       from,
@@ -356,8 +366,7 @@ namespace corotet
                      StepRecord        &record,
                      const unsigned int n)
   {
-    const double dt =
-      (to - from) * (parameters.end_time - parameters.start_time) / n;
+    const double      dt = duration((to - from) / n);
     const StageReport report =
       integrator.steps(system, {time(from), dt, to}, n, present);
     record.newton_iterations += report.newton_iterations;
@@ -370,8 +379,7 @@ namespace corotet
                    StepRecord        &record,
                    const unsigned int n)
   {
-    const double dt =
-      (to - from) * (parameters.end_time - parameters.start_time) / n;
+    const double dt = duration((to - from) / n);
     budget->account(present, time(to), dt);
     done = to;
     record.dt += dt;

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/ghosted_copy.h>
+#include <corotet/operators/force_round_off.h>
 #include <corotet/simulation/structural_system.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,11 +12,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
   namespace
   {
+    constexpr double machine_precision =
+      std::numeric_limits<double>::epsilon();
+
     std::map<unsigned int, double>
     densities(const std::map<unsigned int, IsotropicMaterial> &materials)
     {
@@ -231,6 +236,8 @@ namespace corotet
     this->stage          = stage;
     stage_state          = &state;
     const bool   statics = stage.acceleration_factor == 0;
+    // Where forces vanish, those that there were before are what counts.
+    stage_scale = solved_scale;
     NewtonReport report;
     try
       {
@@ -241,11 +248,13 @@ namespace corotet
         log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
         throw;
       }
+    solved_scale = force_scale;
     if (parameters.newton.linearly_implicit)
       // Newton's method ends before it looks at the forces again.
       evaluate(state, stage.time, stage.load_factor);
     if (statics || parameters.newton.always_log || report.line_searches > 0)
       log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
+    report_round_off(report);
     return {report.iterations,
             report.linear_iterations,
             report.observed_order()};
@@ -260,12 +269,54 @@ namespace corotet
     r -= forces.damping;
     r -= forces.inertia;
     motion.set_zero(r);
-    return {norm(r),
-            std::max({norm(forces.external),
-                      norm(forces.internal),
-                      norm(forces.damping),
-                      norm(forces.inertia)}),
-            elastic.round_off()};
+    force_scale = std::max({norm(forces.external),
+                            norm(forces.internal),
+                            norm(forces.damping),
+                            norm(forces.inertia)});
+    // Far from the solution of a nonlinear problem forces may be of any size.
+    if (is_linear())
+      stage_scale = std::max(stage_scale, force_scale);
+    return {norm(r), std::max(stage_scale, force_scale), round_off()};
+  }
+
+  double
+  StructuralSystem::round_off() const
+  {
+    const ForceRoundOff &noise = effective_operator->force_round_off();
+    double               sum =
+      noise.of_force(u_ghosted) + 4 * machine_precision * force_scale;
+    if (damping.stiffness > 0)
+      sum += damping.stiffness * noise.of_product(v_ghosted);
+    if (loads.has_follower_pressure())
+      sum += loads.relative_round_off(u_ghosted) * norm(forces.external);
+    return sum;
+  }
+
+  void
+  StructuralSystem::report_round_off(const NewtonReport &report)
+  {
+    using RoundOff = NewtonReport::RoundOff;
+    if (report.round_off == RoundOff::none ||
+        !shown_round_off.insert(report.round_off).second)
+      return;
+    const double size = u_ghosted.linfty_norm();
+    log.line(fmt::format(
+      "t = {:.6g}: round-off ended Newton's iterations, which is not said "
+      "again: {}; the residual is {:.2g} of the forces",
+      stage.time,
+      report.round_off == RoundOff::of_residual ?
+        fmt::format("displacements of up to {:.3g} m, known to {:.1g} m, leave "
+                    "no smaller residual",
+                    size,
+                    machine_precision * size) :
+        "an increment was no more than the round-off of the displacement",
+      report.final_residual));
+  }
+
+  bool
+  StructuralSystem::is_linear() const
+  {
+    return elastic.rotation_placement() == Rotation::none;
   }
 
   unsigned int
@@ -306,7 +357,8 @@ namespace corotet
     stage_state->u.add(factor, dx);
     stage_state->v.add(factor * stage.velocity_factor, dx);
     stage_state->a.add(factor * stage.acceleration_factor, dx);
-    return {std::abs(factor) * norm(dx), norm(stage_state->u)};
+    const double size = norm(stage_state->u);
+    return {std::abs(factor) * norm(dx), size, 4 * machine_precision * size};
   }
 
   void

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/solvers/flexible_cg.h>
 #include <corotet/solvers/linear_solver.h>
 #include <corotet/solvers/preconditioners.h>
 
@@ -33,8 +34,10 @@ namespace corotet
                       method,
                       "Krylov method. 'automatic': conjugate gradients for "
                       "symmetric systems, MINRES where these turn out to be "
-                      "indefinite, GMRES (flexible, restarted after 30 "
-                      "iterations) for those that are not symmetric.",
+                      "indefinite; for those that are not symmetric flexible "
+                      "conjugate gradients, and where these are slow GMRES "
+                      "(flexible, restarted after 30 iterations), whose "
+                      "vectors take nearly as much memory as all the rest.",
                       dealii::Patterns::Selection(
                         "automatic|conjugate gradients|minres|gmres"));
     prm.add_parameter("Operator",
@@ -57,6 +60,14 @@ namespace corotet
 
   namespace
   {
+    // Ratios of mass to stiffness that differ by no more are the same but for
+    // round-off in the time step.
+    constexpr double same_mass_ratio = 1e-6;
+
+    // Directions that flexible conjugate gradients keep: one more changes no
+    // number of iterations on bent bodies, one less some.
+    constexpr unsigned int n_directions = 3;
+
     // Met by conjugate gradients.
     struct NegativeCurvature
     {};
@@ -147,11 +158,20 @@ namespace corotet
     dealii::SolverControl control(limit, tolerance * norm(b));
     if (method == "gmres" || !symmetric)
       {
+        if (method != "gmres")
+          {
+            FlexibleCG cg(control, n_directions);
+            if (cg.solve(A, x, b, preconditioner.selected()))
+              return control.last_step();
+          }
+        const unsigned int    done = control.last_step();
+        dealii::SolverControl left(limit - std::min(done, limit),
+                                   control.tolerance());
         // The flexible variant: a preconditioner in single precision is not
         // quite linear, and the plain one trusts that it is.
-        dealii::SolverFGMRES<Vector> gmres(control);
+        dealii::SolverFGMRES<Vector> gmres(left);
         gmres.solve(A, x, b, preconditioner.selected());
-        return control.last_step();
+        return done + left.last_step();
       }
     if (method == "minres")
       return minimal_residuals(A, limit, x, b);
@@ -187,6 +207,21 @@ namespace corotet
     return iterate(A.matrix(), true, x, b);
   }
 
+  bool
+  LinearSolver::is_round_off(const EffectiveOperator &A,
+                             const TangentOperator   *J,
+                             const Vector            &x,
+                             const Vector            &b) const
+  {
+    Vector r(b);
+    if (J != nullptr)
+      J->vmult(r, x);
+    else
+      A.vmult(r, x);
+    r -= b;
+    return norm(r) <= A.round_off(x);
+  }
+
   unsigned int
   LinearSolver::solve(const EffectiveOperator &A,
                       Vector                  &x,
@@ -198,13 +233,15 @@ namespace corotet
     x                   = 0;
     if (b_norm == 0)
       return 0;
-    if (A.mass_ratio() != built_mass_ratio)
+    if (std::abs(A.mass_ratio() - built_mass_ratio) >
+        same_mass_ratio * built_mass_ratio)
       is_built = false;
     const bool first_solve = !is_built;
     if (first_solve)
       {
         preconditioner.selected().build(A, positions);
         built_mass_ratio = A.mass_ratio();
+        ++n_builds;
       }
     else if (A.version() != known_version)
       preconditioner.selected().update(A);
@@ -217,6 +254,8 @@ namespace corotet
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
+        if (is_round_off(A, J, x, b))
+          return failure.last_step;
         is_built = false;
         if (!first_solve)
           // Perhaps only the preconditioner was outdated.
@@ -247,5 +286,6 @@ namespace corotet
   {
     preconditioner.selected().clear();
     is_built = false;
+    n_builds = 0;
   }
 } // namespace corotet

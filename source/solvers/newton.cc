@@ -92,9 +92,14 @@ namespace corotet
       if (!is_finite(residual))
         throw ComputationError("the forces are not finite in Newton iteration "
                                "0");
-      if (is_round_off() ||
-          residual.value <= 1e-3 * newton.residual_tolerance * residual.scale)
+      report.final_residual = relative_residual();
+      if (residual.value <= 1e-3 * newton.residual_tolerance * residual.scale)
         return;
+      if (is_round_off())
+        {
+          report.round_off = round_off_limit();
+          return;
+        }
       if (newton.linearly_implicit)
         {
           problem.use_definite_tangent(false);
@@ -107,7 +112,11 @@ namespace corotet
         {
           iterate();
           if (has_converged())
-            return;
+            {
+              report.final_residual = relative_residual();
+              report.round_off      = round_off_limit();
+              return;
+            }
           check_progress();
         }
       fail(fmt::format("did not converge in {} iterations",
@@ -118,7 +127,7 @@ namespace corotet
     double
     relative_residual() const
     {
-      return residual.value / residual.scale;
+      return residual.value > 0 ? residual.value / residual.scale : 0.;
     }
 
     bool
@@ -128,11 +137,27 @@ namespace corotet
     }
 
     bool
+    has_small_residual() const
+    {
+      return residual.value <= newton.residual_tolerance * residual.scale;
+    }
+
+    bool
     has_converged() const
     {
-      return is_round_off() ||
-             (residual.value <= newton.residual_tolerance * residual.scale &&
-              error <= newton.increment_tolerance * size);
+      return is_round_off() || increment_is_round_off ||
+             (has_small_residual() &&
+              (problem.is_linear() ||
+               error <= newton.increment_tolerance * size));
+    }
+
+    NewtonReport::RoundOff
+    round_off_limit() const
+    {
+      using RoundOff = NewtonReport::RoundOff;
+      return has_small_residual() ? RoundOff::none :
+             is_round_off()       ? RoundOff::of_residual :
+                                    RoundOff::of_increment;
     }
 
     [[noreturn]] void
@@ -195,7 +220,9 @@ namespace corotet
       const double              previous  = residual.value;
       const NewtonProblem::Norm increment = problem.add(1., dx);
       residual                            = problem.residual(r);
+      increment_is_round_off = increment.value <= increment.round_off;
       if (is_finite(residual) && (residual.value < best || is_round_off() ||
+                                  increment_is_round_off ||
                                   (n_without_progress < patience &&
                                    residual.value < divergence * best)))
         {
@@ -220,6 +247,7 @@ namespace corotet
     search_from_best(const bool dx_is_known)
     {
       ++report.line_searches;
+      increment_is_round_off = false;
       problem.restore();
       residual = problem.residual(r);
       if (dx_is_known)
@@ -308,11 +336,15 @@ namespace corotet
         return;
       const double needed =
         window * std::log(wanted / values[n - 1]) / std::log(ratio);
-      if (needed > 3. * (newton.max_iterations - report.iterations))
-        fail(fmt::format("converges too slowly: after {} iterations {:.0f} "
-                         "more are needed",
-                         report.iterations,
-                         std::min(needed, 1e6)));
+      const unsigned int left = newton.max_iterations - report.iterations;
+      if (left > 0 && needed > 3. * left)
+        fail(fmt::format("converges too slowly: at the rate of its last {} "
+                         "iterations it needs {:.0f} more, and {} of {} are "
+                         "left",
+                         window,
+                         std::min(std::ceil(needed), 1e6),
+                         left,
+                         newton.max_iterations));
     }
 
     const Newton  &newton;
@@ -326,6 +358,8 @@ namespace corotet
     double              error    = std::numeric_limits<double>::infinity();
     double              size     = 1;
     bool                definite = false;
+    /// Of the last full increment.
+    bool                increment_is_round_off = false;
     unsigned int        linear_iterations  = 0;
     unsigned int        n_without_progress = 0;
     /// Residual at the best point. A search for less energy may raise it.

@@ -24,8 +24,11 @@ namespace corotet
   {
     remember(step.time, state);
     const double dt = step.dt;
-    const double w =
+    double       w =
       std::isfinite(before.time) ? dt / (present.time - before.time) : 0.;
+    // Round-off in the times must not change the coefficients.
+    if (std::abs(w - 1) < 1e-6)
+      w = 1;
     const double c_1 = (1 + 2 * w) / ((1 + w) * dt);
     const double c_0 = -(1 + w) / dt;
     const double c_m = w * w / ((1 + w) * dt);

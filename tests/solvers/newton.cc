@@ -230,6 +230,72 @@ TEST(Newton, RoundOffIsAccepted)
   EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
 }
 
+// An increment that x is too coarse for is the last one, whatever the residual.
+TEST(Newton, RoundOffOfIncrementIsTheEnd)
+{
+  class Coarse : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    Norm
+    add(const double factor, const Vector &dx) override
+    {
+      Norm norm      = Scalar::add(factor, dx);
+      norm.round_off = 1e-6;
+      return norm;
+    }
+  };
+  // With a residual that never falls below 1e-3.
+  Coarse             root([](double x) { return x * x - 2 + (x < 1.5 ? 1e-3 : 0.); },
+              [](double x) { return 1e4 * x; },
+              1.4);
+  const NewtonReport report = solve(root);
+  EXPECT_EQ(report.iterations, 1u);
+  EXPECT_EQ(report.round_off, NewtonReport::RoundOff::of_increment);
+  EXPECT_NEAR(report.final_residual, std::abs(root.f(root.x)), 1e-15);
+}
+
+// A linear problem is not asked for its increment: a linear solver of the same
+// tolerance leaves as much of it.
+TEST(Newton, LinearProblemIsSolvedOnce)
+{
+  class Line : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    bool
+    is_linear() const override
+    {
+      return linear;
+    }
+
+    bool linear = true;
+  };
+  // The slope of an inexact solver: 2e-6 is left.
+  for (const bool linear : {true, false})
+    {
+      Line line([](double x) { return 1e-4 * (x - 1e3); },
+                [](double) { return 1e-4 * (1 + 2e-6); },
+                0.);
+      line.linear = linear;
+      EXPECT_EQ(solve(line, 1e-6).iterations, linear ? 1u : 2u);
+      EXPECT_NEAR(line.x, 1e3, 1e-2);
+    }
+}
+
+// Once the iterations are used up, their rate is no longer a matter.
+TEST(Newton, SlowConvergenceIsToldInNumbers)
+{
+  Scalar slow([](double x) { return x; }, [](double) { return 50.; }, 1.);
+  const std::string text = failure(slow);
+  EXPECT_NE(text.find("at the rate of its last 6 iterations it needs 1356 "
+                      "more, and 38 of 50 are left"),
+            std::string::npos)
+    << text;
+}
+
 TEST(Newton, Failures)
 {
   Scalar no_root([](double x) { return x * x + 1; },

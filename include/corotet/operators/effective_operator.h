@@ -14,6 +14,8 @@
 
 namespace corotet
 {
+  class ForceRoundOff;
+
   /**
    * The linear operator of implicit steps, A = c_K K + c_M M, with the frozen
    * rotations that the elasticity has at the moment of update(). Rows and
@@ -31,6 +33,8 @@ namespace corotet
                       const Elasticity                 &elasticity,
                       const Mass                       &mass,
                       const std::vector<unsigned char> &is_prescribed);
+
+    ~EffectiveOperator();
 
     /// Takes the coefficients, c_K > 0, and the rotations. Collective.
     void
@@ -72,6 +76,17 @@ namespace corotet
     {
       return mass_matrix;
     }
+
+    const ForceRoundOff &
+    force_round_off() const
+    {
+      return *noise;
+    }
+
+    /// What round-off may make of A v, or of J v with another tangent than A's,
+    /// as a Euclidean norm [N]; that of M v is far below. Collective.
+    double
+    round_off(const Vector &v) const;
 
     const std::vector<unsigned char> &
     is_prescribed() const
@@ -115,6 +130,7 @@ namespace corotet
     double                            c_M       = 0;
     unsigned int                      n_updates = 0;
 
+    std::unique_ptr<const ForceRoundOff>     noise;
     MatrixFree<double>                       matrix_free;
     mutable std::unique_ptr<AssembledMatrix> assembled;
     mutable bool                             is_assembled = false;

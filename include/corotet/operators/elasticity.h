@@ -162,16 +162,10 @@ namespace corotet
       return counts;
     }
 
-    /**
-     * Euclidean norm [N] of what round-off may make of the internal force,
-     * whatever the displacement: corotational strain is a difference of numbers
-     * of size 1, so a few machine precisions of it are noise. Zero for linear
-     * elasticity, whose strain is no such difference. Not collective.
-     */
-    double
-    round_off() const
+    const ReferenceElement &
+    reference_element() const
     {
-      return round_off_norm;
+      return reference;
     }
 
     Rotation
@@ -203,8 +197,6 @@ namespace corotet
   private:
     void
     set_up_cells();
-    void
-    estimate_round_off();
     ElasticData
     elastic_data() const;
     /// The same, for sweeps that rotate.
@@ -259,7 +251,6 @@ namespace corotet
     Tangent                       linearized_tangent = Tangent::frozen_rotation;
 
     RotationCounts counts;
-    double         round_off_norm = 0;
   };
 } // namespace corotet
 

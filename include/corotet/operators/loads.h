@@ -84,6 +84,11 @@ namespace corotet
     bool
     has_follower_pressure() const;
 
+    /// What round-off may make of the force of such pressures at the
+    /// displacement @p u, relative to its size [-].
+    double
+    relative_round_off(const Vector &u) const;
+
     /// Prepares the derivative of the force by the displacement, at @p time and
     /// displacement @p u (ghosts up to date). Not collective.
     void
@@ -153,6 +158,9 @@ namespace corotet
 
     void
     add_dead_load(DeadLoad load);
+    /// Finds the smallest height of faces under pressure.
+    void
+    measure_faces();
     PointForce
     locate(const std::string    &text,
            const TableFunctions &tables,
@@ -183,6 +191,8 @@ namespace corotet
     bool                      follow;
     std::vector<DeadLoad>     dead_loads;
     std::vector<PointForce>   point_forces;
+    /// Of the faces under pressure, the inverse of the smallest height [1/m].
+    double inverse_height = 0;
     /// Sum of the loads that do not depend on time.
     Vector constant_force;
     /// Of the last linearize().

@@ -59,6 +59,16 @@ namespace corotet
   {
     const auto &rule  = reference.face_rules[face.face];
     const auto  nodes = discretization.cell_nodes(face.cell);
+    const auto  displacement = [u](const unsigned int node) {
+      dealii::Tensor<1, 3> result;
+      if (u != nullptr)
+        for (unsigned int a = 0; a < 3; ++a)
+          result[a] = u->local_element(3 * node + a);
+      return result;
+    };
+    const auto                 first = nodes[reference.face_nodes[face.face][0]];
+    const dealii::Point<3>     X_0   = discretization.node_position(first);
+    const dealii::Tensor<1, 3> u_0   = displacement(first);
     for (unsigned int q = 0; q < rule.weights.size(); ++q)
       {
         SurfacePoint point{q, {}, {}, {}, {}};
@@ -66,15 +76,15 @@ namespace corotet
         for (const unsigned int i : reference.face_nodes[face.face])
           {
             const dealii::Point<3> X = discretization.node_position(nodes[i]);
-            dealii::Point<3>       x = X;
-            if (u != nullptr)
-              for (unsigned int a = 0; a < 3; ++a)
-                x[a] += u->local_element(3 * nodes[i] + a);
+            const dealii::Tensor<1, 3> u_i = displacement(nodes[i]);
             point.at_rest += rule.values[q][i] * X;
-            point.position += rule.values[q][i] * x;
+            point.position += rule.values[q][i] * (X + u_i);
+            // From differences: far away from the origin positions are rounded
+            // coarsely.
+            const dealii::Tensor<1, 3> side = (X - X_0) + (u_i - u_0);
             const auto dN = face_derivatives(reference, face.face, q, i);
             for (unsigned int k = 0; k < 2; ++k)
-              t[k] += dN[k] * x;
+              t[k] += dN[k] * side;
           }
         point.area = cross_product_3d(t[0], t[1]) * (0.5 * rule.weights[q]);
         function(point);

@@ -110,6 +110,8 @@ namespace corotet
     unsigned int steps    = 0;
     double       end_time = 0;
     StepRecord   final_record;
+    /// How often a preconditioner was made.
+    unsigned int preconditioner_builds = 0;
     /// Of the last displacement, where the exact one is known.
     std::optional<ErrorNorms> errors;
 

@@ -98,6 +98,9 @@ namespace corotet
       return parameters.start_time +
              part * (parameters.end_time - parameters.start_time);
     }
+    /// Of that part of the run, a step or one that was halved [s].
+    double
+    duration(const double part) const;
     /// Part of the run that is done after step @p step, @p ahead steps from
     /// now.
     double

@@ -19,6 +19,7 @@
 
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace corotet
@@ -149,6 +150,13 @@ namespace corotet
       return std::exchange(clamped_cells, 0u);
     }
 
+    /// How often a preconditioner has been made.
+    unsigned int
+    preconditioner_builds() const
+    {
+      return parameters.linear_solver.preconditioner_builds();
+    }
+
     const Elasticity &
     elasticity() const
     {
@@ -185,12 +193,20 @@ namespace corotet
     void
     restore() override;
     bool
+    is_linear() const override;
+    bool
     has_energy() const override;
     bool
     use_definite_tangent(const bool use) override;
 
     void
     make_operators();
+    /// What round-off may make of the sum of the last evaluation's forces [N].
+    double
+    round_off() const;
+    /// Says once that round-off has ended Newton's iterations.
+    void
+    report_round_off(const NewtonReport &report);
     /// All terms but inertia.
     void
     evaluate_forces(const State &state,
@@ -225,6 +241,13 @@ namespace corotet
     State *stage_state = nullptr;
     Stage  stage       = {};
     State  kept;
+    /// Size of the forces [N]: of the last residual, of the last stage that was
+    /// solved, and what residuals of the stage are compared with at least.
+    double force_scale  = 0;
+    double solved_scale = 0;
+    double stage_scale  = 0;
+    /// Which ends by round-off the log has shown.
+    std::set<NewtonReport::RoundOff> shown_round_off;
     // Of the last update of the operator.
     double operator_c_K = -1;
     double operator_c_M = -1;

@@ -22,12 +22,13 @@ namespace corotet
    * Conjugate gradients for what is symmetric; if these meet a direction of
    * negative curvature, the operator is indefinite and MINRES goes on from
    * there (the preconditioner, made of the effective operator, is definite
-   * whatever happens). GMRES for what is not symmetric.
+   * whatever happens). For what is not symmetric flexible conjugate gradients,
+   * and GMRES, which takes far more memory, goes on where these are slow.
    *
    * A preconditioner is made at the first solve, after the ratio of mass to
-   * stiffness in the operator changed, and when the iterations have grown past
-   * what it calls acceptable; until then it takes over new rotations only as
-   * far as that is cheap.
+   * stiffness in the operator changed by more than round-off, and when the
+   * iterations have grown past what it calls acceptable; until then it takes
+   * over new rotations only as far as that is cheap.
    */
   class LinearSolver
   {
@@ -44,7 +45,8 @@ namespace corotet
 
     /**
      * Solves J x = b, or A x = b if J is null, from x = 0 until the residual is
-     * below the tolerance times |b|. @p positions: current positions of the
+     * below the tolerance times |b|, or, if it gets no further, what round-off
+     * makes of J x. @p positions: current positions of the
      * nodes [m]. Returns the number of iterations. Throws ComputationError if
      * it does not get there.
      * @p A must live until clear(). Collective.
@@ -63,11 +65,24 @@ namespace corotet
       tolerance = std::min(tolerance, limit);
     }
 
+    /// How often a preconditioner has been made since the last clear().
+    unsigned int
+    preconditioner_builds() const
+    {
+      return n_builds;
+    }
+
     /// Forgets the operator of the last solves.
     void
     clear();
 
   private:
+    /// Whether b - J x is nothing but round-off.
+    bool
+    is_round_off(const EffectiveOperator &A,
+                 const TangentOperator   *J,
+                 const Vector            &x,
+                 const Vector            &b) const;
     /// Both return the number of iterations.
     unsigned int
     solve_with(const EffectiveOperator &A,
@@ -95,6 +110,8 @@ namespace corotet
 
     bool   is_built         = false;
     double built_mass_ratio = 0;
+
+    unsigned int n_builds = 0;
     /// Of the operator, when the preconditioner last heard of it.
     unsigned int known_version = 0;
     /// Iterations of the first solve after the preconditioner was made.

@@ -21,7 +21,8 @@ namespace corotet
   {
   public:
     /// A norm and the size that it is compared with, in the same unit; and what
-    /// round-off alone may make of it, below which it means nothing.
+    /// round-off alone may make of it at the present x, below which it means
+    /// nothing.
     struct Norm
     {
       double value;
@@ -41,9 +42,17 @@ namespace corotet
     virtual unsigned int
     solve_linearized(Vector &dx, const Vector &r) = 0;
 
-    /// x += factor dx. The norm is that of factor dx, its scale the size of x.
+    /// x += factor dx. The norm is that of factor dx, its scale the size of x,
+    /// and its round-off what x is known to.
     virtual Norm
     add(const double factor, const Vector &dx) = 0;
+
+    /// Whether r(x) is linear, with J its exact derivative.
+    virtual bool
+    is_linear() const
+    {
+      return false;
+    }
 
     /// Keeps a copy of x.
     virtual void
@@ -74,7 +83,8 @@ namespace corotet
    * Newton's method (section Newton).
    *
    * It has converged when the residual is below its tolerance and the error
-   * that is left in x is below that of the increment; or when the residual is
+   * that is left in x is below that of the increment (which says nothing more
+   * where the problem is linear); or when the residual, or a full increment, is
    * what round-off makes of it, as further increments are no better then.
    *
    * The error is estimated as theta / (1 - theta) |dx|, but at most |dx|, with

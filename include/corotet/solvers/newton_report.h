@@ -27,6 +27,20 @@ namespace corotet
 
   struct NewtonReport
   {
+    /// What kept the residual from its tolerance.
+    enum class RoundOff
+    {
+      /// Nothing.
+      none,
+      /// It is round-off.
+      of_residual,
+      /// The last increment was no more than the round-off of x.
+      of_increment
+    };
+
+    RoundOff round_off = RoundOff::none;
+    /// At the end.
+    double final_residual = 0;
     unsigned int                 iterations        = 0;
     unsigned int                 linear_iterations = 0;
     unsigned int                 line_searches     = 0;

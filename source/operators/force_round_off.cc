@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/operators/force_round_off.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+
+namespace corotet
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    // Of corotational strain, in machine precisions: F, R and their product
+    // are each rounded.
+    constexpr double corotational_noise = 4;
+    // Of displacements, in machine precisions: their own rounding, and those
+    // of the sums that make a gradient of them.
+    constexpr double displacement_noise = 1;
+  } // namespace
+
+  ForceRoundOff::ForceRoundOff(const Discretization &discretization,
+                               const Elasticity     &elasticity)
+    : corotational(elasticity.rotation_placement() != Rotation::none)
+    , by_strain(discretization.n_owned_nodes())
+    , by_displacement(discretization.n_owned_nodes())
+  {
+    const ReferenceElement &reference = elasticity.reference_element();
+    // One component of each node is the first of the two, another the second.
+    Vector sums;
+    discretization.initialize_vector(sums);
+    std::vector<double> slopes(reference.n_nodes);
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      {
+        const CellGeometry &geometry = discretization.geometry(c);
+        const Tensor<2, 3>  G =
+          geometry.inverse_jacobian * transpose(geometry.inverse_jacobian);
+        double square = 0;
+        for (unsigned int i = 0; i < reference.n_nodes; ++i)
+          {
+            // Root mean square of |grad N_i| over the cell.
+            double sum = 0;
+            for (unsigned int k = 0; k < 3; ++k)
+              for (unsigned int l = 0; l < 3; ++l)
+                sum += G[k][l] * reference.gradient_products(i, i, 3 * k + l);
+            slopes[i] = std::sqrt(sum);
+            square += sum;
+          }
+        const IsotropicMaterial &material = elasticity.material(c);
+        const double stress = 3 * material.lambda + 2 * material.mu;
+        const auto   nodes  = discretization.cell_nodes(c);
+        for (unsigned int i = 0; i < reference.n_nodes; ++i)
+          {
+            const double force  = stress * geometry.volume * slopes[i];
+            sums.local_element(3 * nodes[i]) += force * force;
+            sums.local_element(3 * nodes[i] + 1) += force * force * square;
+          }
+      }
+    sums.compress(dealii::VectorOperation::add);
+    for (unsigned int n = 0; n < by_strain.size(); ++n)
+      {
+        by_strain[n]       = sums.local_element(3 * n);
+        by_displacement[n] = sums.local_element(3 * n + 1);
+      }
+  }
+
+  double
+  ForceRoundOff::of_force(const Vector &u) const
+  {
+    return estimate(u, corotational ? corotational_noise : 0.);
+  }
+
+  double
+  ForceRoundOff::of_product(const Vector &v) const
+  {
+    return estimate(v, 0.);
+  }
+
+  double
+  ForceRoundOff::estimate(const Vector &u, const double strain_noise) const
+  {
+    double sum = 0;
+    for (unsigned int n = 0; n < by_strain.size(); ++n)
+      {
+        double square = 0;
+        for (unsigned int a = 0; a < 3; ++a)
+          square += u.local_element(3 * n + a) * u.local_element(3 * n + a);
+        sum += strain_noise * strain_noise * by_strain[n] +
+               displacement_noise * displacement_noise * square *
+                 by_displacement[n];
+      }
+    return std::numeric_limits<double>::epsilon() *
+           std::sqrt(
+             dealii::Utilities::MPI::sum(sum, u.get_mpi_communicator()));
+  }
+} // namespace corotet

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The estimate of what round-off makes of elastic forces. A translation changes
+// no force, so all that it changes is round-off: the estimate must lie above
+// that, since Newton's method would never end, and not far above, since it
+// accepts residuals of that size.
+
+#include <corotet/operators/force_round_off.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  // Force of a smooth displacement plus a translation, less that without it.
+  struct Noise
+  {
+    double measured;
+    double estimated;
+  };
+
+  Noise
+  noise_of_translation(const SerialMesh  &mesh,
+                       const Element      element,
+                       const std::string &material,
+                       const double       distance)
+  {
+    Body       body(mesh,
+              element_text(element) + "subsection Material\n" + material +
+                " set Young's modulus = 1e3\n set Poisson's ratio = 0.3\nend\n");
+    Elasticity elastic(body.discretization,
+                       body.system.reference_element(),
+                       body.parameters.material.materials(
+                         body.mesh.regions()),
+                       body.parameters.material.rotation_placement());
+    const auto displacement = [](const Point<3> &x) {
+      return Tensor<1, 3>({1e-3 * std::sin(2 * x[0] + x[1]),
+                           2e-3 * x[0] * x[0],
+                           1e-3 * std::cos(x[0] * x[2])});
+    };
+    const Vector u     = body.interpolate(displacement);
+    const Vector moved = body.interpolate([&](const Point<3> &x) {
+      return displacement(x) + distance * Tensor<1, 3>({1., 0.7, -0.4});
+    });
+    Vector       f, g;
+    for (Vector *vector : {&f, &g})
+      body.discretization.initialize_vector(*vector);
+    elastic.update_rotations_and_force(f, u);
+    elastic.update_rotations_and_force(g, moved);
+    f -= g;
+    return {norm(f),
+            ForceRoundOff(body.discretization, elastic).of_force(moved)};
+  }
+
+  const std::vector<std::string> materials{
+    " set Type = linear\n",
+    " set Type = corotational\n",
+    " set Type = corotational\n set Rotation = quadrature points\n"};
+} // namespace
+
+class ForceRoundOffTest : public testing::TestWithParam<Element>
+{};
+
+// From a tenth of the size of a cell to a million of them.
+TEST_P(ForceRoundOffTest, HoldsAndIsSharp)
+{
+  double smallest = 1, largest = 0;
+  for (const auto &mesh : {box("1, 1, 1", "3, 3, 3", 0.2),
+                           box("1, 1, 0.02", "4, 4, 1"),
+                           box("1e-6, 1e-6, 1e-6", "3, 3, 3")})
+    for (const std::string &material : materials)
+      for (const double distance : {0.03, 3e2, 3e5})
+        {
+          const auto [measured, estimated] =
+            noise_of_translation(mesh, GetParam(), material, distance);
+          EXPECT_LE(measured, estimated) << material << distance;
+          std::cout << mesh.vertices.size() << material << distance << ' ' << measured / estimated << std::endl;
+          smallest = std::min(smallest, measured / estimated);
+          largest  = std::max(largest, measured / estimated);
+        }
+  report("smallest measured / estimated", smallest);
+  report("largest measured / estimated", largest);
+  EXPECT_GE(smallest, 1e-2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements,
+                         ForceRoundOffTest,
+                         testing::Values(Element(1),
+                                         Element(2),
+                                         Element(3),
+                                         Element::quadratic_with_bubbles()),
+                         [](const auto &info) {
+                           return "P" + std::to_string(info.param.degree()) +
+                                  (info.param.has_bubbles() ? "WithBubbles" :
+                                                              "");
+                         });

@@ -1,0 +1,244 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Random combinations of what can be combined, each computed twice: once on one rank with a direct solver, once on 1, 2 or 3
+ranks with another solver. Both must end with status 0 and agree to solver tolerance.
+
+A combination is made by a number, its seed; `combinations.py --seeds 0 300` runs 300 of them and names those that disagree.
+The problem is posed in units of the body's length L, Young's modulus E and density rho, and then given to the program in random
+units, whose results are turned back.
+
+How close results must be: Newton's method and linear solvers have tolerances of 1e-10 and 1e-11 here, relative to the forces and
+the displacement; a soft direction of these bodies (length over thickness up to 3, strains down to 1e-6) makes at most some 1e3 of
+that, and so do some steps of dynamics. So displacements must agree to 1e-7 of the largest difference of displacements in the body,
+and where a body has moved far, to 1e4 roundings of the largest displacement, which is what its strain is known to; energies, of
+second order, to twice that of their largest value.
+"""
+
+import argparse
+import math
+import os
+import pathlib
+import random
+import shlex
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from support import ROOT, ProgramTest, read_history
+
+EPSILON = 2.0**-52
+INTEGRATORS = ("static", "backward Euler", "BDF2", "implicit midpoint", "Newmark", "HHT-alpha", "generalized-alpha", "central difference")
+N_SEEDS_IN_CI = 30
+
+
+def components(*values):
+    return "; ".join(f"{value:.17g}" if isinstance(value, float) else str(value) for value in values)
+
+
+class Combination:
+    """The entries of a parameter file, and the units that it is in."""
+
+    def __init__(self, seed):
+        self.random = random.Random(seed)
+        self.entries = {}
+        self.length = 10 ** self.random.uniform(-9, 6)
+        self.modulus = 10 ** self.random.uniform(-3, 12)
+        self.density = 10 ** self.random.uniform(-2, 4)
+        self.time = self.length * math.sqrt(self.density / self.modulus)
+        self.choose_body()
+        self.choose_law()
+        self.choose_integrator()
+        self.choose_loads()
+        self.choose_solvers()
+
+    def choose(self, entry, *values):
+        self.entries[entry] = self.random.choice(values)
+        return self.entries[entry]
+
+    def choose_body(self):
+        self.curved = self.random.random() < 0.25
+        self.entries["Mesh/Scale"] = self.length
+        if self.curved:
+            # A thick sphere's octant with radii 1 and 2, held in its planes of symmetry.
+            self.entries["Mesh/Type"] = "gmsh"
+            self.entries["Mesh/gmsh/File"] = ROOT / "meshes" / "sphere_octant.geo"
+            self.choose("Mesh/gmsh/Geometry degree", 2, 3)
+            self.entries["Mesh/gmsh/Element size"] = 1.2
+            self.support, self.loaded = None, "inside"
+            self.probes = {"base": (1, 0, 0), "tip": (0, 0, 2)}
+        else:
+            self.entries["Mesh/Type"] = "box"
+            self.choose("Mesh/box/Size", "1, 1, 1", "2, 1, 1", "3, 1, 1")
+            self.entries["Mesh/box/Cells"] = self.random.choice(("2, 1, 1", "3, 2, 1", "2, 2, 2"))
+            self.support, self.loaded = "x-min", "x-max"
+            size = [float(word) for word in self.entries["Mesh/box/Size"].split(",")]
+            self.probes = {"base": (0, 0, 0), "tip": tuple(size)}
+        self.entries["Output/Probes"] = ", ".join(
+            f"{name}: " + " ".join(f"{x * self.length:.17g}" for x in point) for name, point in self.probes.items())
+        degree = self.choose("Discretization/Degree", 1, 2, 3)
+        masses = {1: ("consistent", "diagonal scaling", "row sum"),
+                  2: ("consistent", "diagonal scaling", "nodal quadrature"),
+                  3: ("consistent", "diagonal scaling")}[degree]
+        self.choose("Discretization/Mass", *masses)
+
+    def choose_law(self):
+        self.linear = self.choose("Material/Type", "linear", "corotational", "corotational") == "linear"
+        self.choose("Material/Rotation", "cell centre", "quadrature points", "cell centre, variational")
+        self.entries["Material/Young's modulus"] = self.modulus
+        self.choose("Material/Poisson's ratio", 0., 0.3, 0.45)
+        self.entries["Material/Density"] = self.density
+        self.frozen = self.choose("Newton/Tangent", "consistent", "consistent", "frozen rotation") != "consistent"
+        self.entries["Newton/Maximum iterations"] = 400
+        self.entries["Newton/Residual tolerance"] = 1e-10
+        self.entries["Newton/Increment tolerance"] = 1e-10
+        self.entries["Linear solver/Tolerance"] = 1e-11
+
+    def choose_integrator(self):
+        integrator = self.choose("Time integration/Type", *INTEGRATORS)
+        self.explicit = integrator == "central difference"
+        self.static = integrator == "static"
+        steps = 4
+        dt = self.random.choice((0.05, 0.5, 5.))
+        if self.explicit:
+            steps, dt = 1, 0.5
+        self.duration = steps * dt
+        self.entries["Time integration/End time"] = self.duration * self.time
+        self.entries["Time integration/Time step"] = 0 if self.explicit else dt * self.time
+        self.entries["Time integration/static/Load steps"] = 2
+        if not self.static and not self.explicit:
+            self.choose("Newton/Linearly implicit", "false", "false", "true")
+        damping = self.random.choice((None, "Mass coefficient", "Stiffness coefficient"))
+        if damping and not self.static:
+            factor = 1 / self.time if damping == "Mass coefficient" else self.time
+            self.entries["Damping/" + damping] = 0.1 * factor
+
+    def choose_loads(self):
+        # Of traction over modulus: with length over thickness up to 3, bodies bend by some 50 times that.
+        strain = self.random.choice((1e-6, 1e-4, 2e-3))
+        scale = f"(t / {self.duration * self.time:.17g})"
+        load = self.random.choice(("gravity", "traction", "pressure", "support"))
+        if self.curved and load in ("gravity", "support"):
+            load = "pressure"
+        stress = strain * self.modulus
+        self.entries["Loads/Gravity"] = components(0., 0.3 * strain * self.length / self.time**2, -strain * self.length / self.time**2) \
+            if load == "gravity" else "0; 0; 0"
+        if load == "traction":
+            self.entries["Boundary conditions/Traction"] = f"{self.loaded}: " + components(
+                f"{stress:.17g} * {scale}", f"{-stress:.17g}", 0)
+        if load == "pressure":
+            self.entries["Boundary conditions/Pressure"] = f"{self.loaded}: {stress:.17g} * {scale}"
+        if self.curved:
+            self.entries["Boundary conditions/Displacement"] = "x-min: 0; free; free, y-min: free; 0; free, z-min: free; free; 0"
+            return
+        # A support that carries the body far away, up to a thousand times its length, with an acceleration that bends it. In
+        # dynamics the body moves along from the start; in statics its cells are stretched by a load step before it follows.
+        distance, acceleration = 0., 0.
+        if load == "support":
+            distance = self.random.choice((1e-3, 1e-2) if self.static and not self.linear else (1e-3, 1., 1e3))
+            acceleration = 0. if self.static else strain
+        speed = distance * self.length / (self.duration * self.time)
+        motion = f"{speed:.17g} * t + {0.5 * acceleration * self.length / self.time**2:.17g} * t^2"
+        self.entries["Boundary conditions/Displacement"] = f"{self.support}: " + components(0, motion, f"0.5 * ({motion})")
+        if not self.static:
+            self.entries["Initial conditions/Velocity"] = components(0, speed, 0.5 * speed)
+
+    def choose_solvers(self):
+        by_cell = self.linear or (self.frozen and self.entries["Material/Rotation"] == "cell centre")
+        self.reference = {"Linear solver/Type": "direct"}
+        self.other = {"Linear solver/Type": self.random.choice(("p-multigrid", "p-multigrid", "p-multigrid", "jacobi", "amg"))}
+        self.other["Linear solver/p-multigrid/Coarse solver"] = self.random.choice(("automatic", "direct", "aggregation", "amg"))
+        if by_cell and self.entries["Newton/Tangent"] != "consistent":
+            self.other["Linear solver/Operator"] = self.random.choice(("matrix-free", "assembled"))
+        if self.random.random() < 0.3:
+            self.other["Linear solver/Method"] = "gmres"
+        self.ranks = self.random.choice((1, 2, 3))
+
+    def text(self, solver):
+        """As a parameter file."""
+        lines = []
+        for entry, value in {**self.entries, **solver}.items():
+            *sections, name = entry.split("/")
+            lines += [f"subsection {section}" for section in sections]
+            lines.append(f"set {name} = {value}")
+            lines += ["end"] * len(sections)
+        return "\n".join(lines) + "\n"
+
+    def compare(self, histories):
+        """What differs between the two by more than it may, as lines of text."""
+        one, other = histories
+        if len(one) != len(other):
+            return [f"{len(one)} and {len(other)} rows"]
+        value = lambda row, name: float(row[name])
+        positions = [f"{probe}_{axis}" for probe in self.probes for axis in "xyz"]
+        moved = max(abs(value(row, name)) for row in one for name in positions)
+        strained = max(abs(value(row, f"tip_{axis}") - value(row, f"base_{axis}")) for row in one for axis in "xyz")
+        if not (math.isfinite(moved) and moved > 0):
+            return [f"the largest displacement is {moved}"]
+        relative = 1e-7 + 1e4 * EPSILON * moved / strained if strained > 0 else math.inf
+        differences = []
+        for row, other_row in zip(one, other):
+            for axis in "xyz":
+                difference = [value(r, f"tip_{axis}") - value(r, f"base_{axis}") for r in (row, other_row)]
+                if abs(difference[1] - difference[0]) > relative * strained:
+                    differences.append(f"step {row['step']}: tip_{axis} - base_{axis} {difference}, allowed {relative * strained:.3g}")
+        for name in ("elastic_energy", "kinetic_energy", "external_work", "volume"):
+            size = max(abs(value(row, name)) for row in one)
+            for row, other_row in zip(one, other):
+                if not abs(value(row, name) - value(other_row, name)) <= 2 * relative * size:
+                    differences.append(f"step {row['step']}: {name} {value(row, name)} and {value(other_row, name)} of {size}")
+        return differences
+
+
+def run(seed, folder):
+    """Computes a combination twice. Returns what is wrong, as lines of text."""
+    combination = Combination(seed)
+    launcher = shlex.split(os.environ["COROTET_MPIRUN"])[:-1]
+    histories = []
+    for name, ranks, solver in (("one", 1, combination.reference), ("other", combination.ranks, combination.other)):
+        file = folder / f"{seed}_{name}.prm"
+        file.write_text(combination.text(solver), encoding="utf-8")
+        output = folder / f"{seed}_{name}"
+        command = [*([*launcher, str(ranks)] if ranks > 1 else []), os.environ["COROTET_PROGRAM"], str(file), "--output", str(output), "--quiet",
+                   "--set", "Output/Time between results = 1e300"]
+        try:
+            result = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+        except subprocess.TimeoutExpired:
+            return [f"{name}: no end within 120 s"]
+        if result.returncode != 0:
+            return [f"{name} ({ranks} ranks): status {result.returncode}: {result.stderr.strip()[:400]}"]
+        histories.append(read_history(output))
+    return combination.compare(histories)
+
+
+class Combinations(ProgramTest):
+
+    def test_random(self):
+        for seed in range(N_SEEDS_IN_CI):
+            with self.subTest(seed=seed):
+                self.assertEqual(run(seed, self.folder), [])
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Runs random combinations.")
+    parser.add_argument("--seeds", nargs=2, type=int, metavar=("FIRST", "END"))
+    parser.add_argument("--keep", help="folder for parameter files and results")
+    arguments, others = parser.parse_known_args()
+    if not arguments.seeds:
+        unittest.main(argv=sys.argv[:1] + others)
+    failed = 0
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(arguments.keep or temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        for seed in range(*arguments.seeds):
+            problems = run(seed, folder)
+            failed += bool(problems)
+            for line in problems[:4]:
+                print(f"seed {seed}: {line}", flush=True)
+    print(f"{arguments.seeds[1] - arguments.seeds[0]} combinations, {failed} failed")
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Runs at the limits of the arithmetic: stiff bodies that move far, thin ones,
+// loads that vanish, time steps that differ in their last digit.
+
+#include <corotet/time_integration/time_integrators.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  constexpr double gravity = -9.81;
+
+  const std::string steel = R"(
+    subsection Mesh
+      subsection box
+        set Size  = 1, 0.2, 0.2
+        set Cells = 3, 1, 1
+      end
+    end
+    subsection Material
+      set Young's modulus = 2.1e11
+      set Poisson's ratio = 0.3
+      set Density         = 7850
+    end
+    )";
+
+  const std::vector<std::string> laws{
+    "set Type = linear",
+    "set Rotation = cell centre",
+    "set Rotation = quadrature points",
+    "set Rotation = cell centre, variational"};
+
+  std::string
+  law_text(const std::string &law)
+  {
+    return "subsection Material\n" + law + "\nend\n";
+  }
+
+  // Largest distance of a node's displacement from (0, 0, @p z).
+  double
+  distance_from(const Vector &u, const double z)
+  {
+    double largest = 0;
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      largest = std::max(largest,
+                         std::abs(u.local_element(i) - (i % 3 == 2 ? z : 0)));
+    return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
+  }
+
+  unsigned int
+  most_iterations(const std::vector<StepRecord> &steps,
+                  const std::size_t              first,
+                  const std::size_t              end)
+  {
+    unsigned int most = 0;
+    for (std::size_t k = first; k < end; ++k)
+      most = std::max(most, steps[k].newton_iterations);
+    return most;
+  }
+
+  // Where a mass falls to from rest in @p n steps: integrators of second order
+  // are exact, those of lower order have recurrences of their own.
+  double
+  fallen(const std::string &integrator, const unsigned int n, const double dt)
+  {
+    if (integrator != "backward Euler" && integrator != "BDF2")
+      return 0.5 * gravity * n * dt * n * dt;
+    // BDF2 begins with a step of backward Euler.
+    double u[3] = {0, 0, 0}, v[3] = {0, 0, 0};
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        const auto next = [&](double *y, const double slope) {
+          const double value = integrator == "BDF2" && k > 0 ?
+                                 (4 * y[1] - y[0] + 2 * dt * slope) / 3 :
+                                 y[1] + dt * slope;
+          y[0]               = y[1];
+          y[1]               = value;
+        };
+        next(v, gravity);
+        next(u, v[1]);
+      }
+    return u[1];
+  }
+} // namespace
+
+class FreeFall
+  : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
+{};
+
+// A steel block falls for five seconds, 120 m: its cells of 0.2 m are then known
+// to a strain of 1e-13, a stress of 0.03 Pa, where gravity makes 8 kPa. The
+// displacement must be that of a point mass to 1e-9, and no step may take more
+// iterations than the first ones.
+TEST_P(FreeFall, OfSteel)
+{
+  const auto [degree, law] = GetParam();
+  constexpr unsigned int n = 250;
+  constexpr double       T = 5;
+  for (const auto &integrator : time_integrators())
+    {
+      if (integrator.name == "static" || integrator.name == "central difference")
+        continue;
+      CompleteRun fall(steel + element_text(degree) + law_text(law) +
+                       fmt::format(R"(
+        subsection Loads
+          set Gravity = 0; 0; {}
+        end
+        subsection Time integration
+          set Type      = {}
+          set End time  = {}
+          set Time step = {}
+        end
+        )",
+                                   gravity,
+                                   integrator.name,
+                                   T,
+                                   T / n));
+      ASSERT_EQ(fall.run(), "") << integrator.name;
+      const auto  &steps = fall.recorder().steps;
+      ASSERT_EQ(steps.size(), n);
+      const double z = fallen(integrator.name, n, T / n);
+      EXPECT_LE(distance_from(fall.recorder().displacement, z),
+                1e-9 * std::abs(z))
+        << integrator.name;
+      EXPECT_LE(most_iterations(steps, n / 10, n),
+                most_iterations(steps, 0, n / 10))
+        << integrator.name;
+      EXPECT_LE(most_iterations(steps, 0, n), 2u) << integrator.name;
+      for (const StepRecord &step : steps)
+        ASSERT_EQ(step.parts, 1u) << integrator.name;
+    }
+}
+
+// The same with explicit steps, of 1e-5 s, from 100 m below on: exact for a
+// constant acceleration.
+TEST_P(FreeFall, OfSteelExplicitly)
+{
+  const auto [degree, law] = GetParam();
+  constexpr double z       = -100, v = -44, T = 2e-3;
+  CompleteRun      fall(steel + element_text(degree) + law_text(law) +
+                   fmt::format(R"(
+    subsection Discretization
+      set Mass = diagonal scaling
+    end
+    subsection Initial conditions
+      set Displacement = 0; 0; {}
+      set Velocity     = 0; 0; {}
+    end
+    subsection Loads
+      set Gravity = 0; 0; {}
+    end
+    subsection Time integration
+      set Type      = central difference
+      set End time  = {}
+      set Time step = 0
+    end
+    )",
+                               z,
+                               v,
+                               gravity,
+                               T));
+  ASSERT_EQ(fall.run(), "");
+  EXPECT_LE(distance_from(fall.recorder().displacement,
+                          z + v * T + 0.5 * gravity * T * T),
+            1e-9 * std::abs(z));
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         FreeFall,
+                         testing::Combine(testing::Values(1u, 2u, 3u),
+                                          testing::ValuesIn(laws)),
+                         [](const auto &info) {
+                           std::string name =
+                             fmt::format("P{}_{}",
+                                         std::get<0>(info.param),
+                                         std::get<1>(info.param).substr(4));
+                           std::erase_if(name, [](const char c) {
+                             return !std::isalnum(c) && c != '_';
+                           });
+                           return name;
+                         });
+
+class StiffBody : public testing::TestWithParam<std::string>
+{};
+
+// A support that moves by 10 m within a second carries a steel block along,
+// which bends by its inertia: far less than a millimetre.
+TEST_P(StiffBody, IsCarriedFar)
+{
+  CompleteRun ride(steel + law_text(GetParam()) + R"(
+    subsection Boundary conditions
+      set Displacement = x-min: 0; 0; 10 * smooth_step(t, 0, 1)
+    end
+    subsection Time integration
+      set End time  = 1.2
+      set Time step = 0.01
+    end
+    )");
+  ASSERT_EQ(ride.run(), "");
+  const auto &steps = ride.recorder().steps;
+  EXPECT_LE(distance_from(ride.recorder().displacement, 10), 1e-4);
+  EXPECT_LE(most_iterations(steps, 0, steps.size()), 4u);
+  for (const StepRecord &step : steps)
+    ASSERT_EQ(step.parts, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws,
+                         StiffBody,
+                         testing::ValuesIn(laws),
+                         [](const auto &info) {
+                           return fmt::format("Law{}", info.index);
+                         });
+
+class LinearStatics : public testing::TestWithParam<std::string>
+{};
+
+namespace
+{
+  CompleteRun
+  linear_statics(const std::string &solver,
+                 const std::string &conditions,
+                 const std::string &box = "")
+  {
+    return CompleteRun(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 1, 0.125, 0.125
+          set Cells = 6, 1, 1
+        end
+      end
+      subsection Material
+        set Type            = linear
+        set Young's modulus = 1e7
+      end
+      subsection Boundary conditions
+)" + conditions + R"(
+      end
+      subsection Time integration
+        set Type     = static
+        set End time = 1
+        subsection static
+          set Load steps           = 4
+          set Proportional loading = false
+        end
+      end
+      subsection Linear solver
+        set Type = )" +
+                       solver + "\nend\n" + box);
+  }
+
+  // The linear solver's tolerance, times what a slender body may make of a
+  // residual.
+  constexpr double slender = 1e3 * 1e-8;
+} // namespace
+
+// Loaded and unloaded: in the last step no force is left.
+TEST_P(LinearStatics, Unloads)
+{
+  CompleteRun beam = linear_statics(GetParam(),
+                                    "set Fixed = x-min\n"
+                                    "set Traction = x-max: 0; 0; 200 * "
+                                    "triangle(t, 0, 1)");
+  ASSERT_EQ(beam.run(), "");
+  const auto &steps = beam.recorder().steps;
+  ASSERT_EQ(steps.size(), 4u);
+  // Of beam theory: F L^3 / (3 E I) = 0.0512 m, quadratic cells come close.
+  EXPECT_NEAR(steps[1].max_displacement, 0.0512, 0.05 * 0.0512);
+  EXPECT_NEAR(steps[0].max_displacement,
+              0.5 * steps[1].max_displacement,
+              slender * steps[1].max_displacement);
+  EXPECT_LE(steps[3].max_displacement, slender * steps[1].max_displacement);
+  for (const StepRecord &step : steps)
+    EXPECT_EQ(step.newton_iterations, 1u);
+}
+
+// Carried by its support a body has no forces at all.
+TEST_P(LinearStatics, IsCarriedBySupport)
+{
+  CompleteRun beam =
+    linear_statics(GetParam(),
+                   "set Displacement = x-min: 0; 0; 0.1 * triangle(t, 0, 1)");
+  ASSERT_EQ(beam.run(), "");
+  const auto &steps = beam.recorder().steps;
+  ASSERT_EQ(steps.size(), 4u);
+  EXPECT_NEAR(steps[1].max_displacement, 0.1, slender * 0.1);
+  EXPECT_LE(distance_from(beam.recorder().displacement, 0), slender * 0.1);
+  for (const StepRecord &step : steps)
+    EXPECT_EQ(step.newton_iterations, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers,
+                         LinearStatics,
+                         testing::Values("p-multigrid", "direct", "jacobi"),
+                         [](const auto &info) {
+                           std::string name = info.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+// A beam of a thickness of 1 / 3,750 of its length: its residual cannot fall
+// below some 1e-7 of the forces, for whatever solver.
+TEST(RoundOff, ThinBeam)
+{
+  CompleteRun beam = linear_statics("direct",
+                                    "set Fixed = x-min\n"
+                                    "set Traction = x-max: 0; 0; 1e-4",
+                                    R"(
+    subsection Mesh
+      subsection box
+        set Size  = 3.75, 0.001, 0.001
+        set Cells = 60, 1, 1
+      end
+    end
+    subsection Material
+      set Poisson's ratio = 0
+    end
+    )");
+  ASSERT_EQ(beam.run(), "");
+  const auto &steps = beam.recorder().steps;
+  // F L^3 / (3 E I), with F = 1e-4 h^2 and I = h^4 / 12. Quadratic cells have
+  // no other than this cubic deflection to represent, but do it by parts of
+  // second degree: a sixtieth of the length each.
+  const double deflection = 4 * 1e-4 * std::pow(3.75, 3) / (1e7 * 1e-6);
+  EXPECT_NEAR(steps[0].max_displacement, deflection, 1e-2 * deflection);
+  for (const StepRecord &step : steps)
+    EXPECT_LE(step.newton_iterations, 2u);
+}
+
+// Steps of 0.01 s are not all equal in their last digit: the preconditioner
+// stays. Halving a step, or another one, makes a new one.
+TEST(RoundOff, PreconditionerStays)
+{
+  for (const std::string integrator : {"Newmark", "BDF2", "backward Euler"})
+    {
+      CompleteRun run(fmt::format(R"(
+        subsection Material
+          set Type = linear
+        end
+        subsection Boundary conditions
+          set Fixed    = x-min
+          set Traction = x-max: 0; 0; 1
+        end
+        subsection Time integration
+          set Type      = {}
+          set End time  = 0.7
+          set Time step = 0.007
+        end
+        )",
+                                  integrator));
+      ASSERT_EQ(run.run(), "");
+      EXPECT_EQ(run.recorder().steps.size(), 100u);
+      // BDF2 begins with a step of another method.
+      EXPECT_EQ(run.recorder().summary.preconditioner_builds,
+                integrator == "BDF2" ? 2u : 1u)
+        << integrator;
+    }
+}
