@@ -10,9 +10,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <SuiteSparse_config.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "spring_box.h"
@@ -45,6 +47,40 @@ namespace
       largest = std::max(largest, std::abs(x[i] - y.local_element(i)));
     return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
   }
+
+  /// While it lives, CHOLMOD gets as many more blocks of memory on this rank as
+  /// @p n, and then none.
+  class MemoryLimit
+  {
+  public:
+    explicit MemoryLimit(const long n)
+    {
+      left = n;
+      SuiteSparse_config_malloc_func_set([](std::size_t size) {
+        return left-- > 0 ? std::malloc(size) : nullptr;
+      });
+      SuiteSparse_config_calloc_func_set([](std::size_t n, std::size_t size) {
+        return left-- > 0 ? std::calloc(n, size) : nullptr;
+      });
+      SuiteSparse_config_realloc_func_set([](void *block, std::size_t size) {
+        return left-- > 0 ? std::realloc(block, size) : nullptr;
+      });
+    }
+
+    ~MemoryLimit()
+    {
+      SuiteSparse_config_malloc_func_set(std::malloc);
+      SuiteSparse_config_calloc_func_set(std::calloc);
+      SuiteSparse_config_realloc_func_set(std::realloc);
+    }
+
+    MemoryLimit(const MemoryLimit &) = delete;
+    MemoryLimit &
+    operator=(const MemoryLimit &) = delete;
+
+  private:
+    inline static long left = 0;
+  };
 } // namespace
 
 // The condition number of these boxes is below 1e4. Single precision of the
@@ -141,4 +177,51 @@ TEST(SparseCholesky, SlenderBodyNeedsDoublePrecision)
   inverse.factorize(*box.matrix);
   EXPECT_EQ(inverse.precision(), Precision::double_precision);
   EXPECT_LT(error<double>(box, inverse), 1e-4);
+}
+
+// The matrix is factorised on rank 0. Whichever block of memory it does not get
+// there, all ranks learn it, in both precisions and where double takes the
+// place of single; with enough of them, the inverse is right.
+TEST(SparseCholesky, MemoryMayBeTooShortAnywhere)
+{
+  const struct
+  {
+    Cells     cells;
+    Precision precision;
+  } cases[] = {{Cells{{3, 2, 2}}, Precision::double_precision},
+               {Cells{{3, 2, 2}}, Precision::single_precision},
+               {Cells{{400, 1, 1}}, Precision::single_precision}};
+  for (const auto &[cells, precision] : cases)
+    {
+      const SpringBox box(cells, true);
+      SparseCholesky  inverse(precision);
+      const auto      factorize = [&](const long n_blocks) {
+        const MemoryLimit limit(n_blocks);
+        try
+          {
+            inverse.factorize(*box.matrix);
+          }
+        catch (const MachineError &error)
+          {
+            return std::string(error.what());
+          }
+        return std::string("none");
+      };
+      long n_blocks = 0;
+      for (std::string message; n_blocks < 1000; ++n_blocks)
+        {
+          message = factorize(n_blocks);
+          if (message == "none")
+            break;
+          EXPECT_EQ(message,
+                    "memory is too short to factorise a matrix with " +
+                      std::to_string(box.matrix->NumGlobalRows()) + " unknowns")
+            << n_blocks;
+          EXPECT_EQ(inverse.n_entries(), 0u);
+        }
+      // The matrix, its order, the factor and the vectors are blocks.
+      EXPECT_GT(n_blocks, 20);
+      EXPECT_LT(n_blocks, 1000);
+      EXPECT_LT(error<double>(box, inverse), 1e-2);
+    }
 }
