@@ -75,11 +75,11 @@ class FailingRanks(ProgramTest):
 
     def test_operations_on_files(self):
         for ranks, rank in ((1, "all"), (2, 0), (2, 1), (2, "all"), (3, 1)):
-            self.fail_everywhere(SETTINGS, ranks, rank, 9)
+            self.fail_everywhere(SETTINGS, ranks, rank, 7)
 
     def test_operations_on_files_of_a_study(self):
         for ranks, rank in ((2, 0), (2, "all")):
-            self.fail_everywhere(STUDY, ranks, rank, 6)
+            self.fail_everywhere(STUDY, ranks, rank, 5)
 
     def test_files_that_cannot_be_read(self):
         # Rank 0 reads for all: that others cannot does not matter.
