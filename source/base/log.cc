@@ -3,13 +3,13 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
-
-#include <deal.II/base/mpi.h>
+#include <corotet/base/mpi.h>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 
 namespace corotet
@@ -37,7 +37,8 @@ namespace corotet
   } // namespace
 
   Log::Log(const MPI_Comm comm, const bool quiet)
-    : root(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    : comm(comm)
+    , root(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
     , quiet(quiet)
     , terminal(root && !quiet && isatty(STDOUT_FILENO) != 0 &&
                !started_by_mpirun())
@@ -81,13 +82,19 @@ namespace corotet
   void
   Log::open(const std::string &path)
   {
-    if (!root)
-      return;
-    file.open(path);
-    if (!file)
-      throw MachineError(path + ": the log file cannot be written");
-    file << kept << std::flush;
-    kept.clear();
+    on_root(comm, [&] {
+      file.open(path);
+      file << kept << std::flush;
+      if (!file)
+        {
+          // A new run must not find this alone, which nobody can overwrite.
+          if (std::filesystem::is_regular_file(path))
+            std::filesystem::remove(path);
+          throw MachineError(path + ": the log file cannot be written (is the "
+                                    "disk full, or permission missing?)");
+        }
+      kept.clear();
+    });
   }
 
   void

@@ -4,18 +4,27 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
 
-#include <deal.II/base/mpi.h>
-
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <new>
 #include <string>
-#include <tuple>
+#include <thread>
+#include <utility>
 
 namespace corotet
 {
   namespace
   {
-    // Exit status (0: no error), entry and message of an Error, as they travel
-    // between ranks.
-    using Outcome = std::tuple<int, std::string, std::string>;
+    using dealii::Utilities::MPI::this_mpi_process;
+
+    // Exit status (0: no error), entry and message of an Error.
+    struct Outcome
+    {
+      int         exit_status = 0;
+      std::string entry       = "";
+      std::string message     = "";
+    };
 
     Outcome
     outcome_of(const std::function<void()> &action)
@@ -32,17 +41,33 @@ namespace corotet
         {
           return {error.exit_status, "", error.what()};
         }
-      return {0, "", ""};
+      catch (const std::bad_alloc &)
+        {
+          return {3, "", "memory is too short"};
+        }
+      catch (const std::filesystem::filesystem_error &error)
+        {
+          return {3,
+                  "",
+                  error.path1().string() + ": " + error.code().message()};
+        }
+      return {};
     }
 
+    // Throws on every rank what @p outcome says on rank @p root.
     void
-    throw_if_error(const Outcome &outcome)
+    throw_outcome_of(const unsigned int root,
+                     const Outcome     &outcome,
+                     const MPI_Comm     comm)
     {
-      const auto &[exit_status, entry, message] = outcome;
+      int exit_status = outcome.exit_status;
+      MPI_Bcast(&exit_status, 1, MPI_INT, root, comm);
+      if (exit_status == 0)
+        return;
+      const auto [entry, message] = dealii::Utilities::MPI::broadcast(
+        comm, std::make_pair(outcome.entry, outcome.message), root);
       switch (exit_status)
         {
-          case 0:
-            return;
           case 1:
             throw InputError(entry, message);
           case 2:
@@ -51,27 +76,82 @@ namespace corotet
             throw MachineError(message);
         }
     }
+
+    // Whether all ranks call this within so many seconds of each other.
+    bool
+    all_arrive(const MPI_Comm comm, const double seconds)
+    {
+      using Clock     = std::chrono::steady_clock;
+      const auto  end = Clock::now() + std::chrono::duration<double>(seconds);
+      MPI_Request request;
+      MPI_Ibarrier(comm, &request);
+      for (int done = 0;;)
+        {
+          MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+          if (done != 0)
+            return true;
+          if (Clock::now() > end)
+            return false;
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
   } // namespace
 
   void
   on_root(const MPI_Comm comm, const std::function<void()> &action)
   {
-    Outcome outcome{0, "", ""};
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    Outcome outcome;
+    if (this_mpi_process(comm) == 0)
       outcome = outcome_of(action);
-    throw_if_error(dealii::Utilities::MPI::broadcast(comm, outcome, 0));
+    throw_outcome_of(0, outcome, comm);
   }
 
   void
   on_all_ranks(const MPI_Comm comm, const std::function<void()> &action)
   {
     const Outcome      outcome = outcome_of(action);
-    const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
     const unsigned int none    = dealii::Utilities::MPI::n_mpi_processes(comm);
-    const unsigned int first =
-      dealii::Utilities::MPI::min(std::get<0>(outcome) != 0 ? rank : none,
-                                  comm);
+    const unsigned int first   = dealii::Utilities::MPI::min(
+      outcome.exit_status != 0 ? this_mpi_process(comm) : none, comm);
     if (first != none)
-      throw_if_error(dealii::Utilities::MPI::broadcast(comm, outcome, first));
+      throw_outcome_of(first, outcome, comm);
+  }
+
+  int
+  run_program(const MPI_Comm               comm,
+              const std::function<void()> &program,
+              const double                 patience)
+  {
+    // Of its own, so that it does not matter what others wait for.
+    const MPI_Comm for_the_end =
+      dealii::Utilities::MPI::duplicate_communicator(comm);
+    Outcome outcome;
+    try
+      {
+        outcome = outcome_of(program);
+      }
+    catch (const std::exception &error)
+      {
+        outcome = {3, "", std::string("internal: ") + error.what()};
+      }
+    catch (...)
+      {
+        outcome = {3, "", "internal: an exception of unknown kind"};
+      }
+    if (outcome.exit_status != 0)
+      {
+        const bool is_agreed = all_arrive(for_the_end, patience);
+        if (!is_agreed || this_mpi_process(comm) == 0)
+          // In one piece: mpirun may lose some of several when the program
+          // fails.
+          std::cerr << "corotet: error: " +
+                         (outcome.entry.empty() ? "" : outcome.entry + ": ") +
+                         outcome.message + "\n"
+                    << std::flush;
+        if (!is_agreed)
+          MPI_Abort(comm, outcome.exit_status);
+      }
+    dealii::Utilities::MPI::free_communicator(for_the_end);
+    return outcome.exit_status;
   }
 } // namespace corotet

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
 #include <corotet/base/parameter_file.h>
 #include <corotet/base/parameter_listing.h>
 #include <corotet/base/text.h>
@@ -186,11 +187,14 @@ namespace corotet
 
   void
   ParameterFile::read(const std::string              &path,
-                      const std::vector<std::string> &overrides)
+                      const std::vector<std::string> &overrides,
+                      const MPI_Comm                  comm)
   {
     file                = path;
     const Json declared = tree();
-    for (const ParameterStatement &statement : read_parameter_statements(path))
+    const auto statements =
+      from_root(comm, [&] { return read_parameter_statements(path); });
+    for (const ParameterStatement &statement : statements)
       apply(statement, declared);
     for (const std::string &text : overrides)
       apply(parse_override(text), declared);

@@ -7,7 +7,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
 #include <type_traits>
@@ -86,23 +90,28 @@ namespace corotet
   Hdf5File::Hdf5File(const std::string &path, const MPI_Comm comm)
     : path(path)
     , comm(comm)
-    , collective_transfer(H5Pcreate(H5P_DATASET_XFER))
   {
-    const Silence silence;
-    const Hdf5Id  access(H5Pcreate(H5P_FILE_ACCESS));
-    // One rank needs no MPI to write a file, and is faster without.
-    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+    const std::string temporary = path + ".tmp";
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        check(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL));
-        check(H5Pset_dxpl_mpio(collective_transfer, H5FD_MPIO_COLLECTIVE));
+        const Silence silence;
+        file = Hdf5Id(H5Fcreate(
+          temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+        check(file);
       }
-    file = Hdf5Id(
-      H5Fcreate((path + ".tmp").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
-    check(file);
-    // Without a file on some rank, no rank may go on to collective calls.
-    good = dealii::Utilities::MPI::min(good ? 1 : 0, comm) == 1;
-    if (!good)
-      file = Hdf5Id();
+    // Then it is there, for all to open.
+    good = dealii::Utilities::MPI::broadcast(comm, good, 0);
+    if (good)
+      {
+        descriptor = open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
+        check(descriptor);
+      }
+  }
+
+  Hdf5File::~Hdf5File()
+  {
+    if (descriptor >= 0)
+      close(descriptor);
   }
 
   bool
@@ -113,36 +122,60 @@ namespace corotet
     return result >= 0;
   }
 
+  haddr_t
+  Hdf5File::create_table(const std::string &name,
+                         const hid_t        type,
+                         const Hdf5Rows    &rows)
+  {
+    if (file < 0)
+      return HADDR_UNDEF;
+    const Silence silence;
+    const Hdf5Id  space = table_space(rows.n_global_rows, rows.n_columns);
+    // A place in the file now, which nobody but write_bytes() fills.
+    const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE));
+    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
+    check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
+    const Hdf5Id dataset(H5Dcreate2(
+      file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+    if (!check(dataset))
+      return HADDR_UNDEF;
+    const haddr_t place = H5Dget_offset(dataset);
+    if (rows.n_global_rows > 0)
+      check(place == HADDR_UNDEF ? -1 : 0);
+    return place;
+  }
+
+  void
+  Hdf5File::write_bytes(const char *data, std::size_t size, haddr_t place)
+  {
+    while (size > 0)
+      {
+        const ssize_t written = pwrite(descriptor, data, size, place);
+        if (written < 0 && errno == EINTR)
+          continue;
+        if (!check(written))
+          return;
+        data += written;
+        size -= written;
+        place += written;
+      }
+  }
+
   template <typename Number>
   void
   Hdf5File::write(const std::string &name,
                   const Number      *data,
                   const Hdf5Rows    &rows)
   {
-    if (file < 0)
+    std::uint64_t place = create_table(name, native_type<Number>(), rows);
+    MPI_Bcast(&place, 1, MPI_UINT64_T, 0, comm);
+    if (place == HADDR_UNDEF || descriptor < 0)
       return;
-    const Silence silence;
-    const Hdf5Id  space = table_space(rows.n_global_rows, rows.n_columns);
-    Hdf5Id        dataset(H5Dcreate2(file,
-                              name.c_str(),
-                              native_type<Number>(),
-                              space,
-                              H5P_DEFAULT,
-                              H5P_DEFAULT,
-                              H5P_DEFAULT));
-    if (!check(dataset))
-      return;
-    const Hdf5Id memory = table_space(rows.n_rows, rows.n_columns);
-    check(select_rows(memory, 0, rows.n_rows, rows.n_columns));
-    check(select_rows(space, rows.first, rows.n_rows, rows.n_columns));
-    check(H5Dwrite(dataset,
-                   native_type<Number>(),
-                   memory,
-                   space,
-                   collective_transfer,
-                   data));
-    // Space may be found missing only now.
-    check(H5Dclose(dataset.release()));
+    const std::size_t row_size =
+      sizeof(Number) * (rows.n_columns == 0 ? 1 : rows.n_columns);
+    write_bytes(reinterpret_cast<const char *>(data),
+                rows.n_rows * row_size,
+                place + rows.first * row_size);
   }
 
   template <typename Number>
@@ -274,6 +307,9 @@ namespace corotet
         // Releases the identifier even if the last data cannot be written.
         check(H5Fclose(file.release()));
       }
+    // Space may be found missing only now.
+    if (descriptor >= 0)
+      check(close(std::exchange(descriptor, -1)));
     good = dealii::Utilities::MPI::min(good ? 1 : 0, comm) == 1;
     // What could not be written HDF5 tries to write again when the program
     // ends: let it not complain then, after the program's own message.

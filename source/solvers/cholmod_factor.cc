@@ -138,7 +138,9 @@ namespace corotet
       order();
     common.nmethods           = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
-    L   = cholmod_analyze_p(lower, permutation.data(), nullptr, 0, &common);
+    L = cholmod_analyze_p(lower, permutation.data(), nullptr, 0, &common);
+    // Each of CHOLMOD's functions has a status of its own.
+    check_status();
     rhs = cholmod_zeros(n_rows, 1, type(), &common);
     check_status();
   }

@@ -173,6 +173,11 @@ namespace corotet
       starts[0] = 0;
       std::partial_sum(starts, starts + n_rows + 1, starts);
       factor->analyze();
+      if (!is_alone)
+        {
+          std::get<std::vector<double>>(buffers).resize(n_rows);
+          std::get<std::vector<float>>(buffers).resize(n_rows);
+        }
     });
   }
 
@@ -238,11 +243,8 @@ namespace corotet
     if (is_alone)
       return factor->solve(dst, src);
     std::vector<Number> &all = std::get<std::vector<Number>>(buffers);
-    if (is_root)
-      all.resize(graph.NumGlobalRows());
     row_shares.gather(src, row_counts.size(), all.data(), comm);
-    if (is_root)
-      factor->solve(all.data(), all.data());
+    on_root(comm, [&] { factor->solve(all.data(), all.data()); });
     MPI_Scatterv(all.data(),
                  row_shares.counts.data(),
                  row_shares.offsets.data(),

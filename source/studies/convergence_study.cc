@@ -33,14 +33,12 @@ namespace corotet
     std::string
     read_file(const std::string &path, const MPI_Comm comm)
     {
-      std::string text;
-      on_root(comm, [&] {
+      return from_root(comm, [&] {
         std::ifstream      file(path);
         std::ostringstream content;
         content << file.rdbuf();
-        text = content.str();
+        return content.str();
       });
-      return dealii::Utilities::MPI::broadcast(comm, text, 0);
     }
 
     // One argument of a shell command.

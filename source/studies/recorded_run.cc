@@ -53,7 +53,7 @@ namespace corotet
       return on_root(comm,
                      [&] { file.print(std::cout, *command.print_parameters); });
 
-    file.read(command.parameter_file, command.overrides);
+    file.read(command.parameter_file, command.overrides, comm);
     SimulationParameters   &simulation_parameters = parameters.simulation;
     const OutputParameters &output                = parameters.output;
     Verification           &verification          = parameters.verification;

@@ -166,7 +166,7 @@ namespace corotet
     std::vector<std::string> all = overrides;
     for (const std::string &text : study_case.overrides())
       all.push_back(text);
-    file.read(path, all);
+    file.read(path, all, comm);
     reset_peak_memory();
     if (parameters.study.run == "modes")
       analysis = std::make_unique<ModalAnalysis>(parameters.simulation,

@@ -64,8 +64,9 @@ TEST(Log, RefusesAFileThatCannotBeWritten)
 {
   const TemporaryFolder folder;
   Log                   log(MPI_COMM_WORLD, /* quiet = */ true);
-  if (on_rank_0())
-    {
-      EXPECT_THROW(log.open(folder / "absent/log.txt"), MachineError);
-    }
+  // Only rank 0 opens it, and all learn what came of it.
+  EXPECT_THROW(log.open(folder / "absent/log.txt"), MachineError);
+  // It can be opened, but what has been shown has no room.
+  log.line("early");
+  EXPECT_THROW(log.open("/dev/full"), MachineError);
 }

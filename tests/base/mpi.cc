@@ -10,6 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <functional>
+#include <new>
+
 using namespace corotet;
 
 namespace
@@ -50,6 +54,45 @@ TEST(Mpi, KindsOfErrorsSurvive)
                ComputationError);
   EXPECT_THROW(on_root(MPI_COMM_WORLD, [] { throw MachineError("disk full"); }),
                MachineError);
+}
+
+TEST(Mpi, FromRootGivesItsValueToEveryRank)
+{
+  EXPECT_EQ(from_root(MPI_COMM_WORLD,
+                      [] { return "of rank " + std::to_string(this_rank()); }),
+            "of rank 0");
+  EXPECT_THROW(from_root(MPI_COMM_WORLD,
+                         []() -> int { throw MachineError("disk full"); }),
+               MachineError);
+}
+
+// Each rank in turn, and all of them, are short of memory or have no
+// permission: all learn the same, and are in step afterwards.
+TEST(Mpi, FailuresOfTheMachineAreErrorsOnEveryRank)
+{
+  const unsigned int n_ranks =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  for (unsigned int failing = 0; failing <= n_ranks; ++failing)
+    {
+      const auto message = [&](const std::function<void()> &failure) {
+        try
+          {
+            on_all_ranks(MPI_COMM_WORLD, [&] {
+              if (this_rank() == failing || failing == n_ranks)
+                failure();
+            });
+          }
+        catch (const MachineError &error)
+          {
+            return std::string(error.what());
+          }
+        return std::string("none");
+      };
+      EXPECT_EQ(message([] { throw std::bad_alloc(); }), "memory is too short");
+      EXPECT_EQ(message([] { std::filesystem::create_directory("/proc/a/b"); }),
+                "/proc/a/b: No such file or directory");
+      EXPECT_EQ(dealii::Utilities::MPI::sum(1u, MPI_COMM_WORLD), n_ranks);
+    }
 }
 
 // With two ranks the last rank is another one than the first; with one it is

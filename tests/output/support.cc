@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -67,6 +68,20 @@ namespace test_output
     std::stringstream text;
     text << stream.rdbuf();
     return text.str();
+  }
+
+  FileSizeLimit::FileSizeLimit(const rlim_t bytes)
+  {
+    handler = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &old);
+    const rlimit limit{bytes, old.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+
+  FileSizeLimit::~FileSizeLimit()
+  {
+    setrlimit(RLIMIT_FSIZE, &old);
+    std::signal(SIGXFSZ, handler);
   }
 
   SerialMesh

@@ -9,6 +9,8 @@
 #include <corotet/output/output_parameters.h>
 #include <corotet/simulation/observer.h>
 
+#include <sys/resource.h>
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -64,6 +66,25 @@ namespace test_output
       }
     return "no error";
   }
+
+  /**
+   * No file of this process may grow beyond a size, while this object lives:
+   * as on a full disk, writing fails.
+   */
+  class FileSizeLimit
+  {
+  public:
+    explicit FileSizeLimit(const rlim_t bytes);
+    ~FileSizeLimit();
+
+    FileSizeLimit(const FileSizeLimit &) = delete;
+    FileSizeLimit &
+    operator=(const FileSizeLimit &) = delete;
+
+  private:
+    rlimit old;
+    void (*handler)(int);
+  };
 
   /**
    * A distorted box [0, 1] x [0, 0.5] x [0, 0.25] of 4 x 2 x 2 times six

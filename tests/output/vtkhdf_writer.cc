@@ -9,11 +9,9 @@
 #include <corotet/output/vtkhdf_writer.h>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -34,29 +32,6 @@ namespace
     std::sort(names.begin(), names.end());
     return names;
   }
-
-  // No file of this process may grow beyond a size, while this object lives.
-  class FileSizeLimit
-  {
-  public:
-    explicit FileSizeLimit(const rlim_t bytes)
-    {
-      handler = std::signal(SIGXFSZ, SIG_IGN);
-      getrlimit(RLIMIT_FSIZE, &old);
-      const rlimit limit{bytes, old.rlim_max};
-      setrlimit(RLIMIT_FSIZE, &limit);
-    }
-
-    ~FileSizeLimit()
-    {
-      setrlimit(RLIMIT_FSIZE, &old);
-      std::signal(SIGXFSZ, handler);
-    }
-
-  private:
-    rlimit old;
-    void (*handler)(int);
-  };
 } // namespace
 
 // VTK's order is a permutation of all nodes that keeps the vertices.

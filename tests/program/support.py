@@ -45,6 +45,12 @@ def read_summary(directory):
     return json.loads((directory / "summary.json").read_text(encoding="utf-8"))
 
 
+def launcher(ranks):
+    """The words before a program that start it on so many ranks."""
+    # The last word is a number of ranks.
+    return [] if ranks == 1 else [*shlex.split(os.environ["COROTET_MPIRUN"])[:-1], str(ranks)]
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a temporary folder, in which it runs the program."""
 
@@ -57,8 +63,7 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *arguments, status=0, ranks=1):
         """Runs the program; its exit status must be @p status."""
-        launcher = [] if ranks == 1 else shlex.split(os.environ["COROTET_MPIRUN"])
-        command = [*launcher, os.environ["COROTET_PROGRAM"], *map(str, arguments)]
+        command = [*launcher(ranks), os.environ["COROTET_PROGRAM"], *map(str, arguments)]
         run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=600, check=False)
         self.assertEqual(run.returncode, status, f"exit status of {shlex.join(command)}\n{run.stdout}\n{run.stderr}")
         if status == 0 and ranks == 1:

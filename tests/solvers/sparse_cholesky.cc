@@ -10,9 +10,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <SuiteSparse_config.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "spring_box.h"
@@ -45,6 +47,49 @@ namespace
       largest = std::max(largest, std::abs(x[i] - y.local_element(i)));
     return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
   }
+
+  /// While it lives, CHOLMOD gets as many more blocks of memory on this rank as
+  /// @p n; then none, or all but one.
+  class MemoryLimit
+  {
+  public:
+    MemoryLimit(const long n, const bool once)
+    {
+      left       = n;
+      lacks_once = once;
+      SuiteSparse_config_malloc_func_set([](std::size_t size) {
+        return is_there() ? std::malloc(size) : nullptr;
+      });
+      SuiteSparse_config_calloc_func_set([](std::size_t n, std::size_t size) {
+        return is_there() ? std::calloc(n, size) : nullptr;
+      });
+      SuiteSparse_config_realloc_func_set([](void *block, std::size_t size) {
+        return is_there() ? std::realloc(block, size) : nullptr;
+      });
+    }
+
+    ~MemoryLimit()
+    {
+      SuiteSparse_config_malloc_func_set(std::malloc);
+      SuiteSparse_config_calloc_func_set(std::calloc);
+      SuiteSparse_config_realloc_func_set(std::realloc);
+    }
+
+    MemoryLimit(const MemoryLimit &) = delete;
+    MemoryLimit &
+    operator=(const MemoryLimit &) = delete;
+
+  private:
+    static bool
+    is_there()
+    {
+      --left;
+      return left >= 0 || (lacks_once && left < -1);
+    }
+
+    inline static long left       = 0;
+    inline static bool lacks_once = false;
+  };
 } // namespace
 
 // The condition number of these boxes is below 1e4. Single precision of the
@@ -141,4 +186,58 @@ TEST(SparseCholesky, SlenderBodyNeedsDoublePrecision)
   inverse.factorize(*box.matrix);
   EXPECT_EQ(inverse.precision(), Precision::double_precision);
   EXPECT_LT(error<double>(box, inverse), 1e-4);
+}
+
+// The matrix is factorised on rank 0. Whichever block of memory it does not get
+// there, and whether it gets later ones or not, all ranks learn it, in both
+// precisions and where double takes the place of single. If it is satisfied,
+// the inverse is right.
+TEST(SparseCholesky, MemoryMayBeTooShortAnywhere)
+{
+  const struct
+  {
+    Cells     cells;
+    Precision precision;
+  } cases[] = {{Cells{{3, 2, 2}}, Precision::double_precision},
+               {Cells{{3, 2, 2}}, Precision::single_precision},
+               {Cells{{400, 1, 1}}, Precision::single_precision}};
+  for (const auto &[cells, precision] : cases)
+    {
+      const SpringBox   box(cells, true);
+      const std::string expected =
+        "memory is too short to factorise a matrix with " +
+        std::to_string(box.matrix->NumGlobalRows()) + " unknowns";
+      const auto factorizes = [&](const long n_blocks, const bool once) {
+        SparseCholesky inverse(precision);
+        std::string    message = "none";
+        {
+          const MemoryLimit limit(n_blocks, once);
+          try
+            {
+              inverse.factorize(*box.matrix);
+            }
+          catch (const MachineError &error)
+            {
+              message = error.what();
+            }
+        }
+        if (message == "none")
+          {
+            EXPECT_LT(error<double>(box, inverse), 1e-2) << n_blocks;
+          }
+        else
+          {
+            EXPECT_EQ(message, expected) << n_blocks;
+          }
+        return message == "none";
+      };
+      long n_needed = 0;
+      while (n_needed < 1000 && !factorizes(n_needed, false))
+        ++n_needed;
+      // The matrix, its order, the factor and the vectors are blocks.
+      EXPECT_GT(n_needed, 20);
+      EXPECT_LT(n_needed, 1000);
+      for (long n_blocks = 0; n_blocks < n_needed; ++n_blocks)
+        factorizes(n_blocks, true);
+    }
 }

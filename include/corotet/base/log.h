@@ -51,7 +51,7 @@ namespace corotet
     }
 
     /// From now on lines go to @p path too, those shown so far first. Throws
-    /// MachineError if it cannot be written.
+    /// MachineError if it cannot be written. Collective.
     void
     open(const std::string &path);
 
@@ -59,6 +59,7 @@ namespace corotet
     void
     clear_progress();
 
+    MPI_Comm      comm;
     bool          root;
     bool          quiet;
     bool          terminal;

@@ -4,19 +4,37 @@
 #ifndef corotet_base_mpi_h
 #define corotet_base_mpi_h
 
-#include <mpi.h>
+#include <deal.II/base/mpi.h>
 
 #include <functional>
 
 namespace corotet
 {
+  // What can fail on one rank runs inside of one of the functions below, which
+  // make its outcome that of all ranks: so nothing is thrown on some of them
+  // while others wait. Lack of memory and errors of the file system count as a
+  // MachineError. Any other exception is a bug and leaves on its own rank only.
+
   /**
    * Runs @p action on rank 0 of @p comm only. An Error that it throws there is
-   * thrown on every rank, with the same kind, entry and message; so no rank is
-   * left waiting. Collective.
+   * thrown on every rank, with the same kind, entry and message. Costs one
+   * number sent to all ranks. Collective.
    */
   void
   on_root(const MPI_Comm comm, const std::function<void()> &action);
+
+  /**
+   * The value of @p action, which runs on rank 0 of @p comm only, on every
+   * rank; errors as in on_root(). Collective.
+   */
+  template <typename Action>
+  auto
+  from_root(const MPI_Comm comm, const Action &action)
+  {
+    decltype(action()) value{};
+    on_root(comm, [&] { value = action(); });
+    return dealii::Utilities::MPI::broadcast(comm, value, 0);
+  }
 
   /**
    * Runs @p action on every rank. If it throws an Error on some ranks, every
@@ -25,6 +43,20 @@ namespace corotet
    */
   void
   on_all_ranks(const MPI_Comm comm, const std::function<void()> &action);
+
+  /**
+   * Runs a whole @p program on every rank and returns its exit status: 0, that
+   * of the Error which it throws, or 3 for any other exception. The error is
+   * shown on stderr once, by rank 0.
+   *
+   * An exception that leaves @p program on some ranks only is a bug: the others
+   * may wait for it in vain. When they have not ended within @p patience
+   * seconds, the rank shows its error itself and ends all by MPI_Abort().
+   */
+  int
+  run_program(const MPI_Comm               comm,
+              const std::function<void()> &program,
+              const double                 patience = 10);
 } // namespace corotet
 
 #endif

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <mpi.h>
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
@@ -40,9 +41,13 @@ namespace corotet
      * each of the form "Section/Subsection/Entry = value", in their order.
      * Throws InputError, with file and line in the message, if something is
      * misspelt, out of its range, or no statement at all.
+     *
+     * Rank 0 of @p comm reads the file, for all of them. Collective.
      */
     void
-    read(const std::string &path, const std::vector<std::string> &overrides);
+    read(const std::string              &path,
+         const std::vector<std::string> &overrides,
+         const MPI_Comm                  comm = MPI_COMM_SELF);
 
     /**
      * Where the entry or subsection "Section/Subsection/Entry" was last set:

@@ -25,6 +25,17 @@ namespace corotet
     /// In .json and .xml files an empty text is an empty value or a subsection
     /// without content.
     bool may_be_section = false;
+
+    /// For boost::serialization.
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      bool        has_value = value.has_value();
+      std::string text      = value.value_or("");
+      archive & path & has_value & text & place & may_be_section;
+      value = has_value ? std::optional(text) : std::nullopt;
+    }
   };
 
   /**

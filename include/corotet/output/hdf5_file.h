@@ -87,19 +87,25 @@ namespace corotet
    * An HDF5 file that is written once, by all ranks of a communicator
    * together.
    *
+   * Rank 0 makes the file and all that describes the tables, as in a program
+   * of one rank; each rank puts its rows to where the tables lie in the file
+   * (contiguously, in the processor's own number format) by itself. Without
+   * MPI-IO, no rank waits for the success of another one's writing.
+   *
    * The file gets its name when it is complete: until then it is called
    * PATH.tmp. So whatever happens, PATH is whole or absent (or, where it
    * existed before, the old one).
    *
-   * Errors (disk full, no permission) are collected, so that no rank leaves a
-   * collective call early, and are thrown by finish(). deal.II's HDF5 interface
-   * checks for them in debug mode only, and knows no 8 and 64 bit integers.
+   * Errors (disk full, no permission) are noted and are thrown by finish().
+   * deal.II's HDF5 interface checks for them in debug mode only, and knows no 8
+   * and 64 bit integers.
    */
   class Hdf5File
   {
   public:
     /// Collective.
     Hdf5File(const std::string &path, const MPI_Comm comm);
+    ~Hdf5File();
 
     Hdf5File(const Hdf5File &) = delete;
     Hdf5File &
@@ -126,7 +132,7 @@ namespace corotet
      * Writes a table of doubles that stands for those called @p source in other
      * files, one below the other (an HDF5 virtual dataset): the numbers stay
      * there. @p n_columns is the same in all of them. Costs some 30
-     * microseconds per part. Collective.
+     * microseconds per part. Of rank 0; others do nothing.
      */
     void
     write_virtual(const std::string           &name,
@@ -134,24 +140,24 @@ namespace corotet
                   const std::vector<Hdf5Part> &parts,
                   const hsize_t                n_columns);
 
-    /// Collective.
+    /// Of rank 0; others do nothing.
     void
     create_group(const std::string &name);
 
     /// Makes @p name stand for @p target of @p file, a path relative to this
-    /// file's folder. Collective.
+    /// file's folder. Of rank 0; others do nothing.
     void
     link(const std::string &name,
          const std::string &file,
          const std::string &target);
 
-    /// Attribute @p name of @p object. Collective.
+    /// Attribute @p name of @p object. Of rank 0; others do nothing.
     void
     write_number_attribute(const std::string               &object,
                            const std::string               &name,
                            const std::vector<std::int64_t> &values);
 
-    /// Collective.
+    /// Of rank 0; others do nothing.
     void
     write_text_attribute(const std::string &object,
                          const std::string &name,
@@ -167,11 +173,25 @@ namespace corotet
     bool
     check(const long long result);
 
+    /// Makes a table on rank 0. Returns where in the file it begins, in bytes;
+    /// HADDR_UNDEF if it has no place, because it is empty or there was an
+    /// error.
+    haddr_t
+    create_table(const std::string &name,
+                 const hid_t        type,
+                 const Hdf5Rows    &rows);
+
+    /// Writes bytes of this rank.
+    void
+    write_bytes(const char *data, std::size_t size, haddr_t place);
+
     std::string path;
     MPI_Comm    comm;
     bool        good = true;
-    Hdf5Id      file;
-    Hdf5Id      collective_transfer;
+    /// On rank 0 only.
+    Hdf5Id file;
+    /// Of the file, on each rank; -1 if it is not open.
+    int descriptor = -1;
   };
 } // namespace corotet
 

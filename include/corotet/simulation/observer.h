@@ -120,7 +120,8 @@ namespace corotet
   };
 
   /**
-   * Watches a run without changing it. All calls are collective.
+   * Watches a run without changing it. All calls are collective: they throw on
+   * all ranks or on none (see base/mpi.h).
    */
   class Observer
   {

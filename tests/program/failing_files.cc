@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// A library to be loaded before a program's others (LD_PRELOAD): operations on
+// chosen files fail on a chosen rank, as on a full disk or without permission.
+// The environment says which:
+// COROTET_TEST_FILES  part of the paths of these files
+// COROTET_TEST_RANK   rank in MPI_COMM_WORLD (Open MPI's number), or "all"
+// COROTET_TEST_FROM   number of the first operation that fails, from 1 on; all
+//                     later ones fail, too
+// COROTET_TEST_COUNT  file that gets the number of operations at the end
+// Operations are: opening, writing, changing the size, closing what was
+// written, renaming, making a folder.
+
+#ifndef _GNU_SOURCE
+#  define _GNU_SOURCE
+#endif
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace
+{
+  constexpr int    max_descriptors = 1024;
+  std::atomic_bool is_watched[max_descriptors];
+  std::atomic_long n_operations;
+
+  const char *
+  setting(const char *name)
+  {
+    const char *value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  }
+
+  bool
+  is_chosen_rank()
+  {
+    static const bool chosen =
+      std::strcmp(setting("COROTET_TEST_RANK"), "all") == 0 ||
+      std::strcmp(setting("COROTET_TEST_RANK"),
+                  setting("OMPI_COMM_WORLD_RANK")) == 0;
+    return chosen;
+  }
+
+  bool
+  is_chosen(const char *path)
+  {
+    const char *part = setting("COROTET_TEST_FILES");
+    return is_chosen_rank() && *part != '\0' && path != nullptr &&
+           std::strstr(path, part) != nullptr;
+  }
+
+  bool
+  is_chosen(const int descriptor)
+  {
+    return descriptor >= 0 && descriptor < max_descriptors &&
+           is_watched[descriptor];
+  }
+
+  // Counts an operation; whether it has to fail, then with this error.
+  bool
+  fails(const int error)
+  {
+    static const long from = std::atol(setting("COROTET_TEST_FROM"));
+    if (++n_operations < from)
+      return false;
+    errno = error;
+    return true;
+  }
+
+  template <typename Function>
+  Function *
+  original(Function *, const char *name)
+  {
+    return reinterpret_cast<Function *>(dlsym(RTLD_NEXT, name));
+  }
+
+  void
+  watch(const int descriptor)
+  {
+    if (descriptor >= 0 && descriptor < max_descriptors)
+      is_watched[descriptor] = true;
+  }
+
+  struct Counter
+  {
+    ~Counter()
+    {
+      const char *path = setting("COROTET_TEST_COUNT");
+      // Of all ranks, rank 0 has the most.
+      const char *rank = setting("OMPI_COMM_WORLD_RANK");
+      if (*path == '\0' || !is_chosen_rank() ||
+          (std::strcmp(setting("COROTET_TEST_RANK"), "all") == 0 &&
+           *rank != '\0' && std::strcmp(rank, "0") != 0))
+        return;
+      if (std::FILE *file = std::fopen(path, "w"))
+        {
+          std::fprintf(file, "%ld\n", n_operations.load());
+          std::fclose(file);
+        }
+    }
+  } counter;
+} // namespace
+
+extern "C"
+{
+#define COROTET_OPEN(NAME)                                       \
+  int NAME(const char *path, int flags, ...)                     \
+  {                                                              \
+    std::va_list arguments;                                      \
+    va_start(arguments, flags);                                  \
+    const mode_t mode = va_arg(arguments, mode_t);               \
+    va_end(arguments);                                           \
+    const bool chosen = is_chosen(path);                         \
+    if (chosen && fails(EACCES))                                 \
+      return -1;                                                 \
+    const int result = original(NAME, #NAME)(path, flags, mode); \
+    if (chosen)                                                  \
+      watch(result);                                             \
+    return result;                                               \
+  }
+  COROTET_OPEN(open)
+  COROTET_OPEN(open64)
+
+#define COROTET_FOPEN(NAME)                                      \
+  std::FILE *NAME(const char *path, const char *mode)            \
+  {                                                              \
+    const bool chosen = is_chosen(path);                         \
+    if (chosen && fails(EACCES))                                 \
+      return nullptr;                                            \
+    std::FILE *const result = original(NAME, #NAME)(path, mode); \
+    if (chosen && result != nullptr)                             \
+      watch(fileno(result));                                     \
+    return result;                                               \
+  }
+  COROTET_FOPEN(fopen)
+  COROTET_FOPEN(fopen64)
+
+  ssize_t
+  write(int descriptor, const void *data, size_t size)
+  {
+    if (is_chosen(descriptor) && fails(ENOSPC))
+      return -1;
+    return original(write, "write")(descriptor, data, size);
+  }
+
+  ssize_t
+  writev(int descriptor, const iovec *data, int n)
+  {
+    if (is_chosen(descriptor) && fails(ENOSPC))
+      return -1;
+    return original(writev, "writev")(descriptor, data, n);
+  }
+
+#define COROTET_PWRITE(NAME)                                               \
+  ssize_t NAME(int descriptor, const void *data, size_t size, off_t place) \
+  {                                                                        \
+    if (is_chosen(descriptor) && fails(ENOSPC))                            \
+      return -1;                                                           \
+    return original(NAME, #NAME)(descriptor, data, size, place);           \
+  }
+  COROTET_PWRITE(pwrite)
+  COROTET_PWRITE(pwrite64)
+
+#define COROTET_FTRUNCATE(NAME)                     \
+  int NAME(int descriptor, off_t size) noexcept     \
+  {                                                 \
+    if (is_chosen(descriptor) && fails(ENOSPC))     \
+      return -1;                                    \
+    return original(NAME, #NAME)(descriptor, size); \
+  }
+  COROTET_FTRUNCATE(ftruncate)
+  COROTET_FTRUNCATE(ftruncate64)
+
+  // It is closed all the same.
+  int
+  close(int descriptor)
+  {
+    const bool chosen = is_chosen(descriptor);
+    if (chosen)
+      is_watched[descriptor] = false;
+    const int result = original(close, "close")(descriptor);
+    return chosen && fails(ENOSPC) ? -1 : result;
+  }
+
+  int
+  fclose(std::FILE *file)
+  {
+    const int  descriptor = fileno(file);
+    const bool chosen     = is_chosen(descriptor);
+    if (chosen)
+      is_watched[descriptor] = false;
+    const int result = original(fclose, "fclose")(file);
+    return chosen && fails(ENOSPC) ? EOF : result;
+  }
+
+  int
+  rename(const char *from, const char *to) noexcept
+  {
+    if (is_chosen(to) && fails(EACCES))
+      return -1;
+    return original(rename, "rename")(from, to);
+  }
+
+  int
+  mkdir(const char *path, mode_t mode) noexcept
+  {
+    if (is_chosen(path) && fails(EACCES))
+      return -1;
+    return original(mkdir, "mkdir")(path, mode);
+  }
+}

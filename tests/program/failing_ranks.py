@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Whatever fails on one rank, or on all: the program ends, says so once, and its exit status is right.
+
+failing_files.cc lets the n-th operation on files and all later ones fail, on a chosen rank, as on a disk that is full from then on.
+Hanging is failing: each run has a minute.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+from support import ROOT, ProgramTest, launcher, read_summary
+
+# Two steps of a beam with all kinds of results; the factorisation is on rank 0.
+SETTINGS = ("Mesh/box/Cells = 6, 1, 1", "Discretization/Degree = 2", "Time integration/End time = 0.02", "Output/Stress = both",
+            "Linear solver/Type = p-multigrid")
+STUDY = ("Discretization/Degree = 1", "Time integration/End time = 0.01", "Mesh/box/Cells = 2, 1, 1", "Type = convergence study",
+         "Convergence study/Degrees = 1", "Convergence study/Refinements = 0, 1", "Convergence study/Quantities = tip_z",
+         "Convergence study/Reference = none", "Convergence study/Pictures = false")
+# Words of mpirun may stand before it in the same line.
+MESSAGE = re.compile("corotet: error: (.*)")
+
+
+class FailingRanks(ProgramTest):
+
+    def start(self, command, ranks, **environment):
+        """Exit status and messages of a run."""
+        variables = [f"{name}={value}" for name, value in environment.items()]
+        run = subprocess.run([*launcher(ranks), "env", *variables, *map(str, command)], cwd=self.folder, capture_output=True, text=True,
+                             timeout=60, check=False)
+        return run.returncode, MESSAGE.findall(run.stderr), run.stderr
+
+    def check(self, run, status, text=""):
+        self.assertEqual((run[0], len(run[1])), (status, 1), run[2])
+        self.assertIn(text, run[1][0])
+
+    def test_exceptions_on_some_ranks_only(self):
+        # They are bugs; where all ranks throw, rank 0 speaks for all.
+        kinds = {"input": (1, "Section/Entry: of rank {}"), "computation": (2, "of rank {}"), "machine": (3, "of rank {}"),
+                 "memory": (3, "memory is too short"), "bug": (3, "internal: of rank {}"), "number": (3, "internal: ")}
+        for kind, ranks, rank in (("machine", 2, 0), ("machine", 2, 1), ("machine", 2, "all"), ("machine", 3, 2), ("input", 2, 1),
+                                  ("computation", 3, 0), ("memory", 2, 1), ("bug", 2, 1), ("bug", 3, "all"), ("number", 2, 0)):
+            with self.subTest(kind=kind, ranks=ranks, rank=rank):
+                run = self.start([os.environ["COROTET_LONELY_ERROR"], rank, kind], ranks)
+                status, text = kinds[kind]
+                self.check(run, status, text.format(0 if rank == "all" else rank))
+
+    def fail_everywhere(self, settings, ranks, rank, n_runs):
+        """The first failure at each of @p n_runs operations, evenly from the first to the last."""
+        preload = {"LD_PRELOAD": os.environ["COROTET_FAILING_FILES"], "COROTET_TEST_RANK": rank, "COROTET_TEST_FILES": "/results",
+                   "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        directory = self.folder / "results"
+        overrides = [word for setting in settings for word in ("--set", setting)]
+        command = [os.environ["COROTET_PROGRAM"], ROOT / "parameters" / "cantilever.prm", *overrides, "--output", directory, "--quiet"]
+        count = self.folder / "count"
+        shutil.rmtree(directory, ignore_errors=True)
+        run = self.start(command, ranks, COROTET_TEST_FROM=10**6, COROTET_TEST_COUNT=count, **preload)
+        self.assertEqual(run[0], 0, run[2])
+        n = int(count.read_text(encoding="utf-8"))
+        self.assertGreater(n, 10)
+        for first in sorted({1 + (n - 1) * i // (n_runs - 1) for i in range(n_runs)}):
+            with self.subTest(ranks=ranks, rank=rank, first=first, of=n):
+                shutil.rmtree(directory, ignore_errors=True)
+                run = self.start(command, ranks, COROTET_TEST_FROM=first, **preload)
+                # The last lines of the log may be lost when all results are there.
+                if run[0] == 0:
+                    self.assertGreater(first, 0.9 * n)
+                    self.assertEqual(read_summary(directory)["status"], "done")
+                else:
+                    self.check(run, 3)
+
+    def test_operations_on_files(self):
+        for ranks, rank in ((1, "all"), (2, 0), (2, 1), (2, "all"), (3, 1)):
+            self.fail_everywhere(SETTINGS, ranks, rank, 7)
+
+    def test_operations_on_files_of_a_study(self):
+        for ranks, rank in ((2, 0), (2, "all")):
+            self.fail_everywhere(STUDY, ranks, rank, 5)
+
+    def test_files_that_cannot_be_read(self):
+        # Rank 0 reads for all: that others cannot does not matter.
+        (self.folder / "table.csv").write_text("0, 0\n1, 1\n", encoding="utf-8")
+        (self.folder / "case.prm").write_text("subsection Tables\n  set Linear = f: table.csv\nend\n", encoding="utf-8")
+        program = [os.environ["COROTET_PROGRAM"], "case.prm", "--validate", "--quiet"]
+        for file, status in (("case.prm", 1), ("table.csv", 3)):
+            for ranks, rank, expected in ((2, 0, status), (2, 1, 0), (2, "all", status), (3, 2, 0)):
+                with self.subTest(file=file, ranks=ranks, rank=rank):
+                    run = self.start(program, ranks, LD_PRELOAD=os.environ["COROTET_FAILING_FILES"], COROTET_TEST_RANK=rank,
+                                     COROTET_TEST_FILES=file, COROTET_TEST_FROM=1, ASAN_OPTIONS="verify_asan_link_order=0")
+                    if expected == 0:
+                        self.assertEqual(run[:2], (0, []), run[2])
+                    else:
+                        self.check(run, expected, file + ": ")
+
+
+if __name__ == "__main__":
+    unittest.main()
