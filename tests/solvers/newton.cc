@@ -248,7 +248,7 @@ TEST(Newton, RoundOffOfIncrementIsTheEnd)
   };
   // With a residual that never falls below 1e-3.
   Coarse             root([](double x) { return x * x - 2 + (x < 1.5 ? 1e-3 : 0.); },
-              [](double x) { return 1e4 * x; },
+              [](double x) { return 1e5 * x; },
               1.4);
   const NewtonReport report = solve(root);
   EXPECT_EQ(report.iterations, 1u);
