@@ -29,7 +29,7 @@ namespace corotet
     constexpr unsigned int block_size = 2;
 
     // Vectors of the basis beyond those sought. Fewer take more solves.
-    constexpr unsigned int n_extra_vectors = 30;
+    constexpr unsigned int n_extra_vectors = 50;
 
     // Pairs sought beyond those wanted: a search is slow if the first one that
     // it does without is next to the last one that it must find.

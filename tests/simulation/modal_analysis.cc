@@ -232,18 +232,18 @@ TEST(ModalAnalysis, SaysThatAGroupIsCut)
 }
 
 // Frequencies are those of the body, whatever the shift: exact to the square of
-// the tolerance, or round-off. One that is far too large is refused: with it all
-// vectors would pass for modes.
+// the tolerance, or round-off. One that is far too large is refused: with it
+// all vectors would pass for modes.
 TEST(ModalAnalysis, Shift)
 {
   const auto text = [](const double shift) {
-    return box_body(
-      "1, 0.3, 0.2",
-      "5, 2, 1",
-      2,
-      0.3,
-      9,
-      fmt::format("subsection Modes\n set Shift = {:.17g}\nend\n", shift));
+    return box_body("1, 0.3, 0.2",
+                    "5, 2, 1",
+                    2,
+                    0.3,
+                    9,
+                    fmt::format("subsection Modes\n set Shift = {:.17g}\nend\n",
+                                shift));
   };
   const Analysis reference(text(0));
   const double   lowest = reference.mode(7).eigenvalue;
@@ -277,13 +277,13 @@ TEST(ModalAnalysis, SignsDoNotDependOnRanks)
 {
   const auto products = [](const std::string &fixed, const MPI_Comm comm) {
     Parameters    parameters(box_body("1, 0.3, 0.2",
-                                      "6, 2, 2",
-                                      2,
-                                      0.3,
-                                      12,
-                                      "subsection Boundary conditions\n"
-                                         " set Fixed = " +
-                                        fixed + "\nend\n"));
+                                   "6, 2, 2",
+                                   2,
+                                   0.3,
+                                   12,
+                                   "subsection Boundary conditions\n"
+                                      " set Fixed = " +
+                                     fixed + "\nend\n"));
     Log           log(comm, true);
     ModalAnalysis analysis(parameters, "", comm, log);
     analysis.compute();

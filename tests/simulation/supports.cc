@@ -133,14 +133,16 @@ TEST(Supports, SeveralParts)
   EXPECT_EQ(found(vertex, "x-min"),
             "the part at (1.5, 1.5, 1.5) of region 'second' can rotate about "
             "any axis through (1, 1, 1)");
-  EXPECT_EQ(found(vertex, "x-min", "second x-max & second z-max: 0; free; 0"),
+  EXPECT_EQ(found(vertex,
+                  "x-min",
+                  "second x-max & second y-min & second z-max: 0; 0; 0"),
             "the part at (1.5, 1.5, 1.5) of region 'second' can rotate about "
             "the axis through (1.5, 1, 1.5) along (0.7071, 0, 0.7071)");
 }
 
-// Numbers of a body with the radius 2: a screw whose rotation by a radian, which
-// moves what is at that distance by 2 m, comes with a translation of 1 m; and
-// directions that are none of the axes.
+// Numbers of a body with the radius 2: a screw whose rotation by a radian,
+// which moves what is at that distance by 2 m, comes with a translation of 1 m;
+// and directions that are none of the axes.
 TEST(Supports, Words)
 {
   const dealii::Point<3> centre(1, 0, 0);
@@ -172,7 +174,7 @@ TEST(Supports, AreNeededInStatics)
   EXPECT_EQ(refused("static"),
             "Boundary conditions/Fixed: statics needs a body that cannot move "
             "without strain; found: the body can rotate about the axis through "
-            "(0, 0.5, 0) along y; allowed: Fixed and Displacement such that "
+            "(0, 0.05, 0) along y; allowed: Fixed and Displacement such that "
             "nothing of this is left, or another Time integration/Type");
   EXPECT_EQ(refused("Newmark"), "nothing was refused");
 }
@@ -182,7 +184,7 @@ TEST(Supports, SingularMatrixEndsStatics)
 {
   for (const std::string law : {"linear", "corotational"})
     {
-      Body body(box("1, 1, 1", "2, 2, 2"), R"(
+      Body        body(box("1, 1, 1", "2, 2, 2"), R"(
         subsection Boundary conditions
           set Traction = x-max: 1; 0; 0
         end
@@ -193,7 +195,7 @@ TEST(Supports, SingularMatrixEndsStatics)
           set Type             = static
           set Maximum halvings = 8
         end)");
-      Stepper stepper(body.parameters,
+      Stepper     stepper(body.parameters,
                       body.discretization,
                       body.system,
                       body.log);

@@ -41,10 +41,10 @@ namespace
                                         {60, 80, -20}};
 
   std::string
-  body(const Units        &units,
-       const unsigned int  degree,
-       const std::string  &law,
-       const std::string  &coarse_solver)
+  body(const Units       &units,
+       const unsigned int degree,
+       const std::string &law,
+       const std::string &coarse_solver)
   {
     const double metre  = std::ldexp(1., units.length);
     const double pascal = std::ldexp(1., units.modulus);
@@ -93,11 +93,10 @@ namespace
     CompleteRun run(text);
     EXPECT_EQ(run.run(), "");
     std::vector<double> result;
-    for (unsigned int i = 0;
-         i < run.simulation.state().u.locally_owned_size();
+    for (unsigned int i = 0; i < run.simulation.state().u.locally_owned_size();
          ++i)
-      result.push_back(std::ldexp(run.simulation.state().u.local_element(i),
-                                  -units.length));
+      result.push_back(
+        std::ldexp(run.simulation.state().u.local_element(i), -units.length));
     return result;
   }
 
@@ -174,7 +173,7 @@ TEST(Units, Modes)
     for (const std::string coarse_solver : {"direct", "aggregation"})
       {
         const auto found = [&](const Units &units) {
-          const Analysis      computed(body(units, degree, "linear", coarse_solver) +
+          const Analysis computed(body(units, degree, "linear", coarse_solver) +
                                   "subsection Modes\n set Number = 4\nend\n");
           std::vector<double> result;
           for (const Mode &mode : computed.analysis.modes())

@@ -12,16 +12,17 @@
 using namespace corotet;
 
 // That of n masses between n + 1 springs of the same stiffness k, K = k tridiag
-// (-1, 2, -1): 2 k (1 - cos(n pi / (n + 1))), with entries sin(n j pi / (n + 1))
-// of the eigenvector, whose norm is sqrt((n + 1) / 2). LAPACK is asked for 1e-6
-// of the sum of all entries.
+// (-1, 2, -1): 2 k (1 - cos(n pi / (n + 1))), with entries sin(n j pi / (n +
+// 1)) of the eigenvector, whose norm is sqrt((n + 1) / 2). LAPACK is asked for
+// 1e-6 of the sum of all entries.
 TEST(LargestEigenvalue, OfTridiagonal)
 {
   for (const unsigned int n : {1u, 2u, 5u, 20u})
     for (const double k : {1., 1e-3, 1e-6, 1e-12, 1e-60, 1e12, 1e60})
       {
-        const auto   pair  = largest_of_tridiagonal(std::vector<double>(n, 2 * k),
-                                                std::vector<double>(n - 1, -k));
+        const auto pair =
+          largest_of_tridiagonal(std::vector<double>(n, 2 * k),
+                                 std::vector<double>(n - 1, -k));
         const double angle = n * M_PI / (n + 1);
         EXPECT_NEAR(pair.first / k, 2 * (1 - std::cos(angle)), 4e-6 * n);
         EXPECT_NEAR(pair.second,

@@ -69,8 +69,7 @@ namespace corotet
     /// Finds the motions of a cluster from its equations, a row for each, which
     /// are overwritten.
     void
-    solve(const Cluster                    &cluster,
-          std::vector<std::vector<double>> &equations);
+    solve(const Cluster &cluster, std::vector<std::vector<double>> &equations);
     /// What one part can do, as independent motions.
     std::vector<Numbers>
     motions_of(const unsigned int part) const;
