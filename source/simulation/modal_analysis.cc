@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -27,11 +28,11 @@ namespace corotet
       return result;
     }
 
-    // Diagonal of the body's bounding box.
-    double
-    body_length(const Discretization &disc)
+    // Lower and upper corner, the same on any number of ranks.
+    std::pair<dealii::Point<3>, dealii::Point<3>>
+    bounding_box(const Discretization &disc)
     {
-      Tensor<1, 3> extent;
+      std::pair<dealii::Point<3>, dealii::Point<3>> box;
       for (unsigned int a = 0; a < 3; ++a)
         {
           double lower = std::numeric_limits<double>::max();
@@ -41,35 +42,40 @@ namespace corotet
               lower = std::min(lower, disc.node_position(n)[a]);
               upper = std::max(upper, disc.node_position(n)[a]);
             }
-          extent[a] = dealii::Utilities::MPI::max(upper, disc.communicator()) -
-                      dealii::Utilities::MPI::min(lower, disc.communicator());
+          box.first[a] =
+            dealii::Utilities::MPI::min(lower, disc.communicator());
+          box.second[a] =
+            dealii::Utilities::MPI::max(upper, disc.communicator());
         }
-      return extent.norm();
+      return box;
     }
 
-    // What scales x such that the largest displacement of a node is 1 and the
-    // largest component is positive.
-    double
-    scale_to_one(const Vector &x)
+    std::vector<Vector>
+    rigid_body_modes(const Discretization &disc, const RigidMotions &motions)
     {
-      double square = 0, lowest = 0, highest = 0;
+      std::vector<Vector> result(motions.size());
+      for (unsigned int k = 0; k < result.size(); ++k)
+        {
+          disc.initialize_vector(result[k]);
+          motions.evaluate(result[k], k);
+        }
+      return result;
+    }
+
+    // Largest displacement of a node.
+    double
+    largest_displacement(const Vector &x)
+    {
+      double square = 0;
       for (unsigned int i = 0; i < x.locally_owned_size(); i += 3)
         {
           double sum = 0;
           for (unsigned int a = 0; a < 3; ++a)
-            {
-              const double value = x.local_element(i + a);
-              sum += value * value;
-              lowest  = std::min(lowest, value);
-              highest = std::max(highest, value);
-            }
+            sum += x.local_element(i + a) * x.local_element(i + a);
           square = std::max(square, sum);
         }
-      const MPI_Comm comm = x.get_mpi_communicator();
-      square              = dealii::Utilities::MPI::max(square, comm);
-      lowest              = dealii::Utilities::MPI::min(lowest, comm);
-      highest             = dealii::Utilities::MPI::max(highest, comm);
-      return (-lowest > highest ? -1 : 1) / std::sqrt(square);
+      return std::sqrt(
+        dealii::Utilities::MPI::max(square, x.get_mpi_communicator()));
     }
   } // namespace
 
@@ -94,15 +100,18 @@ namespace corotet
               parameters.material.materials(mesh.regions()),
               Rotation::none)
     , motion(disc, reference, conditions, parameters.time_step)
+    , rigid_motions(disc, motion)
     , A(disc, elastic, mass, motion.is_prescribed())
     , solver(A,
              parameters.linear_solver,
              0.1 * parameters.modes.tolerance,
+             rigid_body_modes(disc, rigid_motions),
              [this](const unsigned int n_solves) {
                this->log.progress(
                  fmt::format("modes: {} linear solves", n_solves));
              })
-    , length(body_length(disc))
+    , box(bounding_box(disc))
+    , length(box.first.distance(box.second))
   {
     if (parameters.modes.number > solver.max_eigenvalues())
       throw InputError(
@@ -134,43 +143,49 @@ namespace corotet
   }
 
   void
-  ModalAnalysis::note_what_is_ignored() const
-  {
-    const LoadParameters no_loads;
-    bool                 something = !conditions.tractions.empty() ||
-                     !conditions.pressures.empty() ||
-                     parameters.loads.gravity != no_loads.gravity ||
-                     parameters.loads.body_force != no_loads.body_force ||
-                     parameters.loads.point_forces != no_loads.point_forces;
-    for (const auto &condition : conditions.displacements)
-      for (const auto &component : condition.components)
-        something = something || (component && !component->is_zero());
-    if (something)
-      log.line("Modes are those of the body at rest: loads are left out, and "
-               "prescribed displacements count as zero");
-  }
-
-  void
   ModalAnalysis::compute()
   {
     ScopedTimer timer(wall_times.solve);
     parameters.linear_solver.limit_tolerance(0.01 * parameters.modes.tolerance);
-    shift =
-      parameters.modes.shift > 0 ? parameters.modes.shift : estimated_shift();
+    choose_shift();
     const Eigenpairs pairs = solver.solve(parameters.modes.number, shift);
+    if (pairs.values.size() > rigid_motions.size())
+      lowest = pairs.values[rigid_motions.size()];
+    if (!rigid_motions.is_complete())
+      lowest = std::max(lowest, shift);
     for (const Vector &x : pairs.vectors)
       computed.push_back(make_mode(x));
-    std::stable_sort(computed.begin(),
-                     computed.end(),
-                     [](const Mode &a, const Mode &b) {
-                       return a.eigenvalue < b.eigenvalue;
-                     });
+    std::stable_sort(
+      computed.begin() +
+        std::min<std::size_t>(rigid_motions.size(), computed.size()),
+      computed.end(),
+      [](const Mode &a, const Mode &b) { return a.eigenvalue < b.eigenvalue; });
     // Ghost entries have not come along.
     for (Mode &mode : computed)
       mode.shape.update_ghost_values();
     log_table();
+    note_cut_group(pairs.values);
     for (unsigned int i = 0; i < computed.size(); ++i)
       check(computed[i], i + 1);
+  }
+
+  void
+  ModalAnalysis::choose_shift()
+  {
+    // With more, all modes that are wanted look alike to the solver: it takes
+    // ages, and in the end errors are larger than differences.
+    constexpr double most = 10;
+    lowest                = solver.lowest_eigenvalue(estimated_shift());
+    shift = parameters.modes.shift > 0 ? parameters.modes.shift : 0.01 * lowest;
+    if (!(shift <= most * lowest))
+      throw ComputationError(
+        fmt::format("Modes/Shift: found {:.6g} 1/s^2; allowed: up to {:.3g} "
+                    "1/s^2, {:.0f} times omega^2 of the lowest mode that "
+                    "deforms the body, best 1e-3 to 0.1 times (0: the "
+                    "program's choice)",
+                    shift,
+                    most * lowest,
+                    most));
   }
 
   double
@@ -178,7 +193,7 @@ namespace corotet
   {
     // (v_s / L)^2 with the slowest shear wave, times 1e-4: the lowest frequency
     // of a compact body is about v_s / L, that of one as slender as 1:100 a
-    // hundredth of it. Much less would make the systems all but singular.
+    // hundredth of it. Enough for a first look.
     double square = std::numeric_limits<double>::max();
     for (const auto &[region, material] :
          parameters.material.materials(mesh.regions()))
@@ -192,7 +207,7 @@ namespace corotet
     Mode mode;
     disc.initialize_vector(mode.shape);
     mode.shape.copy_locally_owned_data_from(x);
-    mode.shape *= 0.01 * length * scale_to_one(x);
+    mode.shape *= sign(x) * 0.01 * length / largest_displacement(x);
     Vector f(x), g(x), r(x);
     solver.apply(f, g, mode.shape);
     mode.modal_mass = mode.shape * g;
@@ -205,7 +220,7 @@ namespace corotet
 
     r = f;
     r.add(-mode.eigenvalue, g);
-    const double unit = std::max(mode.eigenvalue, shift) * norm(g);
+    const double unit = std::max(mode.eigenvalue, lowest) * norm(g);
     mode.residual     = norm(r) / unit;
     // The bound for a sum of n terms, n epsilon times the sum of their sizes:
     // row i has at most some three hundred, which are together some three times
@@ -229,6 +244,40 @@ namespace corotet
     return mode;
   }
 
+  double
+  ModalAnalysis::sign(const Vector &x) const
+  {
+    // Products with waves of directions and phases that no body is symmetric
+    // to. That one counts which is farthest from zero: whichever of two that
+    // are alike it is would be chance, but that they are alike is, too.
+    constexpr unsigned int      n_waves = 8;
+    std::array<double, n_waves> products{};
+    for (unsigned int n = 0; n < disc.n_owned_nodes(); ++n)
+      {
+        const Tensor<1, 3> r = (disc.node_position(n) - box.first) / length;
+        for (unsigned int a = 0; a < 3; ++a)
+          {
+            const double weight = mass.diagonal().local_element(3 * n + a) *
+                                  x.local_element(3 * n + a);
+            const double phase = std::sqrt(2.) * r[a] +
+                                 std::sqrt(3.) * r[(a + 1) % 3] +
+                                 std::sqrt(5.) * r[(a + 2) % 3];
+            for (unsigned int k = 0; k < n_waves; ++k)
+              products[k] +=
+                weight * std::sin((k + 1) * phase + 0.7 * (a + 1) + 1.1 * k);
+          }
+      }
+    double largest = 0;
+    for (const double product : products)
+      {
+        const double sum =
+          dealii::Utilities::MPI::sum(product, disc.communicator());
+        if (std::abs(sum) > std::abs(largest))
+          largest = sum;
+      }
+    return largest < 0 ? -1. : 1.;
+  }
+
   void
   ModalAnalysis::check(const Mode &mode, const unsigned int number) const
   {
@@ -241,30 +290,6 @@ namespace corotet
                     mode.frequency,
                     mode.residual,
                     allowed));
-  }
-
-  void
-  ModalAnalysis::log_table() const
-  {
-    log.line(fmt::format("Modes: {} linear solves with {} iterations, shift "
-                         "{:.3g} 1/s^2",
-                         solver.n_linear_solves(),
-                         solver.n_linear_iterations(),
-                         shift));
-    log.line(fmt::format("  {:>4} {:>14} {:>9}   {}",
-                         "mode",
-                         "frequency [Hz]",
-                         "residual",
-                         "effective mass in x, y, z [%]"));
-    for (unsigned int i = 0; i < computed.size(); ++i)
-      log.line(
-        fmt::format("  {:>4} {:>14.7g} {:>9.2g}   {:>6.2f} {:>6.2f} {:>6.2f}",
-                    i + 1,
-                    computed[i].frequency,
-                    computed[i].residual,
-                    100 * computed[i].effective_mass[0] / mass.total(),
-                    100 * computed[i].effective_mass[1] / mass.total(),
-                    100 * computed[i].effective_mass[2] / mass.total()));
   }
 
   RunSummary

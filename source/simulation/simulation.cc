@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/discretization/rigid_motions.h>
 #include <corotet/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -32,7 +33,23 @@ namespace corotet
       dealii::Utilities::MPI::n_mpi_processes(comm),
       dealii::Utilities::MPI::n_mpi_processes(comm) == 1 ? "" : "s"));
     log.line(fmt::format("Body: {:.6g} kg", system.mass().total()));
+    if (!parameters.time_integrator.selected().is_dynamic())
+      check_supports();
     wall_times.setup = seconds();
+  }
+
+  void
+  Simulation::check_supports() const
+  {
+    const std::string motions =
+      RigidMotions(disc, system.prescribed_motion()).description();
+    if (!motions.empty())
+      throw InputError("Boundary conditions/Fixed",
+                       fmt::format("statics needs a body that cannot move "
+                                   "without strain; found: {}; allowed: Fixed "
+                                   "and Displacement such that nothing of this "
+                                   "is left, or another Time integration/Type",
+                                   motions));
   }
 
   void

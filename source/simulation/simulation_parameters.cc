@@ -40,15 +40,16 @@ namespace corotet
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Largest residual |K phi - omega^2 M phi| of a mode, "
-                      "relative to |omega^2 M phi| (rigid body modes: to "
-                      "|shift M phi|) [-]. Frequencies are about as accurate "
-                      "as its square.",
+                      "relative to |omega^2 M phi| (rigid body modes: with "
+                      "the lowest omega that is not zero) [-]. Frequencies are "
+                      "about as accurate as its square.",
                       Double(1e-12, 0.1));
     prm.add_parameter("Shift",
                       shift,
                       "s > 0 in K + s M [1/s^2], the matrix that is solved "
                       "with; best somewhat smaller than omega^2 of the lowest "
-                      "mode that deforms the body. 0: estimated.",
+                      "mode that deforms the body, at most 10 times that. 0: a "
+                      "hundredth of it, after a first look.",
                       Double(0));
   }
 

@@ -300,19 +300,18 @@ namespace corotet
       }
     catch (const ComputationError &error)
       {
-        present = good_state;
-        if (halvings == 0)
+        const bool is_final = is_singular_for_good(error);
+        present             = good_state;
+        if (halvings == 0 || is_final)
           {
-            if (parameters.max_halvings == 0)
+            if (parameters.max_halvings == 0 || is_final)
               throw;
             throw ComputationError(
               fmt::format("{}; the step has been halved {} times",
                           error.what(),
                           parameters.max_halvings));
           }
-        log.line(fmt::format("t = {:.6g}: {}; trying half the step",
-                             time(to),
-                             error.what()));
+        announce_half(to, error);
       }
     if (is_made)
       return complete(record);
@@ -352,9 +351,7 @@ namespace corotet
                 present = good_state;
                 throw;
               }
-            log.line(fmt::format("t = {:.6g}: {}; trying half the step",
-                                 time(to),
-                                 error.what()));
+            announce_half(to, error);
           }
         present = good_state;
       }

@@ -3,10 +3,12 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/solvers/cholmod_factor.h>
+#include <corotet/solvers/scaling.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -217,21 +219,35 @@ namespace corotet
 
   template <typename Number>
   void
-  CholmodFactor::solve(Number *dst, const Number *src)
+  CholmodFactor::solve(Number *dst, const Number *src, const double factor)
   {
-    if (is_single())
-      std::copy_n(src, n_rows, static_cast<float *>(rhs->x));
-    else
-      std::copy_n(src, n_rows, static_cast<double *>(rhs->x));
+    if (!is_single())
+      {
+        std::copy_n(src, n_rows, static_cast<double *>(rhs->x));
+        solve_rhs();
+        const double *x = static_cast<const double *>(solution->x);
+        for (int i = 0; i < n_rows; ++i)
+          dst[i] = factor * x[i];
+        return;
+      }
+    // Right-hand sides of any size become ones of size one, which no product
+    // takes out of the range of float.
+    double largest = 0;
+    for (int i = 0; i < n_rows; ++i)
+      largest = std::max(largest, std::abs(static_cast<double>(src[i])));
+    const double unit = power_of_two(largest), inverse = 1 / unit;
+    float       *b = static_cast<float *>(rhs->x);
+    for (int i = 0; i < n_rows; ++i)
+      b[i] = inverse * src[i];
     solve_rhs();
-    if (is_single())
-      std::copy_n(static_cast<const float *>(solution->x), n_rows, dst);
-    else
-      std::copy_n(static_cast<const double *>(solution->x), n_rows, dst);
+    const float *x    = static_cast<const float *>(solution->x);
+    const double back = factor * unit;
+    for (int i = 0; i < n_rows; ++i)
+      dst[i] = back * x[i];
   }
 
   template void
-  CholmodFactor::solve(float *, const float *);
+  CholmodFactor::solve(float *, const float *, const double);
   template void
-  CholmodFactor::solve(double *, const double *);
+  CholmodFactor::solve(double *, const double *, const double);
 } // namespace corotet

@@ -29,7 +29,11 @@ namespace corotet
     constexpr unsigned int block_size = 2;
 
     // Vectors of the basis beyond those sought. Fewer take more solves.
-    constexpr unsigned int n_extra_vectors = 30;
+    constexpr unsigned int n_extra_vectors = 50;
+
+    // Pairs sought beyond those wanted: a search is slow if the first one that
+    // it does without is next to the last one that it must find.
+    constexpr unsigned int n_extra_pairs = 6;
 
     // Applies f to a Vector made of each column of X, and puts the result into
     // that of Y. Columns have the unknowns that are free.
@@ -106,11 +110,13 @@ namespace corotet
     EffectiveOperator                       &A,
     LinearSolver                            &linear_solver,
     const double                             tolerance,
+    std::vector<Vector>                      null_space,
     const std::function<void(unsigned int)> &progress)
     : A(A)
     , linear_solver(linear_solver)
     , tolerance(tolerance)
     , progress(progress)
+    , null_space(std::move(null_space))
     , generator(1 + dealii::Utilities::MPI::this_mpi_process(
                       A.discretization().communicator()))
   {
@@ -123,6 +129,54 @@ namespace corotet
       dealii::Utilities::MPI::sum(static_cast<dealii::types::global_dof_index>(
                                     free.size()),
                                   A.discretization().communicator());
+    make_orthonormal();
+  }
+
+  void
+  EigenvalueSolver::make_orthonormal()
+  {
+    // Gram and Schmidt, twice each: what the first time leaves is round-off of
+    // vectors that were far from orthogonal.
+    Vector Mx(right_side);
+    for (Vector &x : null_space)
+      {
+        for (unsigned int round = 0; round < 2; ++round)
+          {
+            remove_null_space(x);
+            copy_with_ghosts(ghosted, x);
+            A.mass().apply(Mx, ghosted);
+            set_zero(Mx);
+            const double factor = 1 / std::sqrt(x * Mx);
+            x *= factor;
+            Mx *= factor;
+          }
+        M_null_space.push_back(Mx);
+      }
+  }
+
+  void
+  EigenvalueSolver::remove_null_space(Vector &x) const
+  {
+    for (unsigned int k = 0; k < M_null_space.size(); ++k)
+      x.add(-(x * M_null_space[k]), null_space[k]);
+  }
+
+  double
+  EigenvalueSolver::lowest_eigenvalue(const double shift)
+  {
+    A.update(1., shift);
+    Vector                                 x(right_side), f(x), g(x);
+    std::uniform_real_distribution<double> random(-1, 1);
+    x = 0;
+    for (const unsigned int i : free)
+      x.local_element(i) = random(generator);
+    for (unsigned int step = 0; step < 3; ++step)
+      {
+        apply_inverse(x);
+        remove_null_space(x);
+      }
+    apply(f, g, x);
+    return (x * f) / (x * g);
   }
 
   void
@@ -182,20 +236,25 @@ namespace corotet
     // survive at a restart. Rayleigh-Ritz makes up for it.
     problem.setHermitian(false);
     problem.setNEV(n);
-    if (!others.vectors.empty())
+    std::vector<const Vector *> known;
+    for (const Vector &x : null_space)
+      known.push_back(&x);
+    for (const Vector &x : others.vectors)
+      known.push_back(&x);
+    if (!known.empty())
       {
-        const auto known =
-          rcp(new Anasazi::EpetraMultiVec(map, others.vectors.size()));
-        for (unsigned int j = 0; j < others.vectors.size(); ++j)
+        const auto columns =
+          rcp(new Anasazi::EpetraMultiVec(map, known.size()));
+        for (unsigned int j = 0; j < known.size(); ++j)
           for (unsigned int i = 0; i < free.size(); ++i)
-            (*known)[j][i] = others.vectors[j].local_element(free[i]);
-        problem.setAuxVecs(known);
+            (*columns)[j][i] = known[j]->local_element(free[i]);
+        problem.setAuxVecs(columns);
       }
     problem.setProblem();
 
     // The basis must not fill the space, where there is no next vector.
     const unsigned int n_basis = std::min<dealii::types::global_dof_index>(
-      n + std::max(n, n_extra_vectors), (n_free - others.vectors.size()) / 2);
+      n + std::max(n, n_extra_vectors), (n_free - known.size()) / 2);
     Teuchos::ParameterList list;
     list.set("Which", "LM");
     list.set("Block Size", static_cast<int>(block_size));
@@ -264,35 +323,36 @@ namespace corotet
   {
     // What is left in the vectors that is of other modes is damped, most of all
     // that of high frequency, which residuals of K amplify.
-    Vector r(right_side), dx(right_side);
-    for (Vector &x : pairs.vectors)
+    for (unsigned int j = 0; j < n; ++j)
       {
-        apply_inverse(x);
-        // And the residual that the solver has not seen: A is nearly singular
-        // if there are rigid body modes, so round-off in its iterations is
-        // larger than that of A x.
-        A.vmult(r, x);
-        r.sadd(-1., right_side);
-        n_iterations +=
-          linear_solver.solve(A, dx, r, A.discretization().node_positions());
-        progress(++n_solves);
-        x += dx;
+        apply_inverse(pairs.vectors[j]);
+        remove_null_space(pairs.vectors[j]);
       }
     rayleigh_ritz(pairs);
-    pairs.values.resize(n);
-    pairs.vectors.resize(n);
   }
 
   Eigenpairs
-  EigenvalueSolver::solve(const unsigned int n, const double shift)
+  EigenvalueSolver::solve(const unsigned int n_wanted, const double shift)
   {
+    Eigenpairs         result;
+    const unsigned int n_null =
+      std::min<std::size_t>(n_wanted, null_space.size());
+    result.vectors.assign(null_space.begin(), null_space.begin() + n_null);
+    result.values.assign(n_null, 0.);
+    if (n_null == n_wanted)
+      return result;
+
     A.update(1., shift);
-    Eigenpairs pairs = search(n, shift, tolerance, {});
+    const unsigned int n = n_wanted - n_null;
+    const unsigned int n_sought =
+      n + std::min(n_extra_pairs, max_eigenvalues() - n_wanted);
+    Eigenpairs pairs = search(n_sought, shift, tolerance, {});
     refine(pairs, n);
     // What a search finds is too large, if at all, by the square of its
     // tolerance.
     unsigned int n_missing = 0;
-    while (search(1, shift, 1e-3, pairs).values[0] + shift <
+    double       next      = 0;
+    while ((next = search(1, shift, 1e-3, pairs).values[0]) + shift <
            (1 - 1e-6) * (pairs.values[n - 1] + shift))
       {
         if (++n_missing > n)
@@ -300,12 +360,18 @@ namespace corotet
             fmt::format("the eigenvalue solver finds more and more modes below "
                         "the lowest {}; the linear solver may not be accurate "
                         "enough",
-                        n));
+                        n_wanted));
         Eigenpairs missing = search(1, shift, tolerance, pairs);
         pairs.vectors.push_back(missing.vectors[0]);
         pairs.values.push_back(missing.values[0]);
-        refine(pairs, n);
+        refine(pairs, pairs.vectors.size());
       }
-    return pairs;
+    pairs.values.push_back(next);
+    result.values.insert(result.values.end(),
+                         pairs.values.begin(),
+                         pairs.values.end());
+    for (unsigned int j = 0; j < n; ++j)
+      result.vectors.push_back(std::move(pairs.vectors[j]));
+    return result;
   }
 } // namespace corotet

@@ -8,6 +8,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corotet
@@ -16,17 +17,25 @@ namespace corotet
   largest_of_tridiagonal(const std::vector<double> &diagonal,
                          const std::vector<double> &beside)
   {
+    // LAPACK's tolerances have units: they are given a matrix of size one.
+    double size = 0;
+    for (const auto *entries : {&diagonal, &beside})
+      for (const double entry : *entries)
+        size = std::max(size, std::abs(entry));
+    if (size == 0)
+      return {0., 1.};
+
     const unsigned int               n = diagonal.size();
     dealii::LAPACKFullMatrix<double> T(n);
     double                           norm = 0;
     for (unsigned int k = 0; k < n; ++k)
       {
-        T(k, k) = diagonal[k];
-        norm += std::abs(diagonal[k]);
+        T(k, k) = diagonal[k] / size;
+        norm += std::abs(T(k, k));
         if (k + 1 < n)
           {
-            T(k, k + 1) = T(k + 1, k) = beside[k];
-            norm += 2 * beside[k];
+            T(k, k + 1) = T(k + 1, k) = beside[k] / size;
+            norm += 2 * std::abs(T(k, k + 1));
           }
       }
     dealii::Vector<double>     eigenvalues;
@@ -34,7 +43,7 @@ namespace corotet
     T.compute_eigenvalues_symmetric(
       -norm, norm, 1e-6 * norm, eigenvalues, eigenvectors);
     // In ascending order.
-    return {eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
+    return {size * eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
   }
 
   double

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/solvers/scaling.h>
 #include <corotet/solvers/smoothed_aggregation.h>
 
 #include <deal.II/base/exceptions.h>
@@ -94,6 +95,7 @@ namespace corotet
         for (auto *vector : {&solution, &direction})
           vector->resize(3 * ghosts.n_items());
       }
+    unit = unit_of(A);
     copy_matrix(A);
     if (is_new)
       set_up_pattern();
@@ -121,7 +123,7 @@ namespace corotet
           for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b)
               {
-                const double value = rows[a][3 * k + b];
+                const double value = rows[a][3 * k + b] / unit;
                 block[3 * b + a]   = value;
                 row_sums[a] += std::abs(value);
                 if (columns[k] == node)
@@ -302,11 +304,12 @@ namespace corotet
     double own = own_largest, largest;
     graph->Comm().MaxAll(&own, &largest, 1);
     const Number scale = largest > 0 ? largest : 1;
+    const Number back  = scale / unit;
     for (int i = 0; i < 3 * n_nodes; ++i)
       rhs[i] = src[i] / scale;
     cycle(solution.data(), rhs.data());
     for (int i = 0; i < 3 * n_nodes; ++i)
-      dst[i] = scale * solution[i];
+      dst[i] = back * solution[i];
   }
 
   template void

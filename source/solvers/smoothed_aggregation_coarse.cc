@@ -200,14 +200,15 @@ namespace corotet
   }
 
   /// (I - omega D^-1 A) times the motions, omega = 4/3 over the largest
-  /// eigenvalue. A ghost moves with the aggregate of the row.
+  /// eigenvalue; D is that of A / unit. A ghost moves with the aggregate of the
+  /// row.
   void
   SmoothedAggregation::smooth_motions(std::vector<Block>        &prolongation,
                                       const Epetra_CrsMatrix    &A,
                                       const Motions             &motions,
                                       const std::vector<double> &positions)
   {
-    const double     omega   = 4. / 3 / largest_eigenvalue;
+    const double     omega   = 4. / 3 / largest_eigenvalue / unit;
     const NodeGraph &pattern = node_rows.graph();
     std::vector<int> place(n_aggregates());
     prolongation_blocks.resize(18 * prolongation_pattern.starts[n_nodes]);
@@ -249,7 +250,7 @@ namespace corotet
       }
   }
 
-  /// P^T A P, lower triangle.
+  /// P^T A P / unit, lower triangle.
   void
   SmoothedAggregation::fill_coarse(Epetra_CrsMatrix         &coarse_matrix,
                                    const Epetra_CrsMatrix   &A,
@@ -283,9 +284,11 @@ namespace corotet
              l < prolongation_pattern.starts[i + 1];
              ++l)
           {
-            const int    I     = prolongation_pattern.columns[l];
-            const Block &p     = prolongation[l];
-            int          entry = coarse_pattern.starts[I - first_aggregate];
+            const int I     = prolongation_pattern.columns[l];
+            Block     p     = prolongation[l];
+            int       entry = coarse_pattern.starts[I - first_aggregate];
+            for (Modes &row : p.rows)
+              row /= unit;
             for (int k = 0; k < n && columns[k] <= I; ++k)
               {
                 while (coarse_pattern.columns[entry] != columns[k])

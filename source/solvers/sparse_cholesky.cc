@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
 #include <corotet/solvers/cholmod_factor.h>
+#include <corotet/solvers/scaling.h>
+#include <corotet/solvers/singular_matrix_error.h>
 #include <corotet/solvers/sparse_cholesky.h>
 
 #include <deal.II/base/mpi.h>
@@ -108,7 +109,10 @@ namespace corotet
     Shares           row_shares;
     Shares           entry_shares;
 
-    /// On rank 0 only.
+    /// What A is divided by, so that single precision holds it.
+    double unit = 1;
+
+    /// On rank 0 only: of A / unit.
     std::unique_ptr<CholmodFactor> factor;
     /// Own values on their way to rank 0; on rank 0, vectors of all ranks.
     std::tuple<std::vector<double>, std::vector<float>> buffers;
@@ -194,15 +198,16 @@ namespace corotet
         own.resize(positions.size());
         part = own.data();
       }
-    const int *position = positions.data();
-    Number    *value    = part;
+    const int   *position = positions.data();
+    Number      *value    = part;
+    const double inverse  = 1 / unit;
     for (unsigned int row = 0; row < row_counts.size(); ++row)
       {
         int     length;
         double *values;
         A.ExtractMyRowView(row, length, values);
         for (int k = 0; k < row_counts[row]; ++k)
-          *value++ = values[*position++];
+          *value++ = inverse * values[*position++];
       }
     if (!is_alone)
       entry_shares.gather(part,
@@ -214,6 +219,7 @@ namespace corotet
   void
   SparseCholesky::Factors::factorize(const Epetra_CrsMatrix &A)
   {
+    unit = unit_of(A);
     if (precision == Precision::single_precision)
       gather_values<float>(A);
     else
@@ -228,7 +234,7 @@ namespace corotet
     if (succeeded)
       return;
     if (precision == Precision::double_precision)
-      throw ComputationError(
+      throw SingularMatrixError(
         "the stiffness matrix is singular: the body or a part of it can move "
         "without resistance, because not enough is prescribed");
     precision = Precision::double_precision;
@@ -241,10 +247,10 @@ namespace corotet
   SparseCholesky::Factors::solve(Number *dst, const Number *src)
   {
     if (is_alone)
-      return factor->solve(dst, src);
+      return factor->solve(dst, src, 1 / unit);
     std::vector<Number> &all = std::get<std::vector<Number>>(buffers);
     row_shares.gather(src, row_counts.size(), all.data(), comm);
-    on_root(comm, [&] { factor->solve(all.data(), all.data()); });
+    on_root(comm, [&] { factor->solve(all.data(), all.data(), 1 / unit); });
     MPI_Scatterv(all.data(),
                  row_shares.counts.data(),
                  row_shares.offsets.data(),

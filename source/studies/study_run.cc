@@ -10,6 +10,7 @@
 #include <corotet/studies/study_run.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -168,6 +169,16 @@ namespace corotet
       all.push_back(text);
     file.read(path, all, comm);
     reset_peak_memory();
+    // Supports may be missing with it: it is to blame first.
+    if (parameters.study.run != "modes" &&
+        parameters.study.reference == "exact solution" &&
+        dealii::Utilities::trim(
+          parameters.simulation.exact_solution.displacement)
+          .empty())
+      throw InputError("Convergence study/Reference",
+                       "found 'exact solution', but Exact "
+                       "solution/Displacement is empty; allowed: 'finer "
+                       "run' or 'none', or an exact solution");
     if (parameters.study.run == "modes")
       analysis = std::make_unique<ModalAnalysis>(parameters.simulation,
                                                  file.folder(),

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "../temporary_folder.h"
 #include "modal.h"
 
 using namespace corotet;
@@ -186,6 +187,134 @@ TEST(ModalAnalysis, ShapesSolveTheEquation)
         }
       square = dealii::Utilities::MPI::max(square, MPI_COMM_WORLD);
       EXPECT_NEAR(std::sqrt(square), 0.01 * std::sqrt(1.13), 1e-12);
+    }
+}
+
+// A cube has groups of equal frequencies, here of the seventh mode and some
+// that follow. That one of them is cut is said.
+TEST(ModalAnalysis, SaysThatAGroupIsCut)
+{
+  const auto text = [](const unsigned int n_modes) {
+    return box_body("1, 1, 1", "2, 2, 2", 2, 0.3, n_modes);
+  };
+  const Analysis all(text(20));
+  unsigned int   n = 7;
+  while (all.mode(n + 1).frequency < (1 + 1e-8) * all.mode(n).frequency)
+    ++n;
+  EXPECT_GT(n, 7u);
+  // Other frequencies are far.
+  EXPECT_GT(all.mode(n + 1).frequency, 1.01 * all.mode(n).frequency);
+  for (const unsigned int n_modes : {4u, 6u, 7u, n})
+    {
+      const TemporaryFolder folder;
+      Parameters            parameters(text(n_modes));
+      Log                   log(MPI_COMM_WORLD, true);
+      log.open(folder / "log.txt");
+      ModalAnalysis analysis(parameters, "", MPI_COMM_WORLD, log);
+      analysis.compute();
+      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+        continue;
+      const std::string found = folder.read("log.txt");
+      const std::string group = fmt::format(
+        "Mode 7 belongs to a group of {} modes with equal frequencies (each "
+        "within 0.5 % of the next), of which 1 is given; Modes/Number = {} "
+        "gives all",
+        n - 6,
+        n);
+      const std::string rigid = "Mode 4 is a rigid body mode, of which 4 of 6 "
+                                "are given; Modes/Number = 6 gives all";
+      EXPECT_EQ(found.find(group) != std::string::npos, n_modes == 7) << found;
+      EXPECT_EQ(found.find(rigid) != std::string::npos, n_modes == 4) << found;
+      EXPECT_EQ(found.find("gives all") != std::string::npos,
+                n_modes == 4 || n_modes == 7)
+        << found;
+    }
+}
+
+// Frequencies are those of the body, whatever the shift: exact to the square of
+// the tolerance, or round-off. One that is far too large is refused: with it
+// all vectors would pass for modes.
+TEST(ModalAnalysis, Shift)
+{
+  const auto text = [](const double shift) {
+    return box_body("1, 0.3, 0.2",
+                    "5, 2, 1",
+                    2,
+                    0.3,
+                    9,
+                    fmt::format("subsection Modes\n set Shift = {:.17g}\nend\n",
+                                shift));
+  };
+  const Analysis reference(text(0));
+  const double   lowest = reference.mode(7).eigenvalue;
+  for (const double factor : {1e-4, 1., 5.})
+    {
+      const Analysis shifted(text(factor * lowest));
+      for (unsigned int i = 7; i <= 9; ++i)
+        EXPECT_NEAR(shifted.mode(i).frequency,
+                    reference.mode(i).frequency,
+                    1e-12 * reference.mode(i).frequency);
+    }
+  std::string message;
+  try
+    {
+      const Analysis shifted(text(1e14));
+    }
+  catch (const ComputationError &error)
+    {
+      message = error.what();
+    }
+  EXPECT_EQ(message.find("Modes/Shift: found 1e+14 1/s^2; allowed: up to "), 0u)
+    << message;
+}
+
+// Bending and twisting of a beam that is symmetric to its middle planes: each
+// mode has two or more largest components, of both signs. On all ranks together
+// and on each rank alone signs are the same: the products of the shapes with a
+// field without any symmetry agree as well as the shapes do, by the tolerance
+// 1e-8 over the relative gaps between frequencies, some 1e-2.
+TEST(ModalAnalysis, SignsDoNotDependOnRanks)
+{
+  const auto products = [](const std::string &fixed, const MPI_Comm comm) {
+    Parameters    parameters(box_body("1, 0.3, 0.2",
+                                   "6, 2, 2",
+                                   2,
+                                   0.3,
+                                   12,
+                                   "subsection Boundary conditions\n"
+                                      " set Fixed = " +
+                                     fixed + "\nend\n"));
+    Log           log(comm, true);
+    ModalAnalysis analysis(parameters, "", comm, log);
+    analysis.compute();
+    const Discretization &disc = analysis.discretization();
+    std::vector<double>   result;
+    for (const Mode &mode : analysis.modes())
+      {
+        double sum = 0, size = 0;
+        for (unsigned int n = 0; n < disc.n_owned_nodes(); ++n)
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              const dealii::Point<3> x = disc.node_position(n);
+              const double           u = mode.shape.local_element(3 * n + a);
+              sum +=
+                u * std::cos(3.1 * x[0] + 7.3 * x[1] + 5.7 * x[2] + 2. * a);
+              size += std::abs(u);
+            }
+        result.push_back(dealii::Utilities::MPI::sum(sum, comm) /
+                         dealii::Utilities::MPI::sum(size, comm));
+      }
+    return result;
+  };
+  for (const std::string fixed : {"x-min", ""})
+    {
+      const auto together = products(fixed, MPI_COMM_WORLD);
+      const auto alone    = products(fixed, MPI_COMM_SELF);
+      for (unsigned int i = 0; i < 12; ++i)
+        {
+          EXPECT_GT(std::abs(alone[i]), 1e-4) << i;
+          EXPECT_NEAR(together[i], alone[i], 1e-6) << i;
+        }
     }
 }
 

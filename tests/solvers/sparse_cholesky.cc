@@ -123,6 +123,37 @@ TEST(SparseCholesky, InvertsMatrixInSinglePrecision)
   EXPECT_GT(error_of_double, 1e-9);
 }
 
+// Powers of two change exponents only: solutions are the same to the last bit
+// for matrices and right hand sides far beyond the range of single precision.
+TEST(SparseCholesky, AnySize)
+{
+  const SpringBox     unscaled({{8, 2, 2}}, true);
+  const int           n = unscaled.matrix->NumMyRows();
+  std::vector<double> b(n), reference(n), x(n);
+  for (int i = 0; i < n; ++i)
+    b[i] = std::cos(0.1 * unscaled.matrix->GRID(i));
+  for (const Precision precision :
+       {Precision::single_precision, Precision::double_precision})
+    {
+      SparseCholesky inverse(precision);
+      inverse.factorize(*unscaled.matrix);
+      inverse.vmult(reference.data(), b.data());
+      for (const int of_matrix : {-300, 300})
+        for (const int of_rhs : {-400, 400})
+          {
+            SpringBox box({{8, 2, 2}}, true);
+            box.matrix->Scale(std::ldexp(1., of_matrix));
+            inverse.factorize(*box.matrix);
+            EXPECT_EQ(inverse.precision(), precision);
+            for (int i = 0; i < n; ++i)
+              x[i] = std::ldexp(b[i], of_rhs);
+            inverse.vmult(x.data(), x.data());
+            for (int i = 0; i < n; ++i)
+              EXPECT_EQ(std::ldexp(x[i], of_matrix - of_rhs), reference[i]);
+          }
+    }
+}
+
 // Other values in the same pattern, another pattern, and a start afresh.
 TEST(SparseCholesky, FollowsMatrix)
 {

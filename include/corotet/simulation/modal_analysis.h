@@ -5,13 +5,14 @@
 #define corotet_simulation_modal_analysis_h
 
 #include <corotet/base/log.h>
-#include <corotet/discretization/prescribed_motion.h>
+#include <corotet/discretization/rigid_motions.h>
 #include <corotet/simulation/observer.h>
 #include <corotet/simulation/simulation_parameters.h>
 #include <corotet/solvers/eigenvalue_solver.h>
 
 #include <chrono>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -27,8 +28,9 @@ namespace corotet
     double angular_frequency;
     /// In Hz.
     double frequency;
-    /// |K phi - omega^2 M phi| / (max(omega^2, shift) |M phi|): for rigid body
-    /// modes relative to the shift.
+    /// |K phi - omega^2 M phi| / (max(omega^2, omega_1^2) |M phi|) with the
+    /// lowest omega_1 that is not zero, to which it is relative for rigid body
+    /// modes.
     double residual;
     /// Largest residual that round-off explains, with these units.
     double round_off;
@@ -79,7 +81,8 @@ namespace corotet
 
     /// Those computed, lowest first. Shapes are scaled such that the largest
     /// displacement of a node is a hundredth of the body's length, the diagonal
-    /// of its bounding box.
+    /// of its bounding box. Of a mode with a frequency of its own, the sign is
+    /// the same on any number of ranks, and that of a rigid body mode is, too.
     const std::vector<Mode> &
     modes() const
     {
@@ -120,10 +123,21 @@ namespace corotet
   private:
     void
     note_what_is_ignored() const;
+    /// Below the lowest eigenvalue of most bodies.
     double
     estimated_shift() const;
+    /// By a first look at the lowest mode that deforms the body.
+    void
+    choose_shift();
     Mode
     make_mode(const Vector &x) const;
+    /// 1 or -1, to multiply x with.
+    double
+    sign(const Vector &x) const;
+    /// Says so if modes that are missing have the frequency of the last one.
+    /// @p eigenvalues: of all that are known, in ascending order.
+    void
+    note_cut_group(const std::vector<double> &eigenvalues) const;
     void
     check(const Mode &mode, const unsigned int number) const;
     void
@@ -143,11 +157,17 @@ namespace corotet
     const Mass               mass;
     const Elasticity         elastic;
     const PrescribedMotion   motion;
+    const RigidMotions       rigid_motions;
     EffectiveOperator        A;
     EigenvalueSolver         solver;
-    double                   length = 0;
-    double                   shift  = 0;
-    std::vector<Mode>        computed;
+    /// Lower and upper corner of the body's bounding box, and its diagonal.
+    const std::pair<dealii::Point<3>, dealii::Point<3>> box;
+    const double                                        length;
+
+    double shift = 0;
+    /// omega^2 of the lowest mode that deforms the body.
+    double            lowest = 0;
+    std::vector<Mode> computed;
   };
 } // namespace corotet
 

@@ -8,6 +8,9 @@
 #include <corotet/simulation/adaptive_step.h>
 #include <corotet/simulation/budget.h>
 #include <corotet/simulation/structural_system.h>
+#include <corotet/solvers/singular_matrix_error.h>
+
+#include <fmt/format.h>
 
 #include <memory>
 
@@ -119,6 +122,28 @@ namespace corotet
             const double       to,
             const unsigned int halvings,
             StepRecord        &record);
+    /// Whether the load step that ended with @p error, at the present state,
+    /// would meet the same singular matrix if it were shorter: that of a linear
+    /// body, or of the state at its start. (The mass of dynamics makes the
+    /// matrix of a shorter step another one.)
+    bool
+    is_singular_for_good(const ComputationError &error) const
+    {
+      if (dynamic_cast<const SingularMatrixError *>(&error) == nullptr ||
+          integrator.is_dynamic())
+        return false;
+      Vector difference(present.u);
+      difference -= good_state.u;
+      return parameters.material.rotation_placement() == Rotation::none ||
+             norm(difference) == 0;
+    }
+    void
+    announce_half(const double to, const ComputationError &error) const
+    {
+      log.line(fmt::format("t = {:.6g}: {}; trying half the step",
+                           time(to),
+                           error.what()));
+    }
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);

@@ -18,7 +18,7 @@ namespace corotet
    * The user fills in the lower triangle of A row by row (for CHOLMOD, the
    * upper triangle column by column: it can permute that one in one pass),
    * calls analyze(), then as often as wanted writes values() and calls
-   * factorize().
+   * factorize(). In single precision, values() are to be about one or less.
    */
   class CholmodFactor
   {
@@ -81,10 +81,10 @@ namespace corotet
       return L->xsize;
     }
 
-    /// dst = A^-1 src; they may be the same. Allocates nothing.
+    /// dst = @p factor A^-1 src; they may be the same. Allocates nothing.
     template <typename Number>
     void
-    solve(Number *dst, const Number *src);
+    solve(Number *dst, const Number *src, const double factor);
 
   private:
     int

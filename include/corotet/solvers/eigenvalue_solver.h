@@ -17,7 +17,7 @@ namespace corotet
    */
   struct Eigenpairs
   {
-    /// lambda [1/s^2].
+    /// lambda [1/s^2]; there may be more than vectors.
     std::vector<double> values;
     /// x with x . M x = 1, zero where x is prescribed. Without ghost values.
     std::vector<Vector> vectors;
@@ -27,7 +27,8 @@ namespace corotet
    * The smallest eigenvalues of K x = lambda M x on the unknowns that are not
    * prescribed, by the block Krylov-Schur method (@cite stewart2001) of Anasazi
    * for A^{-1} M with A = K + s M: with a shift s > 0, A is positive definite
-   * also where K has rigid body modes, and they come first.
+   * also where K has rigid body modes. These are known, come first, and are
+   * kept out of the search.
    *
    * Several equal eigenvalues are found by blocks, and because the search is
    * repeated among vectors orthogonal to all that were found, until what it
@@ -42,12 +43,14 @@ namespace corotet
     /**
      * @p A is updated here, and must be the operator of a body at rest.
      * @p tolerance: of the residuals of A^{-1} M x = x / (lambda + s), relative
-     * to 1 / (lambda + s) in the norm of M. @p progress is told the number of
-     * linear solves after each.
+     * to 1 / (lambda + s) in the norm of M. @p null_space: linearly independent
+     * x with K x = 0, all that there are, without ghost values. @p progress is
+     * told the number of linear solves after each.
      */
     EigenvalueSolver(EffectiveOperator                       &A,
                      LinearSolver                            &linear_solver,
                      const double                             tolerance,
+                     std::vector<Vector>                      null_space,
                      const std::function<void(unsigned int)> &progress);
 
     /// Number of unknowns that are not prescribed, over all ranks.
@@ -66,8 +69,16 @@ namespace corotet
       return n_free < 16 ? 0 : n_free / 4;
     }
 
+    /// An estimate of the smallest eigenvalue that is not zero [1/s^2]: the
+    /// Rayleigh quotient after three steps of inverse iteration with @p shift,
+    /// from a random vector. From above, mostly by less than a factor of two if
+    /// the shift is not above it.
+    double
+    lowest_eigenvalue(const double shift);
+
     /**
-     * The @p n smallest, 1 to max_eigenvalues(). @p shift is s > 0 [1/s^2],
+     * The @p n smallest, 1 to max_eigenvalues(), and the values of some that
+     * follow, if there are more than null_space has. @p shift is s > 0 [1/s^2],
      * best somewhat below the smallest eigenvalue of a mode that deforms the
      * body. Throws ComputationError if they are not found.
      */
@@ -96,13 +107,19 @@ namespace corotet
     class ShiftedInverse;
     class FreeMass;
 
-    /// Up to @p n pairs orthogonal to @p others.
+    /// Makes null_space orthonormal in the inner product of M, in its order.
+    void
+    make_orthonormal();
+    /// Makes x orthogonal to the null space.
+    void
+    remove_null_space(Vector &x) const;
+    /// Up to @p n pairs orthogonal to the null space and to @p others.
     Eigenpairs
     search(const unsigned int n,
            const double       shift,
            const double       tolerance,
            const Eigenpairs  &others);
-    /// Improves @p pairs by a step of inverse iteration, keeps the @p n lowest.
+    /// Improves the @p n lowest pairs by a step of inverse iteration.
     void
     refine(Eigenpairs &pairs, const unsigned int n);
     /// Makes @p pairs solutions of the problem in the space of their vectors.
@@ -119,6 +136,9 @@ namespace corotet
     double                            tolerance;
     std::function<void(unsigned int)> progress;
     dealii::types::global_dof_index   n_free;
+    std::vector<Vector>               null_space;
+    /// M times these.
+    std::vector<Vector> M_null_space;
     /// Owned unknowns that are not prescribed.
     std::vector<unsigned int> free;
     /// Each search starts from other vectors: the same ones have no more of a

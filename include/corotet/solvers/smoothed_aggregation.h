@@ -39,7 +39,7 @@ namespace corotet
                                  const double       threshold = 0);
 
     /// @p positions: three coordinates per owned node [m]. Throws
-    /// ComputationError if A is singular. Collective.
+    /// SingularMatrixError if A is singular. Collective.
     void
     build(const Epetra_CrsMatrix &A, const double *positions);
 
@@ -116,7 +116,10 @@ namespace corotet
     NodeGraph                        coarse_pattern;
     std::unique_ptr<Epetra_CrsGraph> coarse_graph;
 
-    /// Blocks of A and inverses of its diagonal blocks, by columns.
+    /// What A is divided by, a power of two, so that single precision holds it
+    /// whatever its size is.
+    double unit = 1;
+    /// Blocks of A / unit and inverses of its diagonal blocks, by columns.
     std::vector<float>         blocks;
     std::vector<float>         inverse_diagonal;
     std::vector<unsigned char> is_prescribed;

@@ -26,7 +26,9 @@ namespace corotet
    * In single precision, factors take half the memory and half the time; the
    * relative error of a solution is about 1e-7 times the condition number, good
    * enough for a preconditioner. Where rounding gets the better of them, double
-   * precision takes their place, until the sparsity changes.
+   * precision takes their place, until the sparsity changes. A and the vectors
+   * may have any size: they are scaled by powers of two, which rounds nothing,
+   * before they become single.
    */
   class SparseCholesky
   {
@@ -46,9 +48,9 @@ namespace corotet
      * Computes L. Ordering and pattern are kept from the last call if @p A has
      * the same graph (Epetra_CrsGraph) as then; the graph is kept alive for
      * that.
-     * Throws ComputationError if A is not positive definite up to round-off, or
-     * has too many entries in L (2^31), and MachineError if memory is short;
-     * then there is no L. Collective.
+     * Throws SingularMatrixError if A is not positive definite up to round-off,
+     * ComputationError if L has too many entries (2^31), and MachineError if
+     * memory is short; then there is no L. Collective.
      */
     void
     factorize(const Epetra_CrsMatrix &A);

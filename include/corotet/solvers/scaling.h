@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_scaling_h
+#define corotet_solvers_scaling_h
+
+#include <Epetra_CrsMatrix.h>
+
+namespace corotet
+{
+  /**
+   * Units in which numbers of any size fit into single precision. They are
+   * powers of two: to divide by them rounds nothing.
+   */
+
+  /// The largest power of two that is not above @p size; 1 if that is no
+  /// positive number.
+  double
+  power_of_two(const double size);
+
+  /// That of the largest absolute entry of A, over all ranks. Collective.
+  double
+  unit_of(const Epetra_CrsMatrix &A);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/discretization/connected_parts.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace corotet
+{
+  using dealii::numbers::invalid_unsigned_int;
+
+  DisjointSets::DisjointSets(const unsigned int n)
+    : parents(n)
+  {
+    std::iota(parents.begin(), parents.end(), 0u);
+  }
+
+  unsigned int
+  DisjointSets::root(unsigned int a)
+  {
+    while (parents[a] != a)
+      a = parents[a] = parents[parents[a]];
+    return a;
+  }
+
+  void
+  DisjointSets::unite(const unsigned int a, const unsigned int b)
+  {
+    // The first element is the root.
+    const auto [first, second] = std::minmax({root(a), root(b)});
+    parents[second]            = first;
+  }
+
+  std::pair<std::vector<unsigned int>, unsigned int>
+  DisjointSets::numbers()
+  {
+    std::vector<unsigned int> result(parents.size());
+    unsigned int              n = 0;
+    for (unsigned int a = 0; a < parents.size(); ++a)
+      result[a] = parents[a] == a ? n++ : result[root(a)];
+    return {result, n};
+  }
+
+  std::set<std::pair<unsigned int, unsigned int>>
+  of_all_ranks(const std::set<std::pair<unsigned int, unsigned int>> &pairs,
+               const MPI_Comm                                         comm)
+  {
+    std::vector<unsigned int> numbers;
+    for (const auto &[a, b] : pairs)
+      numbers.insert(numbers.end(), {a, b});
+    std::set<std::pair<unsigned int, unsigned int>> result;
+    for (const auto &own : dealii::Utilities::MPI::all_gather(comm, numbers))
+      for (std::size_t i = 0; i < own.size(); i += 2)
+        result.insert({own[i], own[i + 1]});
+    return result;
+  }
+
+  ConnectedParts::ConnectedParts(const Discretization &discretization)
+    : part_of_node(discretization.n_owned_nodes(), invalid_unsigned_int)
+  {
+    find_joints(discretization, number_parts(discretization));
+    measure(discretization);
+  }
+
+  namespace
+  {
+    using Pairs = std::set<std::pair<unsigned int, unsigned int>>;
+
+    // A number for each active cell, owned or ghost, no two of different parts
+    // alike, and that of a part on one rank the same; numbers that mean the
+    // same part; and how many there are at most.
+    std::tuple<std::vector<unsigned int>, Pairs, unsigned int>
+    labels_by_rank(
+      const dealii::parallel::fullydistributed::Triangulation<3> &tria,
+      const MPI_Comm                                              comm)
+    {
+      DisjointSets sets(tria.n_active_cells());
+      for (const auto &cell : tria.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+            if (!cell->at_boundary(f) && cell->neighbor(f)->is_locally_owned())
+              sets.unite(cell->active_cell_index(),
+                         cell->neighbor(f)->active_cell_index());
+      auto [labels, n_own] = sets.numbers();
+      unsigned int first   = 0;
+      MPI_Exscan(&n_own, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
+      for (unsigned int &label : labels)
+        label += first;
+      std::vector<unsigned int> &of_cells = labels;
+      dealii::GridTools::exchange_cell_data_to_ghosts<unsigned int>(
+        tria,
+        [&](const auto &cell) { return of_cells[cell->active_cell_index()]; },
+        [&](const auto &cell, const unsigned int label) {
+          of_cells[cell->active_cell_index()] = label;
+        });
+
+      Pairs pairs;
+      for (const auto &cell : tria.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const unsigned int label = labels[cell->active_cell_index()];
+            pairs.insert({label, label});
+            for (const unsigned int f : cell->face_indices())
+              if (!cell->at_boundary(f) && cell->neighbor(f)->is_ghost())
+                pairs.insert(
+                  {label, labels[cell->neighbor(f)->active_cell_index()]});
+          }
+      return {labels,
+              of_all_ranks(pairs, comm),
+              dealii::Utilities::MPI::sum(n_own, comm)};
+    }
+  } // namespace
+
+  std::vector<unsigned int>
+  ConnectedParts::number_parts(const Discretization &discretization)
+  {
+    const auto    &tria            = discretization.mesh().triangulation();
+    const MPI_Comm comm            = discretization.communicator();
+    auto [labels, pairs, n_labels] = labels_by_rank(tria, comm);
+
+    // What is one across ranks. Ghost cells' own numbers are not in use.
+    DisjointSets sets(n_labels);
+    for (const auto &[a, b] : pairs)
+      sets.unite(a, b);
+    const std::vector<unsigned int> numbers = sets.numbers().first;
+    std::vector<unsigned int>       parts(n_labels, invalid_unsigned_int);
+    for (const auto &[a, b] : pairs)
+      if (parts[numbers[a]] == invalid_unsigned_int)
+        parts[numbers[a]] = n_parts++;
+    Pairs part_regions;
+    for (const auto &cell : tria.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          unsigned int &label = labels[cell->active_cell_index()];
+          label               = parts[numbers[label]];
+          if (cell->is_locally_owned())
+            part_regions.insert({label, cell->material_id()});
+        }
+    regions.resize(n_parts);
+    for (const auto &[part, region] : of_all_ranks(part_regions, comm))
+      regions[part].insert(region);
+    return labels;
+  }
+
+  void
+  ConnectedParts::find_joints(const Discretization            &discretization,
+                              const std::vector<unsigned int> &part_of_cell)
+  {
+    if (n_parts == 1)
+      {
+        std::fill(part_of_node.begin(), part_of_node.end(), 0u);
+        return;
+      }
+    const auto &dofs  = discretization.dof_handler();
+    const auto &owned = dofs.locally_owned_dofs();
+    std::vector<dealii::types::global_dof_index> cell_dofs(
+      dofs.get_fe().dofs_per_cell);
+    std::set<std::pair<unsigned int, unsigned int>> others;
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          const unsigned int part = part_of_cell[cell->active_cell_index()];
+          cell->get_dof_indices(cell_dofs);
+          for (const auto dof : cell_dofs)
+            if (dof % 3 == 0 && owned.is_element(dof))
+              {
+                const unsigned int node = owned.index_within_set(dof) / 3;
+                if (part_of_node[node] == invalid_unsigned_int)
+                  part_of_node[node] = part;
+                else if (part_of_node[node] != part)
+                  others.insert({node, part});
+              }
+        }
+    for (const auto &[node, part] : others)
+      joints.push_back({node, part_of_node[node], part});
+  }
+
+  void
+  ConnectedParts::measure(const Discretization &discretization)
+  {
+    using namespace dealii::Utilities;
+    const MPI_Comm comm     = discretization.communicator();
+    const auto     for_each = [&](const auto &action) {
+      for (unsigned int n = 0; n < part_of_node.size(); ++n)
+        action(part_of_node[n], discretization.node_position(n));
+      for (const Joint &joint : joints)
+        action(joint.other, discretization.node_position(joint.node));
+    };
+    std::vector<double> sums(4 * n_parts);
+    for_each([&](const unsigned int part, const dealii::Point<3> &x) {
+      for (unsigned int a = 0; a < 3; ++a)
+        sums[4 * part + a] += x[a];
+      ++sums[4 * part + 3];
+    });
+    MPI::sum(sums, comm, sums);
+    for (unsigned int part = 0; part < n_parts; ++part)
+      {
+        const double *sum = &sums[4 * part];
+        centres.emplace_back(sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]);
+      }
+    radii.resize(n_parts);
+    for_each([&](const unsigned int part, const dealii::Point<3> &x) {
+      radii[part] = std::max(radii[part], (x - centres[part]).norm());
+    });
+    MPI::max(radii, comm, radii);
+  }
+} // namespace corotet

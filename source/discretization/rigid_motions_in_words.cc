@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/text.h>
+#include <corotet/discretization/rigid_motions.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace corotet
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+
+    // Numbers that are the same but for round-off become the same: those of a
+    // length are multiples of some 1e-9 of it.
+    double
+    without_round_off(const double x, const double length)
+    {
+      const double unit = std::pow(10., std::floor(std::log10(length)) - 9);
+      // Zero has no sign.
+      return std::round(x / unit) * unit + 0.;
+    }
+
+    std::string
+    place(const Point<3> &x, const double length)
+    {
+      return fmt::format("({:.4g}, {:.4g}, {:.4g})",
+                         without_round_off(x[0], length),
+                         without_round_off(x[1], length),
+                         without_round_off(x[2], length));
+    }
+
+    // An axis by its name, with the first component that is not zero positive.
+    std::string
+    direction(Tensor<1, 3> d)
+    {
+      d /= d.norm();
+      unsigned int n_zero = 0, last = 0;
+      for (unsigned int a = 3; a-- > 0;)
+        if (std::abs(d[a]) < 1e-6)
+          ++n_zero;
+        else
+          last = a;
+      if (n_zero == 2)
+        return std::string(1, "xyz"[last]);
+      return place(Point<3>(d[last] > 0 ? d : -d), 1.);
+    }
+
+    struct Rotation
+    {
+      // Unit length.
+      Tensor<1, 3> axis;
+      // The point of the axis that is nearest to the centre.
+      Point<3> point;
+      // Translation along the axis [m per radian].
+      double pitch;
+      // Of the centre [m per radian].
+      Tensor<1, 3> translation;
+    };
+
+    // The point that three rotations leave in its place, if there is one.
+    bool
+    have_common_point(const std::vector<Rotation> &rotations,
+                      const Point<3>              &centre,
+                      const double                 radius,
+                      Point<3>                    &point)
+    {
+      if (rotations.size() != 3)
+        return false;
+      // They are about x, y, z: sum_k e_k x (e_k x d) = -2 d.
+      Tensor<1, 3> d;
+      for (const Rotation &rotation : rotations)
+        d += 0.5 * cross_product_3d(rotation.axis, rotation.translation);
+      point = centre + d;
+      return std::all_of(
+        rotations.begin(), rotations.end(), [&](const Rotation &rotation) {
+          return (rotation.translation + cross_product_3d(rotation.axis, d))
+                   .norm() < 1e-6 * radius;
+        });
+    }
+
+    std::vector<std::string>
+    rotations_in_words(const std::vector<Rotation> &rotations,
+                       const Point<3>              &centre,
+                       const double                 radius)
+    {
+      const double length = centre.norm() + radius;
+      Point<3>     point;
+      if (have_common_point(rotations, centre, radius, point))
+        return {"rotate about any axis through " + place(point, length)};
+      std::vector<std::string> words;
+      for (const Rotation &rotation : rotations)
+        {
+          words.push_back(
+            fmt::format("rotate about the axis through {} along {}",
+                        place(rotation.point, length),
+                        direction(rotation.axis)));
+          if (std::abs(rotation.pitch) > 1e-6 * radius)
+            words.back() +=
+              fmt::format(" while it moves along it by {:.4g} m per radian",
+                          without_round_off(rotation.pitch, length));
+        }
+      return words;
+    }
+
+    // "a, b and c"
+    std::string
+    enumeration(std::vector<std::string> words)
+    {
+      if (words.size() == 1)
+        return words[0];
+      const std::string last = words.back();
+      words.pop_back();
+      return join(words) + " and " + last;
+    }
+  } // namespace
+
+  std::string
+  describe(const std::vector<RigidMotions::Numbers> &motions,
+           const Point<3>                           &centre,
+           const double                              radius)
+  {
+    if (motions.size() == 6)
+      return "move in any direction and rotate about any axis";
+    std::vector<std::string> directions, words;
+    std::vector<Rotation>    rotations;
+    for (const RigidMotions::Numbers &m : motions)
+      {
+        Tensor<1, 3> t({m[0], m[1], m[2]}), w({m[3], m[4], m[5]});
+        if (w.norm() < 1e-6 * t.norm())
+          {
+            directions.push_back(direction(t));
+            continue;
+          }
+        // Per radian.
+        t *= radius / w.norm();
+        w /= w.norm();
+        rotations.push_back(
+          {w, centre + Tensor<1, 3>(cross_product_3d(w, t)), t * w, t});
+      }
+    if (directions.size() == 3)
+      words.push_back("move in any direction");
+    else if (!directions.empty())
+      words.push_back("move along " + enumeration(directions));
+    for (const std::string &text :
+         rotations_in_words(rotations, centre, radius))
+      words.push_back(text);
+    return enumeration(words);
+  }
+
+  std::string
+  RigidMotions::name(const unsigned int part) const
+  {
+    if (parts.n_parts == 1)
+      return "the body";
+    const auto &centre = parts.centres[part];
+    std::string text =
+      "the part at " + place(centre, centre.norm() + parts.radii[part]);
+    const MeshNames &names = discretization.mesh().regions();
+    if (names.all().size() > 1)
+      {
+        std::vector<std::string> of_part;
+        for (const unsigned int region : parts.regions[part])
+          of_part.push_back("'" + names.name(region) + "'");
+        text += (of_part.size() == 1 ? " of region " : " of regions ") +
+                enumeration(of_part);
+      }
+    return text;
+  }
+
+  std::string
+  RigidMotions::description() const
+  {
+    // Parts are numbered otherwise on other numbers of ranks: in the order of
+    // their places.
+    constexpr unsigned int                                        max_parts = 3;
+    std::vector<std::tuple<double, double, double, unsigned int>> order;
+    double                                                        length = 0;
+    for (unsigned int part = 0; part < parts.n_parts; ++part)
+      length = std::max(length, parts.centres[part].norm() + parts.radii[part]);
+    for (unsigned int part = 0; part < parts.n_parts; ++part)
+      if (!motions_of(part).empty())
+        order.emplace_back(without_round_off(parts.centres[part][0], length),
+                           without_round_off(parts.centres[part][1], length),
+                           without_round_off(parts.centres[part][2], length),
+                           part);
+    std::sort(order.begin(), order.end());
+    std::vector<std::string> words;
+    for (const auto &[x, y, z, part] : order)
+      if (words.size() < max_parts)
+        words.push_back(
+          name(part) + " can " +
+          describe(motions_of(part), parts.centres[part], parts.radii[part]));
+    std::string text = join(words, "; ");
+    if (order.size() > max_parts)
+      text += fmt::format("; {} more parts can move", order.size() - max_parts);
+    return text;
+  }
+} // namespace corotet

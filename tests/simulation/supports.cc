@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The rigid motions that supports leave to a body, in words, for cases that can
+// be told by looking at them; statics refuses them, and a singular matrix that
+// is met all the same is met once.
+
+#include <corotet/discretization/rigid_motions.h>
+
+#include <gtest/gtest.h>
+
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  const std::string anything =
+    "move in any direction and rotate about any axis";
+
+  std::string
+  conditions(const std::string &fixed, const std::string &displacement = "")
+  {
+    return "subsection Boundary conditions\n set Fixed = " + fixed +
+           "\n set Displacement = " + displacement + "\nend\n";
+  }
+
+  // The unit cube and one that is shifted, with vertices in common where they
+  // meet. Its region is 'second', its boundaries 'second x-min' and so on.
+  SerialMesh
+  two_cubes(const dealii::Tensor<1, 3> &shift)
+  {
+    SerialMesh                mesh = box("1, 1, 1", "1, 1, 1");
+    const SerialMesh          one  = mesh;
+    std::vector<unsigned int> numbers;
+    for (const auto &x : one.vertices)
+      {
+        unsigned int n = 0;
+        while (n < one.vertices.size() &&
+               (one.vertices[n] - x - shift).norm() > 1e-10)
+          ++n;
+        if (n == one.vertices.size())
+          {
+            n = mesh.vertices.size();
+            mesh.vertices.push_back(x + shift);
+          }
+        numbers.push_back(n);
+      }
+    constexpr unsigned int other = 50;
+    for (auto cell : one.cells)
+      {
+        for (unsigned int &v : cell.vertices)
+          v = numbers[v];
+        cell.region = other;
+        mesh.cells.push_back(cell);
+      }
+    for (auto face : one.faces)
+      {
+        for (unsigned int &v : face.vertices)
+          v = numbers[v];
+        face.boundary += other;
+        mesh.faces.push_back(face);
+      }
+    mesh.region_names[other] = "second";
+    for (const auto &[id, name] : one.boundary_names)
+      mesh.boundary_names[id + other] = "second " + name;
+    return mesh;
+  }
+
+  std::string
+  motions(const SerialMesh &mesh, const std::string &text)
+  {
+    const Body body(mesh, text);
+    return RigidMotions(body.discretization, body.system.prescribed_motion())
+      .description();
+  }
+} // namespace
+
+TEST(Supports, OneBody)
+{
+  for (const std::string degree : {"1", "2"})
+    {
+      const auto found = [&](const std::string &fixed,
+                             const std::string &displacement = "") {
+        return motions(box("1, 2, 3", "2, 2, 2"),
+                       conditions(fixed, displacement) +
+                         "subsection Discretization\n set Degree = " + degree +
+                         "\nend\n");
+      };
+      EXPECT_EQ(found(""), "the body can " + anything);
+      EXPECT_EQ(found("x-min & z-min"),
+                "the body can rotate about the axis through (0, 1, 0) along y");
+      EXPECT_EQ(found("x-min & y-min & z-min"),
+                "the body can rotate about any axis through (0, 0, 0)");
+      EXPECT_EQ(found("", "x-min: 0; free; free"),
+                "the body can move along y and z and rotate about the axis "
+                "through (0.5, 1, 1.5) along x");
+      EXPECT_EQ(found("", "z-min: free; free; 0, x-max: 0; free; free"),
+                "the body can move along y");
+      // The line is held in all directions but its own.
+      EXPECT_EQ(found("", "x-min & z-min: 0; free; 0"),
+                "the body can move along y and rotate about the axis through "
+                "(0, 1, 0) along y");
+      EXPECT_EQ(found("x-min & z-min", "x-max & y-max & z-max: free; free; 0"),
+                "");
+      EXPECT_EQ(found("x-min"), "");
+    }
+}
+
+// What hangs at an edge or a vertex only turns about it; with a further support
+// it does not. Other bodies are told apart by their place.
+TEST(Supports, SeveralParts)
+{
+  const auto found = [](const dealii::Tensor<1, 3> &shift,
+                        const std::string          &fixed,
+                        const std::string          &displacement = "") {
+    return motions(two_cubes(shift), conditions(fixed, displacement));
+  };
+  const dealii::Tensor<1, 3> apart({3., 0., 0.}), edge({1., 1., 0.}),
+    vertex({1., 1., 1.});
+  EXPECT_EQ(found(apart, "x-min"),
+            "the part at (3.5, 0.5, 0.5) of region 'second' can " + anything);
+  EXPECT_EQ(found(apart, ""),
+            "the part at (0.5, 0.5, 0.5) of region 'body' can " + anything +
+              "; the part at (3.5, 0.5, 0.5) of region 'second' can " +
+              anything);
+  EXPECT_EQ(found(apart, "x-min, second x-min"), "");
+  EXPECT_EQ(found(edge, "x-min"),
+            "the part at (1.5, 1.5, 0.5) of region 'second' can rotate about "
+            "the axis through (1, 1, 0.5) along z");
+  EXPECT_EQ(found(edge, "x-min", "second x-max: free; 0; free"), "");
+  EXPECT_EQ(found(vertex, "x-min"),
+            "the part at (1.5, 1.5, 1.5) of region 'second' can rotate about "
+            "any axis through (1, 1, 1)");
+  EXPECT_EQ(found(vertex,
+                  "x-min",
+                  "second x-max & second y-min & second z-max: 0; 0; 0"),
+            "the part at (1.5, 1.5, 1.5) of region 'second' can rotate about "
+            "the axis through (1.5, 1, 1.5) along (0.7071, 0, 0.7071)");
+}
+
+// Numbers of a body with the radius 2: a screw whose rotation by a radian,
+// which moves what is at that distance by 2 m, comes with a translation of 1 m;
+// and directions that are none of the axes.
+TEST(Supports, Words)
+{
+  const dealii::Point<3> centre(1, 0, 0);
+  EXPECT_EQ(describe({{0., 0., 0.5, 0., 0., 1.}}, centre, 2.),
+            "rotate about the axis through (1, 0, 0) along z while it moves "
+            "along it by 1 m per radian");
+  EXPECT_EQ(describe({{1., 1., 0., 0., 0., 0.}}, centre, 2.),
+            "move along (0.7071, 0.7071, 0)");
+  // About the line x = 3, y = 0.
+  EXPECT_EQ(describe({{0., -1., 0., 0., 0., 1.}}, centre, 2.),
+            "rotate about the axis through (3, 0, 0) along z");
+}
+
+// Also where the loads are in balance. In dynamics a body may fly.
+TEST(Supports, AreNeededInStatics)
+{
+  const auto refused = [](const std::string &time_integration) {
+    return refusal([&] {
+      CompleteRun run(R"(
+        subsection Boundary conditions
+          set Fixed    = x-min & z-min
+          set Pressure = x-min: 1, x-max: 1
+        end
+        subsection Time integration
+          set Type = )" +
+                      time_integration + "\nend\n");
+    });
+  };
+  EXPECT_EQ(refused("static"),
+            "Boundary conditions/Fixed: statics needs a body that cannot move "
+            "without strain; found: the body can rotate about the axis through "
+            "(0, 0.05, 0) along y; allowed: Fixed and Displacement such that "
+            "nothing of this is left, or another Time integration/Type");
+  EXPECT_EQ(refused("Newmark"), "nothing was refused");
+}
+
+// Shorter load steps would have the same matrix: it is factorised once.
+TEST(Supports, SingularMatrixEndsStatics)
+{
+  for (const std::string law : {"linear", "corotational"})
+    {
+      Body        body(box("1, 1, 1", "2, 2, 2"), R"(
+        subsection Boundary conditions
+          set Traction = x-max: 1; 0; 0
+        end
+        subsection Material
+          set Type = )" + law + R"(
+        end
+        subsection Time integration
+          set Type             = static
+          set Maximum halvings = 8
+        end)");
+      Stepper     stepper(body.parameters,
+                      body.discretization,
+                      body.system,
+                      body.log);
+      StepRecord  record = stepper.start({});
+      std::string message;
+      try
+        {
+          stepper.next(record);
+        }
+      catch (const SingularMatrixError &error)
+        {
+          message = error.what();
+        }
+      EXPECT_EQ(message,
+                "the stiffness matrix is singular: the body or a part of it "
+                "can move without resistance, because not enough is "
+                "prescribed")
+        << law;
+    }
+}

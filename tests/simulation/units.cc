@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Any units: a body whose length, modulus, density and loads are multiplied by
+// powers of two moves as before, but for the units. Such factors change
+// exponents of numbers and round nothing, so results are the same to the last
+// bit, as long as no number leaves its range; even powers, as there are square
+// roots of these quantities. Stiffnesses and forces go beyond single precision.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "complete_run.h"
+#include "modal.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // Powers of two: of metres, pascals and kg/m^3.
+  struct Units
+  {
+    int length  = 0;
+    int modulus = 0;
+    int density = 0;
+
+    double
+    seconds() const
+    {
+      return std::ldexp(1., length + (density - modulus) / 2);
+    }
+  };
+
+  // 1e-9 m and small forces; matrices of 1e-42 and of 1e42 N/m, forces of 1e-72
+  // and of 1e60 N.
+  const std::vector<Units> all_units = {{-30, 40, 10},
+                                        {-50, -90, 20},
+                                        {60, 80, -20}};
+
+  std::string
+  body(const Units       &units,
+       const unsigned int degree,
+       const std::string &law,
+       const std::string &coarse_solver)
+  {
+    const double metre  = std::ldexp(1., units.length);
+    const double pascal = std::ldexp(1., units.modulus);
+    return fmt::format(R"(
+      subsection Mesh
+        subsection box
+          set Size  = {:.17g}, {:.17g}, {:.17g}
+          set Cells = 8, 2, 2
+        end
+      end
+      subsection Discretization
+        set Degree = {}
+      end
+      subsection Material
+        set Type            = {}
+        set Young's modulus = {:.17g}
+        set Poisson's ratio = 0.3
+        set Density         = {:.17g}
+      end
+      subsection Boundary conditions
+        set Fixed    = x-min
+        set Traction = x-max: {:.17g}; {:.17g}; 0
+      end
+      subsection Linear solver
+        subsection p-multigrid
+          set Coarse solver = {}
+        end
+      end
+      )",
+                       4 * metre,
+                       metre,
+                       metre,
+                       degree,
+                       law,
+                       pascal,
+                       std::ldexp(1., units.density),
+                       1e-3 * pascal,
+                       1e-4 * pascal,
+                       coarse_solver);
+  }
+
+  // At the end, in these units.
+  std::vector<double>
+  displacement(const std::string &text, const Units &units)
+  {
+    CompleteRun run(text);
+    EXPECT_EQ(run.run(), "");
+    std::vector<double> result;
+    for (unsigned int i = 0; i < run.simulation.state().u.locally_owned_size();
+         ++i)
+      result.push_back(
+        std::ldexp(run.simulation.state().u.local_element(i), -units.length));
+    return result;
+  }
+
+  void
+  expect_same_motion(const unsigned int degree,
+                     const std::string &law,
+                     const std::string &coarse_solver,
+                     const std::string &mass,
+                     const std::string &integrator,
+                     const double       time_step,
+                     const double       end_time)
+  {
+    const auto found = [&](const Units &units) {
+      return displacement(body(units, degree, law, coarse_solver) +
+                            fmt::format(R"(
+      subsection Discretization
+        set Mass = {}
+      end
+      subsection Time integration
+        set Type      = {}
+        set Time step = {:.17g}
+        set End time  = {:.17g}
+        subsection static
+          set Load steps = 2
+        end
+      end)",
+                                        mass,
+                                        integrator,
+                                        time_step * units.seconds(),
+                                        end_time * units.seconds()),
+                          units);
+    };
+    const std::vector<double> reference = found({});
+    for (const Units &units : all_units)
+      EXPECT_EQ(found(units), reference)
+        << degree << ' ' << law << ' ' << coarse_solver << ' ' << integrator
+        << ", 2^" << units.length << " m";
+  }
+} // namespace
+
+TEST(Units, Statics)
+{
+  for (const unsigned int degree : {1u, 2u, 3u})
+    for (const std::string coarse_solver : {"direct", "aggregation"})
+      {
+        expect_same_motion(
+          degree, "linear", coarse_solver, "consistent", "static", 1, 1);
+        expect_same_motion(
+          degree, "corotational", coarse_solver, "consistent", "static", 1, 1);
+      }
+}
+
+TEST(Units, ImplicitDynamics)
+{
+  for (const unsigned int degree : {1u, 2u, 3u})
+    for (const std::string coarse_solver : {"direct", "aggregation"})
+      expect_same_motion(
+        degree, "corotational", coarse_solver, "consistent", "Newmark", 1, 3);
+}
+
+// The stable step is the program's choice, from the largest frequency.
+TEST(Units, ExplicitDynamics)
+{
+  for (const std::string mass : {"diagonal scaling", "consistent"})
+    expect_same_motion(
+      1, "corotational", "direct", mass, "central difference", 0, 3);
+}
+
+// Eigenvalues are exact to the square of the tolerance of the residuals, 1e-8,
+// or round-off of the matrices: the search's decisions depend on it.
+TEST(Units, Modes)
+{
+  for (const unsigned int degree : {1u, 2u, 3u})
+    for (const std::string coarse_solver : {"direct", "aggregation"})
+      {
+        const auto found = [&](const Units &units) {
+          const Analysis computed(body(units, degree, "linear", coarse_solver) +
+                                  "subsection Modes\n set Number = 4\nend\n");
+          std::vector<double> result;
+          for (const Mode &mode : computed.analysis.modes())
+            result.push_back(mode.frequency * units.seconds());
+          return result;
+        };
+        const std::vector<double> reference = found({});
+        for (const Units &units : all_units)
+          {
+            const std::vector<double> here = found(units);
+            for (unsigned int i = 0; i < 4; ++i)
+              EXPECT_NEAR(here[i], reference[i], 1e-11 * reference[i])
+                << degree << ' ' << coarse_solver << ", 2^" << units.length;
+          }
+      }
+}
