@@ -316,6 +316,7 @@ namespace
     field.set_displacement(u);
 
     const double                       estimate   = field.error().energy_norm;
+    field.recover();
     const auto                        &element    = field.reference_element();
     const auto                        &rule       = element.load_rule;
     double                             raw_square = 0, recovered_square = 0;
