@@ -10,6 +10,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace corotet::gmsh_elements
@@ -98,6 +99,39 @@ namespace corotet::gmsh_elements
                        path + ": tetrahedra of several degrees: found " +
                          join(kinds) + "; one of these is allowed");
     result.order = node_order(result.type, result.degree);
+    return result;
+  }
+
+
+
+  std::vector<int>
+  curved_surfaces()
+  {
+    std::vector<int> result;
+    gmsh::vectorpair surfaces;
+    gmsh::model::getEntities(surfaces, 2);
+    for (const auto &[dimension, entity] : surfaces)
+      {
+        std::string type;
+        gmsh::model::getType(dimension, entity, type);
+        std::vector<int> volumes, curves;
+        gmsh::model::getAdjacencies(dimension, entity, volumes, curves);
+        if (type == "Plane" || type == "Discrete surface" || volumes.empty())
+          continue;
+        std::vector<std::size_t> tags;
+        std::vector<double>      coordinates, parameters, normals;
+        gmsh::model::mesh::getNodes(
+          tags, coordinates, parameters, dimension, entity, true);
+        gmsh::model::getNormal(entity, parameters, normals);
+        for (std::size_t i = 3; i < normals.size(); i += 3)
+          if (std::hypot(normals[i] - normals[0],
+                         normals[i + 1] - normals[1],
+                         normals[i + 2] - normals[2]) > 1e-3)
+            {
+              result.push_back(entity);
+              break;
+            }
+      }
     return result;
   }
 

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/facets.h>
 #include <corotet/mesh/gmsh_elements.h>
 #include <corotet/mesh/gmsh_mesh.h>
 
@@ -289,7 +290,7 @@ namespace corotet
 
 
     SerialMesh
-    read(const std::string &path)
+    read(const std::string &path, const bool has_geometry)
     {
       const gmsh_elements::Tetrahedra kind    = gmsh_elements::tetrahedra(path);
       const PhysicalGroups            volumes = physical_groups(path, 3);
@@ -302,6 +303,16 @@ namespace corotet
       Nodes nodes;
       read_cells(mesh, nodes, kind, volumes);
       read_faces(mesh, nodes, surfaces);
+      if (kind.degree > 1)
+        return mesh;
+      std::set<unsigned int> curved;
+      for (const int entity : gmsh_elements::curved_surfaces())
+        if (const auto group = surfaces.of_entity.find(entity);
+            group == surfaces.of_entity.end())
+          curved.insert(no_boundary);
+        else
+          curved.insert(group->second);
+      remark_facets(mesh, has_geometry ? curved : faceted_boundaries(mesh));
       return mesh;
     }
   } // namespace
@@ -365,11 +376,11 @@ namespace corotet
         if (!is_geometry)
           {
             gmsh::open(path);
-            return read(path);
+            return read(path, false);
           }
         generate(path, element_size);
         refine(path, n_refinements, geometry_degree);
-        SerialMesh mesh    = read(path);
+        SerialMesh mesh    = read(path, true);
         mesh.n_refinements = n_refinements;
         return mesh;
       }

@@ -53,23 +53,43 @@ namespace corotet
   }
 
   void
+  StressField::set_up(std::unique_ptr<const StressPatches> &patches,
+                      Vector                               &vector,
+                      const StressPatches::AtSurface        at_surface)
+  {
+    if (patches)
+      return;
+    if (!nodes)
+      nodes = std::make_unique<const MaterialNodes>(
+        discretization, point_stress.n_materials(), [&](const unsigned int c) {
+          return point_stress.material_index(c);
+        });
+    patches = std::make_unique<const StressPatches>(discretization,
+                                                    reference,
+                                                    *nodes,
+                                                    at_surface);
+    nodes->initialize_vector(vector);
+  }
+
+  void
   StressField::recover()
   {
     if (has_recovery)
       return;
-    if (!patches)
-      {
-        nodes = std::make_unique<const MaterialNodes>(
-          discretization,
-          point_stress.n_materials(),
-          [&](const unsigned int c) { return point_stress.material_index(c); });
-        patches = std::make_unique<const StressPatches>(discretization,
-                                                        reference,
-                                                        *nodes);
-        nodes->initialize_vector(recovered_stress);
-      }
+    set_up(patches, recovered_stress, StressPatches::AtSurface::two_layers);
     patches->recover(at_points(), recovered_stress);
     has_recovery = true;
+  }
+
+  SymmetricTensor<2, 3>
+  StressField::raw(const unsigned int                   cell,
+                   const ReferenceElement::PointValues &point) const
+  {
+    Assert(displacement != nullptr, dealii::ExcNotInitialized());
+    AssertDimension(point.weights.size(), 1);
+    SymmetricTensor<2, 3> result;
+    point_stress.evaluate(*displacement, cell, point, &result);
+    return result;
   }
 
   SymmetricTensor<2, 3>
@@ -77,13 +97,20 @@ namespace corotet
                          const std::span<const double> shape_values) const
   {
     Assert(has_recovery, dealii::ExcNotInitialized());
+    return value(recovered_stress, cell, shape_values);
+  }
+
+  SymmetricTensor<2, 3>
+  StressField::value(const Vector                 &vector,
+                     const unsigned int            cell,
+                     const std::span<const double> shape_values) const
+  {
     const auto            cell_nodes = nodes->cell_nodes(cell);
     SymmetricTensor<2, 3> result;
     for (unsigned int i = 0; i < cell_nodes.size(); ++i)
       for (unsigned int k = 0; k < 6; ++k)
         result.access_raw_entry(k) +=
-          shape_values[i] *
-          recovered_stress.local_element(6 * cell_nodes[i] + k);
+          shape_values[i] * vector.local_element(6 * cell_nodes[i] + k);
     return result;
   }
 
@@ -120,7 +147,10 @@ namespace corotet
   {
     if (has_error)
       return stress_error;
-    recover();
+    set_up(patches_of_estimate,
+           stress_of_estimate,
+           StressPatches::AtSurface::one_sided);
+    patches_of_estimate->recover(at_points(), stress_of_estimate);
     // Exact for the square of the recovered stress, of degree 2p.
     const auto                        &rule = reference.load_rule;
     std::vector<SymmetricTensor<2, 3>> stresses(rule.weights.size());
@@ -137,7 +167,9 @@ namespace corotet
             const double volume =
               point_geometry(discretization, rule, c, q).volume;
             const SymmetricTensor<2, 3> difference =
-              recovered(c, {&rule.values(q, 0), reference.n_nodes}) -
+              value(stress_of_estimate,
+                    c,
+                    {&rule.values(q, 0), reference.n_nodes}) -
               stresses[q];
             error_square +=
               volume * (difference * strain_of_stress(material, difference));

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
+#include <cmath>
 
 #include <Eigen/Dense>
 
@@ -62,9 +62,22 @@ namespace corotet
 
     // A fit whose coefficients the data determine badly would be worse than one
     // of a lower degree. Smallest eigenvalue of the normal equations over the
-    // largest, by degree: a tenth of what inner patches have at least. Patches
+    // largest, by degree: a tenth of what is usual at least in patches of inner
+    // vertices and, with its decay, in two layers around the others. Patches
     // with too few cells have round-off.
-    constexpr std::array<double, 4> smallest_eigenvalue{{0, 2e-2, 3e-3, 3e-4}};
+    constexpr std::array<double, 4> least_of_patches{{0, 2e-2, 3e-3, 3e-4}},
+      least_of_layers{{0, 2e-2, 5e-4, 5e-5}};
+
+    // How weights fall with the distance: what was best of 0 to 16 in two
+    // layers and of 0 to 8 for what these leave over, see the page on stress.
+    constexpr std::array<double, 4> decay_of_layers{{0, 0, 4, 4}};
+    constexpr double                decay_of_rest = 2;
+
+    double
+    weight(const Tensor<1, 3> &y, const double decay)
+    {
+      return decay == 0 ? 1. : std::pow(0.5 + y.norm(), -decay);
+    }
 
     // Barycentric coordinates of an element's nodes.
     std::vector<std::array<double, 4>>
@@ -81,24 +94,19 @@ namespace corotet
 
   StressPatches::StressPatches(const Discretization   &discretization,
                                const ReferenceElement &reference,
-                               const MaterialNodes    &nodes)
+                               const MaterialNodes    &nodes,
+                               const AtSurface         at_surface)
     : discretization(discretization)
     , nodes(nodes)
-    , n_points(reference.stiffness_rule.weights.size())
+    , samples(discretization, reference, nodes)
   {
-    points.reserve(static_cast<std::size_t>(discretization.n_local_cells()) *
-                   n_points);
-    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
-      for (unsigned int q = 0; q < n_points; ++q)
-        points.push_back(
-          point_geometry(discretization, reference.stiffness_rule, c, q)
-            .position);
-    find_patches(reference);
+    find_patches(reference, at_surface);
     find_targets();
   }
 
   void
-  StressPatches::find_patches(const ReferenceElement &reference)
+  StressPatches::find_patches(const ReferenceElement &reference,
+                              const AtSurface         at_surface)
   {
     Vector surface;
     discretization.initialize_vector(surface);
@@ -107,96 +115,158 @@ namespace corotet
         surface.local_element(3 * discretization.cell_nodes(face.cell)[i]) = 1;
     surface.compress(dealii::VectorOperation::add);
 
-    // (vertex, material, cell) for all cells around owned vertices.
-    std::vector<std::tuple<unsigned int, unsigned int, unsigned int>> around;
-    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
-      for (unsigned int k = 0; k < 4; ++k)
-        {
-          const unsigned int vertex = discretization.cell_nodes(c)[k];
-          if (vertex < discretization.n_owned_nodes())
-            around.emplace_back(vertex,
-                                nodes.copy(nodes.cell_nodes(c)[k]).material,
-                                c);
-        }
-    std::sort(around.begin(), around.end());
-
-    for (std::size_t begin = 0, end; begin < around.size(); begin = end)
+    patches = first_patches(surface);
+    if (at_surface == AtSurface::one_sided)
       {
-        const auto [vertex, material, cell] = around[begin];
-        Patch patch;
-        for (end = begin;
-             end < around.size() && std::get<0>(around[end]) == vertex &&
-             std::get<1>(around[end]) == material;
-             ++end)
-          patch.cells.push_back(std::get<2>(around[end]));
-        const bool has_others =
-          (begin > 0 && std::get<0>(around[begin - 1]) == vertex) ||
-          (end < around.size() && std::get<0>(around[end]) == vertex);
-        const bool is_inner =
-          !has_others && surface.local_element(3 * vertex) == 0;
-        patch.vertex       = vertex;
-        patch.is_preferred = is_inner || discretization.degree() == 3;
-        set_up_fit(patch);
-        patches.push_back(std::move(patch));
+        for (Patch &patch : patches)
+          if (patch.fits.empty())
+            fit_one_sided(patch);
+        return;
       }
+    // The second layer of cells around an owned vertex: around ghosts, other
+    // ranks have some of them.
+    std::vector<unsigned int> ghosts;
+    for (const Patch &patch : patches)
+      if (patch.fits.empty())
+        for (const unsigned int c : patch.cells)
+          for (unsigned int k = 0; k < 4; ++k)
+            if (const unsigned int v = discretization.cell_nodes(c)[k];
+                v >= discretization.n_owned_nodes())
+              ghosts.push_back(v);
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    samples.fetch_cells_around(ghosts);
+    for (Patch &patch : patches)
+      if (patch.fits.empty())
+        widen(patch);
+  }
+
+  std::vector<StressPatches::Patch>
+  StressPatches::first_patches(const Vector &surface) const
+  {
+    const unsigned int degree = discretization.degree();
+    std::vector<Patch> result;
+    for (unsigned int n = 0; n < nodes.n_owned(); ++n)
+      {
+        const auto [vertex, material] = nodes.copy(n);
+        Patch patch{vertex,
+                    material,
+                    false,
+                    samples.cells_around(vertex, material),
+                    {},
+                    {}};
+        if (patch.cells.empty())
+          continue; // Not a vertex.
+        const bool is_interface =
+          (n > 0 && nodes.copy(n - 1).node == vertex) ||
+          (n + 1 < nodes.n_owned() && nodes.copy(n + 1).node == vertex);
+        if (!is_interface && surface.local_element(3 * vertex) == 0)
+          if (auto inner =
+                fit(vertex, patch.cells, degree, 0, least_of_patches[degree]))
+            {
+              patch.is_preferred = true;
+              patch.fits.push_back(std::move(*inner));
+            }
+        result.push_back(std::move(patch));
+      }
+    return result;
   }
 
   void
-  StressPatches::set_up_fit(Patch &patch) const
+  StressPatches::fit_one_sided(Patch &patch) const
   {
+    const unsigned int degree = discretization.degree();
+    if (auto full =
+          fit(patch.vertex, patch.cells, degree, 0, least_of_patches[degree]))
+      {
+        // Cubic polynomials must not be taken far from where they were fitted.
+        patch.is_preferred = degree == 3;
+        patch.fits.push_back(std::move(*full));
+      }
+    else
+      patch.fits.push_back(*fit(patch.vertex, patch.cells, degree - 1, 0, 0));
+  }
+
+  void
+  StressPatches::widen(Patch &patch) const
+  {
+    const unsigned int        degree = discretization.degree();
+    std::vector<unsigned int> layers;
+    for (const unsigned int c : patch.cells)
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const auto more =
+            samples.cells_around(discretization.cell_nodes(c)[k],
+                                 patch.material);
+          layers.insert(layers.end(), more.begin(), more.end());
+        }
+    std::sort(layers.begin(), layers.end());
+    layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
+    if (auto wide = fit(patch.vertex,
+                        layers,
+                        degree,
+                        decay_of_layers[degree],
+                        least_of_layers[degree]))
+      patch.fits.push_back(std::move(*wide));
+    patch.is_preferred = degree > 1 && !patch.fits.empty();
+    if (degree == 1 && !patch.fits.empty())
+      return;
+    // The points of one cell determine polynomials of degree p - 1.
+    patch.fits.push_back(
+      *fit(patch.vertex, patch.cells, degree - 1, decay_of_rest, 0));
+  }
+
+  std::optional<StressPatches::Fit>
+  StressPatches::fit(const unsigned int               vertex,
+                     const std::vector<unsigned int> &cells,
+                     const unsigned int               degree,
+                     const double                     decay,
+                     const double                     smallest_eigenvalue) const
+  {
+    Fit result;
+    result.degree = degree;
+    result.vertex = discretization.node_position(vertex);
+    result.decay  = decay;
+    result.cells  = cells;
+
     Tensor<1, 3>    mean;
-    Eigen::Matrix3d spread          = Eigen::Matrix3d::Zero();
-    const double    share           = 0.25 / patch.cells.size();
-    const auto      for_each_vertex = [&](const auto &function) {
-      for (const unsigned int c : patch.cells)
-        for (unsigned int k = 0; k < 4; ++k)
-          function(
-            discretization.node_position(discretization.cell_nodes(c)[k]));
-    };
-    for_each_vertex([&](const Point<3> &x) { mean += share * x; });
-    for_each_vertex([&](const Point<3> &x) {
-      const Tensor<1, 3>    d = x - mean;
-      const Eigen::Vector3d y(d[0], d[1], d[2]);
-      spread += share * y * y.transpose();
-    });
-    patch.centre = Point<3>(mean);
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    const double    share  = 0.25 / cells.size();
+    for (const unsigned int c : cells)
+      for (const Point<3> &x : samples.corners(c))
+        mean += share * x;
+    for (const unsigned int c : cells)
+      for (const Point<3> &x : samples.corners(c))
+        {
+          const Tensor<1, 3>    d = x - mean;
+          const Eigen::Vector3d y(d[0], d[1], d[2]);
+          spread += share * y * y.transpose();
+        }
+    result.centre = Point<3>(mean);
     const Eigen::Matrix3d scale =
       spread.llt().matrixL().solve(Eigen::Matrix3d::Identity());
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int b = 0; b < 3; ++b)
-        patch.scale[a][b] = scale(a, b);
+        result.scale[a][b] = scale(a, b);
 
-    const unsigned int degree = discretization.degree();
-    for (patch.degree = degree;; --patch.degree)
-      {
-        const int       n = n_coefficients(patch.degree);
-        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-        for (const unsigned int c : patch.cells)
-          for (unsigned int q = 0; q < n_points; ++q)
-            {
-              const Basis b = monomials(
-                patch.degree,
-                patch.scale *
-                  (points[static_cast<std::size_t>(c) * n_points + q] -
-                   patch.centre));
-              A += b * b.transpose();
-            }
-        const Eigen::VectorXd eigenvalues =
-          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A,
-                                                         Eigen::EigenvaluesOnly)
-            .eigenvalues();
-        // The points of one cell determine polynomials of degree p - 1.
-        if (patch.degree == degree &&
-            eigenvalues[0] < smallest_eigenvalue[degree] * eigenvalues[n - 1])
-          {
-            patch.is_preferred = false;
-            continue;
-          }
-        patch.inverse.resize(n * n);
-        Eigen::Map<Eigen::MatrixXd>(patch.inverse.data(), n, n) =
-          A.llt().solve(Eigen::MatrixXd::Identity(n, n));
-        return;
-      }
+    const int       n = n_coefficients(degree);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+    for (const unsigned int c : cells)
+      for (const Point<3> &x : samples.points(c))
+        {
+          const Basis b = monomials(degree, result.scale * (x - result.centre));
+          A += weight(result.scale * (x - result.vertex), decay) * b *
+               b.transpose();
+        }
+    const Eigen::VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly)
+        .eigenvalues();
+    if (eigenvalues[0] < smallest_eigenvalue * eigenvalues[n - 1])
+      return {};
+    result.inverse.resize(n * n);
+    Eigen::Map<Eigen::MatrixXd>(result.inverse.data(), n, n) =
+      A.llt().solve(Eigen::MatrixXd::Identity(n, n));
+    return result;
   }
 
   std::vector<StressPatches::Target>
@@ -272,37 +342,45 @@ namespace corotet
   StressPatches::recover(const std::vector<SymmetricTensor<2, 3>> &at_points,
                          Vector &recovered) const
   {
-    AssertDimension(at_points.size(), points.size());
+    const auto stresses = samples.complete(at_points);
     recovered.zero_out_ghost_values();
     recovered = 0;
+    // The polynomials of a patch's fits.
+    std::vector<Coefficients> coefficients;
+    const auto polynomial = [&](const Patch &patch, const Point<3> &x) {
+      SixNumbers sum = SixNumbers::Zero();
+      for (unsigned int f = 0; f < coefficients.size(); ++f)
+        sum += coefficients[f].transpose() *
+               monomials(patch.fits[f].degree,
+                         patch.fits[f].scale * (x - patch.fits[f].centre));
+      return sum;
+    };
     for (const Patch &patch : patches)
       {
-        const int    n = n_coefficients(patch.degree);
-        Coefficients right_side(n, 6);
-        right_side.setZero();
-        for (const unsigned int c : patch.cells)
-          for (unsigned int q = 0; q < n_points; ++q)
-            {
-              const std::size_t i = static_cast<std::size_t>(c) * n_points + q;
-              right_side +=
-                monomials(patch.degree,
-                          patch.scale * (points[i] - patch.centre)) *
-                six_numbers(at_points[i]).transpose();
-            }
-        const Eigen::Map<const Eigen::MatrixXd> inverse(patch.inverse.data(),
-                                                        n,
-                                                        n);
-        Coefficients                            coefficients(n, 6);
-        coefficients.noalias() = inverse * right_side;
-        for (const Target &target : patch.targets)
+        coefficients.clear();
+        for (const Fit &fit : patch.fits)
           {
-            const Point<3> x =
-              discretization.node_position(nodes.copy(target.node).node);
-            Eigen::Map<SixNumbers>(recovered.begin() + 6 * target.node) +=
-              target.weight *
-              (coefficients.transpose() *
-               monomials(patch.degree, patch.scale * (x - patch.centre)));
+            const int    n = n_coefficients(fit.degree);
+            Coefficients right_side(n, 6);
+            right_side.setZero();
+            for (const unsigned int c : fit.cells)
+              for (unsigned int q = 0; const Point<3> &x : samples.points(c))
+                right_side +=
+                  weight(fit.scale * (x - fit.vertex), fit.decay) *
+                  monomials(fit.degree, fit.scale * (x - fit.centre)) *
+                  (six_numbers(stresses[samples.first_point(c) + q++]) -
+                   polynomial(patch, x))
+                    .transpose();
+            coefficients.emplace_back(n, 6);
+            coefficients.back().noalias() =
+              Eigen::Map<const Eigen::MatrixXd>(fit.inverse.data(), n, n) *
+              right_side;
           }
+        for (const Target &target : patch.targets)
+          Eigen::Map<SixNumbers>(recovered.begin() + 6 * target.node) +=
+            target.weight * polynomial(patch,
+                                       discretization.node_position(
+                                         nodes.copy(target.node).node));
       }
     recovered.compress(dealii::VectorOperation::add);
     recovered.update_ghost_values();

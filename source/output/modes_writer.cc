@@ -65,7 +65,9 @@ namespace corotet
     : directory(directory)
     , analysis(analysis)
     , probes(parameters.probe_points(), analysis.discretization())
-    , stress_probes(parameters.stress_probe_points(), analysis.discretization())
+    , stress_probes(parameters.stress_probe_points(),
+                    analysis.discretization(),
+                    parameters.has_raw_stress_at_probes())
     , stress(analysis.stress_field())
     , with_stress_at_nodes(parameters.has_stress_at_nodes())
     , with_stress_at_points(parameters.has_stress_at_points())

@@ -163,9 +163,16 @@ namespace corotet
     prm.add_parameter(
       "Stress probes",
       stress_probes,
-      "Points of the undeformed body [m] whose recovered stress goes into "
-      "history.csv; written like 'Probes'.",
+      "Points of the undeformed body [m] whose stress goes into history.csv; "
+      "written like 'Probes'.",
       dealii::Patterns::Anything());
+    prm.add_parameter(
+      "Stress at probes",
+      stress_at_probes,
+      "Which stress 'Stress probes' show [-]: 'recovered', which is smooth and "
+      "in general more accurate; 'raw', that of the displacement in the cells "
+      "that have the point, their mean if there are several.",
+      dealii::Patterns::Selection("recovered|raw"));
   }
 
   std::vector<ProbePoint>

@@ -15,10 +15,11 @@ namespace corotet
   namespace mpi = dealii::Utilities::MPI;
 
   StressProbes::StressProbes(const std::vector<ProbePoint> &points,
-                             const Discretization          &discretization)
+                             const Discretization          &discretization,
+                             const bool                     raw)
     : comm(discretization.communicator())
+    , raw(raw)
   {
-    const auto &fe = discretization.finite_element().base_element(0);
     for (const auto &[name, x] : points)
       {
         const std::size_t n_before = located.size();
@@ -28,10 +29,10 @@ namespace corotet
             if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) <
                 -probe_tolerance)
               continue;
-            Located probe{static_cast<unsigned int>(probe_names.size()), c, {}};
-            for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
-              probe.shape_values.push_back(fe.shape_value(i, xi));
-            located.push_back(probe);
+            located.push_back({static_cast<unsigned int>(probe_names.size()),
+                               c,
+                               ReferenceElement::tabulate(
+                                 discretization.element(), {xi}, {1.})});
           }
         if (mpi::max(located.size() - n_before, comm) == 0)
           throw_outside_of_body("Output/Stress probes",
@@ -45,14 +46,18 @@ namespace corotet
   std::vector<SymmetricTensor<2, 3>>
   StressProbes::stresses(StressField &field) const
   {
-    field.recover();
+    if (!raw)
+      field.recover();
     // For each probe and material: six sums over cells, and their number.
     const unsigned int  n_materials = field.law().n_materials();
     std::vector<double> sums(7 * n_materials * probe_names.size(), 0.);
     for (const Located &probe : located)
       {
         const SymmetricTensor<2, 3> sigma =
-          field.recovered(probe.cell, probe.shape_values);
+          raw ? field.raw(probe.cell, probe.point) :
+                field.recovered(probe.cell,
+                                {&probe.point.values(0, 0),
+                                 probe.point.values.size(1)});
         double *const sum = &sums[7 * (n_materials * probe.probe +
                                        field.law().material_index(probe.cell))];
         for (unsigned int k = 0; k < 6; ++k)

@@ -234,7 +234,8 @@ namespace corotet
     observers.push_back(std::make_unique<LastRow>(
       Probes(parameters.output.probe_points(), simulated->discretization()),
       StressProbes(parameters.output.stress_probe_points(),
-                   simulated->discretization())));
+                   simulated->discretization(),
+                   parameters.output.has_raw_stress_at_probes())));
     const auto &last = static_cast<const LastRow &>(*observers.front());
     try
       {

@@ -56,7 +56,8 @@ TEST_P(ShippedMesh, LoadsAndPassesTheChecks)
       SerialMesh mesh =
         read_gmsh(GetParam().name + extension, COROTET_SOURCE_DIR "/meshes");
       check_mesh(mesh);
-      EXPECT_TRUE(mesh.remarks.empty());
+      // Of round surfaces on straight cells, by the geometry or by facets.
+      EXPECT_EQ(mesh.remarks.size(), GetParam().tolerance > 1e-9 ? 1u : 0u);
       EXPECT_EQ(mesh.region_names, GetParam().regions);
 
       std::set<std::string> found;

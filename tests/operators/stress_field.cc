@@ -315,7 +315,8 @@ namespace
     StressField   field = stress_field(body, Rotation::none);
     field.set_displacement(u);
 
-    const double                       estimate   = field.error().energy_norm;
+    const double estimate = field.error().energy_norm;
+    field.recover();
     const auto                        &element    = field.reference_element();
     const auto                        &rule       = element.load_rule;
     double                             raw_square = 0, recovered_square = 0;

@@ -84,6 +84,34 @@ TEST(StressProbes, ExactInEachMaterial)
     }
 }
 
+// Raw stress of degree 1 is constant in cells: a probe inside a cell has that
+// of the cell, which the recovered one is not where stress varies.
+TEST(StressProbes, Raw)
+{
+  ModelBody              body(1);
+  const ReferenceElement reference(1);
+  StressField field(body.discretization, reference, materials, Rotation::none);
+  for (unsigned int n = 0; n < body.discretization.n_local_nodes(); ++n)
+    {
+      const auto x = body.discretization.node_position(n);
+      body.displacement.local_element(3 * n) = 0.01 * x[0] * x[0] - x[1] * x[2];
+    }
+  field.set_displacement(body.displacement);
+  OutputParameters parameters;
+  parameters.stress_probes = "inside: 0.23 0.31 0.17";
+  for (const bool raw : {true, false})
+    {
+      const auto found =
+        StressProbes(parameters.stress_probe_points(), body.discretization, raw)
+          .stresses(field)[0];
+      double nearest = 1e300;
+      for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
+        nearest = std::min(nearest, (field.at_points()[c] - found).norm());
+      nearest = dealii::Utilities::MPI::min(nearest, MPI_COMM_WORLD);
+      EXPECT_EQ(nearest < 1e-12 * found.norm(), raw);
+    }
+}
+
 TEST(StressProbes, ColumnsOfTheHistory)
 {
   ModelBody              body(1);

@@ -28,6 +28,12 @@ namespace corotet::gmsh_elements
   Tetrahedra
   tetrahedra(const std::string &path);
 
+  /// Tags of the surfaces of volumes that are curved, by the geometry: its
+  /// normals at the mesh's nodes differ by more than 1e-3. None if there is no
+  /// geometry, but a mesh only.
+  std::vector<int>
+  curved_surfaces();
+
   /// Tags of the corners of all triangles of a surface of the geometry, of
   /// whatever degree: three for each.
   std::vector<std::size_t>

@@ -14,8 +14,9 @@
 namespace corotet
 {
   /**
-   * Error of the stress, estimated by its distance from the recovered stress
-   * sigma* (Zienkiewicz, Zhu 1987, @cite zienkiewicz1987). Norms are those of
+   * Error of the stress, estimated by its distance from a recovered stress
+   * sigma* (Zienkiewicz, Zhu 1987, @cite zienkiewicz1987), that of one-sided
+   * patches at the surface. Norms are those of
    * energy, |sigma|_E^2 = integral of sigma : C^{-1} : sigma over the body at
    * rest: twice its elastic energy. Unit: square root of J.
    */
@@ -75,6 +76,12 @@ namespace corotet
     const std::vector<dealii::SymmetricTensor<2, 3>> &
     at_points();
 
+    /// The stress of the displacement at the only point of a rule in a local
+    /// cell. Not collective.
+    dealii::SymmetricTensor<2, 3>
+    raw(const unsigned int                   cell,
+        const ReferenceElement::PointValues &point) const;
+
     /// The recovered stress at point @p q of a rule (or any values of shape
     /// functions) in a local cell: sum_i N_i sigma*_i. To be called after
     /// recover(). Not collective.
@@ -101,13 +108,23 @@ namespace corotet
     error();
 
   private:
+    void
+    set_up(std::unique_ptr<const StressPatches> &patches,
+           Vector                               &vector,
+           const StressPatches::AtSurface        at_surface);
+    /// The value in a cell of a function of @p nodes.
+    dealii::SymmetricTensor<2, 3>
+    value(const Vector                 &vector,
+          const unsigned int            cell,
+          const std::span<const double> shape_values) const;
+
     const Discretization   &discretization;
     const ReferenceElement &reference;
     const PointStress       point_stress;
 
     /// Made when they are first needed.
     std::unique_ptr<const MaterialNodes> nodes;
-    std::unique_ptr<const StressPatches> patches;
+    std::unique_ptr<const StressPatches> patches, patches_of_estimate;
 
     const Vector *displacement = nullptr;
     bool          has_points   = false;
@@ -115,8 +132,8 @@ namespace corotet
     bool          has_error    = false;
 
     std::vector<dealii::SymmetricTensor<2, 3>> points;
-    Vector                                     recovered_stress;
-    StressError                                stress_error;
+    Vector      recovered_stress, stress_of_estimate;
+    StressError stress_error;
   };
 } // namespace corotet
 

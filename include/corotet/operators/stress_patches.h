@@ -5,16 +5,17 @@
 #define corotet_operators_stress_patches_h
 
 #include <corotet/discretization/reference_element.h>
-#include <corotet/operators/material_nodes.h>
+#include <corotet/operators/stress_samples.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace corotet
 {
   /**
    * Superconvergent patch recovery of stress (Zienkiewicz, Zhu 1992,
-   * @cite zienkiewicz1992).
+   * @cite zienkiewicz1992), with wider patches at the surface.
    *
    * The patch of a vertex is the cells of one material around it. A polynomial
    * of degree p is fitted to the stress at the points of the stiffness rule
@@ -22,26 +23,43 @@ namespace corotet
    * vertices of its edge, face or cell, weighted by its barycentric
    * coordinates.
    *
-   * For p = 1 and 2, one-sided patches of vertices on the surface or on an
-   * interface would cost half an order: where nodes have other patches of the
-   * same material, these count alone, those of the node's own vertices first,
-   * then those of all inner vertices whose cells it belongs to. Cubic
-   * polynomials, taken that far beyond the points that they were fitted to, are
-   * worse than one-sided ones on all but very fine meshes: for p = 3 all
-   * patches count. Where a fit of degree p is badly determined, one of degree
-   * p - 1 takes its place, which counts last.
+   * At the surface and at interfaces a patch is one-sided: it determines terms
+   * of degree p badly, and what is wrong with them is largest at the vertex.
+   * There they are fitted to two layers of cells around the vertex, the nearer
+   * ones counting more; to what that polynomial leaves over in the patch
+   * itself, one of degree p - 1 is fitted and added. For p = 1 the polynomial
+   * is that of the two layers, and vertices next to inner ones take the
+   * polynomials of these.
    *
-   * Stress that is a polynomial of degree p - 1 is recovered exactly.
+   * Where a fit of degree p is badly determined all the same, one of degree
+   * p - 1 takes its place, which counts last. Stress that is a polynomial of
+   * degree p - 1 is recovered exactly.
    *
    * @p discretization and @p nodes must outlive this object.
    */
   class StressPatches
   {
   public:
+    /**
+     * How polynomials of vertices at the surface and at interfaces are made.
+     * With two_layers as described above, which is more accurate there. With
+     * one_sided they are fitted to the patch alone, and for p = 1 and 2 nodes
+     * that belong to patches of inner vertices take the polynomials of these.
+     * What is known of the error comes from how far the recovered stress is
+     * from the raw one: as two_layers follow that more closely at the surface,
+     * one_sided patches estimate errors better.
+     */
+    enum class AtSurface
+    {
+      two_layers,
+      one_sided
+    };
+
     /// Collective.
     StressPatches(const Discretization   &discretization,
                   const ReferenceElement &reference,
-                  const MaterialNodes    &nodes);
+                  const MaterialNodes    &nodes,
+                  const AtSurface         at_surface);
 
     /**
      * @p recovered (of @p nodes, six numbers each as SymmetricTensor has them;
@@ -60,27 +78,55 @@ namespace corotet
       double       weight;
     };
 
+    /// A polynomial that is fitted to stress by weighted least squares.
+    struct Fit
+    {
+      /// In the variables scale (x - centre), in which the cells are round.
+      unsigned int         degree;
+      dealii::Point<3>     centre;
+      dealii::Tensor<2, 3> scale;
+      /// Points at the distance r in these variables from the vertex count
+      /// (1/2 + r)^-decay times.
+      dealii::Point<3> vertex;
+      double           decay;
+      /// Of the matrix of the normal equations.
+      std::vector<double>       inverse;
+      std::vector<unsigned int> cells;
+    };
+
     struct Patch
     {
       /// Of the discretization.
       unsigned int vertex;
+      unsigned int material;
       /// Whether it counts before others.
-      bool is_preferred;
-      /// Of the polynomial, in the variables scale (x - centre), in which the
-      /// patch is round.
-      unsigned int         degree;
-      dealii::Point<3>     centre;
-      dealii::Tensor<2, 3> scale;
-      /// Of the matrix of the normal equations.
-      std::vector<double>       inverse;
+      bool                      is_preferred;
       std::vector<unsigned int> cells;
-      std::vector<Target>       targets;
+      /// Each of what those before leave over; the polynomial is their sum.
+      std::vector<Fit>    fits;
+      std::vector<Target> targets;
     };
 
     void
-    find_patches(const ReferenceElement &reference);
+    find_patches(const ReferenceElement &reference, const AtSurface at_surface);
+    /// Patches of inner vertices, and without fits those of the others, which
+    /// get them from widen().
+    std::vector<Patch>
+    first_patches(const Vector &surface) const;
     void
-    set_up_fit(Patch &patch) const;
+    widen(Patch &patch) const;
+    /// As widen(), by one_sided patches.
+    void
+    fit_one_sided(Patch &patch) const;
+    /// The polynomial of a degree for some cells around a vertex, of a
+    /// smallest_eigenvalue of the normal equations over the largest; none if
+    /// that is not reached.
+    std::optional<Fit>
+    fit(const unsigned int               vertex,
+        const std::vector<unsigned int> &cells,
+        const unsigned int               degree,
+        const double                     decay,
+        const double                     smallest_eigenvalue) const;
     /// All nodes of a patch, with the vertex's barycentric coordinate as
     /// weight; @p barycentric are those of the nodes of an element.
     std::vector<Target>
@@ -91,10 +137,8 @@ namespace corotet
 
     const Discretization &discretization;
     const MaterialNodes  &nodes;
-    unsigned int          n_points;
-    /// Of the stiffness rule in all local cells, cell by cell.
-    std::vector<dealii::Point<3>> points;
-    std::vector<Patch>            patches;
+    StressSamples         samples;
+    std::vector<Patch>    patches;
   };
 } // namespace corotet
 

@@ -54,6 +54,13 @@ namespace corotet
       return stress == "nodes" || stress == "both";
     }
 
+    /// Whether probes show the raw stress instead of the recovered one.
+    bool
+    has_raw_stress_at_probes() const
+    {
+      return stress_at_probes == "raw";
+    }
+
     /// Whether stress is written at quadrature points.
     bool
     has_stress_at_points() const
@@ -76,6 +83,7 @@ namespace corotet
     std::string  probes;
     std::string  stress = "none";
     std::string  stress_probes;
+    std::string  stress_at_probes = "recovered";
   };
 } // namespace corotet
 

@@ -13,9 +13,11 @@
 namespace corotet
 {
   /**
-   * Points of the undeformed body, anywhere in it, at which the recovered
-   * stress is evaluated. Where materials meet: the mean of theirs, so that the
-   * distribution over ranks makes no difference.
+   * Points of the undeformed body, anywhere in it, at which stress is
+   * evaluated: the recovered one or the raw one, that of the displacement.
+   * Where cells meet it is the mean of theirs, and where materials meet the
+   * mean of the materials', so that the distribution over ranks makes no
+   * difference.
    *
    * @p discretization must outlive this object.
    */
@@ -25,7 +27,8 @@ namespace corotet
     /// Throws InputError blamed on Output/Stress probes if a point is outside
     /// the body (by more than 1e-8 of a cell). Collective.
     StressProbes(const std::vector<ProbePoint> &points,
-                 const Discretization          &discretization);
+                 const Discretization          &discretization,
+                 const bool                     raw = false);
 
     const std::vector<std::string> &
     names() const
@@ -33,8 +36,8 @@ namespace corotet
       return probe_names;
     }
 
-    /// Stress of each probe [Pa], on all ranks. Recovers it if that is not
-    /// done. Collective.
+    /// Stress of each probe [Pa], on all ranks. Recovers it if that is wanted
+    /// and not done. Collective.
     std::vector<dealii::SymmetricTensor<2, 3>>
     stresses(StressField &field) const;
 
@@ -42,12 +45,13 @@ namespace corotet
     /// A probe in an owned cell.
     struct Located
     {
-      unsigned int        probe;
-      unsigned int        cell;
-      std::vector<double> shape_values;
+      unsigned int                  probe;
+      unsigned int                  cell;
+      ReferenceElement::PointValues point;
     };
 
     MPI_Comm                 comm;
+    bool                     raw;
     std::vector<std::string> probe_names;
     std::vector<Located>     located;
   };

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/text.h>
+#include <corotet/mesh/facets.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace corotet
+{
+  namespace
+  {
+    using Corners = std::array<unsigned int, 3>;
+    using Edge    = std::array<unsigned int, 2>;
+
+    struct Triangle
+    {
+      Corners              corners;
+      unsigned int         boundary;
+      dealii::Tensor<1, 3> normal;
+    };
+
+    // Two triangles of a boundary that share an edge, and the angle between
+    // their normals.
+    struct Bend
+    {
+      Edge                        edge;
+      std::array<unsigned int, 2> triangles;
+      double                      angle;
+    };
+
+    Corners
+    sorted(Corners corners)
+    {
+      std::sort(corners.begin(), corners.end());
+      return corners;
+    }
+
+    // Faces of only one cell, with normals that point outwards.
+    std::vector<Triangle>
+    surface_of(const SerialMesh &mesh)
+    {
+      std::map<Corners, unsigned int> boundaries;
+      for (const SerialMesh::Face &face : mesh.faces)
+        boundaries.emplace(sorted(face.vertices), face.boundary);
+      std::map<Corners, std::pair<Triangle, unsigned int>> found;
+      for (const SerialMesh::Cell &cell : mesh.cells)
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            const auto &v = cell.vertices;
+            Corners corners{{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]}};
+            auto &[triangle, n_cells] = found[sorted(corners)];
+            if (++n_cells > 1)
+              continue;
+            const auto            &x      = mesh.vertices;
+            const dealii::Point<3> origin = x[corners[0]];
+            auto                   normal =
+              cross_product_3d(x[corners[1]] - origin, x[corners[2]] - origin);
+            if (normal * (x[v[k]] - origin) > 0)
+              normal *= -1.;
+            const auto boundary = boundaries.find(sorted(corners));
+            triangle            = {corners,
+                        boundary == boundaries.end() ? no_boundary :
+                                                                  boundary->second,
+                                   normal / normal.norm()};
+          }
+      std::vector<Triangle> result;
+      for (const auto &[corners, entry] : found)
+        if (entry.second == 1)
+          result.push_back(entry.first);
+      return result;
+    }
+
+    std::vector<Bend>
+    bends_of(const std::vector<Triangle> &surface)
+    {
+      std::map<Edge, std::vector<unsigned int>> edges;
+      for (unsigned int t = 0; t < surface.size(); ++t)
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            Edge edge{{surface[t].corners[k], surface[t].corners[(k + 1) % 3]}};
+            std::sort(edge.begin(), edge.end());
+            edges[edge].push_back(t);
+          }
+      std::vector<Bend> result;
+      for (const auto &[edge, sides] : edges)
+        if (sides.size() == 2 &&
+            surface[sides[0]].boundary == surface[sides[1]].boundary)
+          result.push_back(
+            {edge,
+             {{sides[0], sides[1]}},
+             std::atan2(cross_product_3d(surface[sides[0]].normal,
+                                         surface[sides[1]].normal)
+                          .norm(),
+                        surface[sides[0]].normal * surface[sides[1]].normal)});
+      return result;
+    }
+
+    // Sets of numbers that are joined two by two.
+    class DisjointSets
+    {
+    public:
+      explicit DisjointSets(const unsigned int n)
+        : parents(n)
+      {
+        std::iota(parents.begin(), parents.end(), 0);
+      }
+
+      unsigned int
+      find(unsigned int i)
+      {
+        while (parents[i] != i)
+          i = parents[i] = parents[parents[i]];
+        return i;
+      }
+
+      void
+      join(const unsigned int i, const unsigned int j)
+      {
+        parents[find(i)] = find(j);
+      }
+
+    private:
+      std::vector<unsigned int> parents;
+    };
+  } // namespace
+
+  std::set<unsigned int>
+  faceted_boundaries(const SerialMesh &mesh)
+  {
+    constexpr double       degree = dealii::numbers::PI / 180;
+    constexpr double       flat = 0.1 * degree, sharp = 42 * degree;
+    constexpr unsigned int n_in_sequence = 4;
+
+    const std::vector<Triangle> surface = surface_of(mesh);
+    const std::vector<Bend>     bends   = bends_of(surface);
+    DisjointSets                facets(surface.size());
+    std::vector<unsigned char>  is_bent(mesh.vertices.size());
+    for (const Bend &bend : bends)
+      if (bend.angle < flat)
+        facets.join(bend.triangles[0], bend.triangles[1]);
+      else
+        is_bent[bend.edge[0]] = is_bent[bend.edge[1]] = 1;
+    // Vertices on edges between boundaries or at sharp ones are on the rim of
+    // a facet, too: those whose triangles are of several facets.
+    std::vector<unsigned int> facet_at(mesh.vertices.size(), no_boundary);
+    for (unsigned int t = 0; t < surface.size(); ++t)
+      for (const unsigned int v : surface[t].corners)
+        if (facet_at[v] == no_boundary)
+          facet_at[v] = facets.find(t);
+        else if (facet_at[v] != facets.find(t))
+          is_bent[v] = 1;
+    std::vector<unsigned char> is_wide(surface.size());
+    for (unsigned int t = 0; t < surface.size(); ++t)
+      for (const unsigned int v : surface[t].corners)
+        if (is_bent[v] == 0)
+          is_wide[facets.find(t)] = 1;
+
+    DisjointSets sequences(surface.size());
+    for (const Bend &bend : bends)
+      {
+        const unsigned int a = facets.find(bend.triangles[0]),
+                           b = facets.find(bend.triangles[1]);
+        if (bend.angle < sharp && is_wide[a] == 0 && is_wide[b] == 0)
+          sequences.join(a, b);
+      }
+    std::map<unsigned int, unsigned int> lengths;
+    for (unsigned int t = 0; t < surface.size(); ++t)
+      if (facets.find(t) == t && is_wide[t] == 0)
+        ++lengths[sequences.find(t)];
+    std::set<unsigned int> result;
+    for (const auto &[sequence, length] : lengths)
+      if (length >= n_in_sequence)
+        result.insert(surface[sequence].boundary);
+    return result;
+  }
+
+  void
+  remark_facets(SerialMesh &mesh, const std::set<unsigned int> &boundaries)
+  {
+    if (boundaries.empty())
+      return;
+    std::vector<std::string> names;
+    for (const unsigned int id : boundaries)
+      if (const auto name = mesh.boundary_names.find(id); id == no_boundary)
+        names.emplace_back("surfaces without a name");
+      else if (name == mesh.boundary_names.end() || name->second.empty())
+        names.push_back(std::to_string(id));
+      else
+        names.push_back(name->second);
+    mesh.remarks.push_back(
+      "warning for elements of degree 2 and 3: cells are straight along curved "
+      "surfaces (" +
+      join(names) +
+      "), stress there is no better than with degree 1; set Mesh/gmsh/Geometry "
+      "degree to that of the elements, or give a .msh of curved cells");
+  }
+} // namespace corotet

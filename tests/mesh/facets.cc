@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Straight cells along curved surfaces are noticed by their facets; surfaces
+// that are made of planes are not taken for curved.
+
+#include <corotet/mesh/facets.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+
+namespace
+{
+  // Names of the boundaries that look curved after the vertices have moved.
+  std::set<std::string>
+  curved(SerialMesh mesh, const std::function<Point<3>(const Point<3> &)> &map)
+  {
+    for (Point<3> &x : mesh.vertices)
+      x = map(x);
+    std::set<std::string> result;
+    for (const unsigned int id : faceted_boundaries(mesh))
+      result.insert(id == no_boundary ? "none" : mesh.boundary_names.at(id));
+    return result;
+  }
+
+  // A point of the bar [0, n] x [0, 1]^2 that is bent to part of a polygon of
+  // inner radius 3, by an angle [degrees] at each unit of x.
+  Point<3>
+  bent(const Point<3> &x, const double angle)
+  {
+    const double turn   = angle * dealii::numbers::PI / 180;
+    const double radius = 3 + x[2];
+    // Between corners of the polygon along its side.
+    const double corner = std::floor(x[0] + 1e-10), s = x[0] - corner;
+    const auto   at = [&](const double k) {
+      return Point<3>(radius * std::sin(k * turn),
+                      x[1],
+                      radius * std::cos(k * turn));
+    };
+    return at(corner) + s * (at(corner + 1) - at(corner));
+  }
+
+  const std::set<std::string> none, inner_and_outer{"z-min", "z-max"};
+} // namespace
+
+// Sides of one cell each: a faceted cylinder if they turn by up to 42 degrees.
+TEST(Facets, OfCylinders)
+{
+  for (const double angle : {0.5, 5., 15., 30., 40.})
+    EXPECT_EQ(curved(box("6, 1, 1", "6, 2, 2"),
+                     [&](const Point<3> &x) { return bent(x, angle); }),
+              inner_and_outer)
+      << angle;
+}
+
+// No plane is a facet for being cut into cells: the same polygons with sides of
+// two cells that have vertices inside, few sides, or sharp edges.
+TEST(Facets, OfPolyhedra)
+{
+  const auto same = [](const Point<3> &x) { return x; };
+  EXPECT_EQ(curved(box("1, 1, 1", "1, 1, 1"), same), none);
+  EXPECT_EQ(curved(box("2, 1, 1", "6, 3, 3", 0.1), same), none);
+  for (const double angle : {5., 15., 30., 45., 60.})
+    {
+      const auto bend = [&](const Point<3> &x) { return bent(x, angle); };
+      EXPECT_EQ(curved(box("6, 1, 1", "12, 4, 2"), bend), none) << angle;
+      EXPECT_EQ(curved(box("3, 1, 1", "3, 1, 1"), bend), none) << angle;
+    }
+  for (const double angle : {45., 60., 90.})
+    EXPECT_EQ(curved(box("3, 1, 1", "3, 2, 2"),
+                     [&](const Point<3> &x) { return bent(x, angle); }),
+              none)
+      << angle;
+}
+
+// A remark names the boundaries, and says what to do; once.
+TEST(Facets, Remark)
+{
+  SerialMesh mesh = box("6, 1, 1", "6, 2, 2");
+  remark_facets(mesh, {});
+  EXPECT_TRUE(mesh.remarks.empty());
+  std::set<unsigned int> boundaries{no_boundary};
+  for (const auto &[id, name] : mesh.boundary_names)
+    if (name == "z-min")
+      boundaries.insert(id);
+  remark_facets(mesh, boundaries);
+  ASSERT_EQ(mesh.remarks.size(), 1u);
+  for (const std::string word :
+       {"z-min", "surfaces without a name", "Geometry degree"})
+    EXPECT_NE(mesh.remarks[0].find(word), std::string::npos) << word;
+}
