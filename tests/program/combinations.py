@@ -20,13 +20,12 @@ import math
 import os
 import pathlib
 import random
-import shlex
 import subprocess
 import sys
 import tempfile
 import unittest
 
-from support import ROOT, ProgramTest, read_history
+from support import ROOT, ProgramTest, launcher, read_history
 
 EPSILON = 2.0**-52
 INTEGRATORS = ("static", "backward Euler", "BDF2", "implicit midpoint", "Newmark", "HHT-alpha", "generalized-alpha", "central difference")
@@ -194,13 +193,12 @@ class Combination:
 def run(seed, folder):
     """Computes a combination twice. Returns what is wrong, as lines of text."""
     combination = Combination(seed)
-    launcher = shlex.split(os.environ["COROTET_MPIRUN"])[:-1]
     histories = []
     for name, ranks, solver in (("one", 1, combination.reference), ("other", combination.ranks, combination.other)):
         file = folder / f"{seed}_{name}.prm"
         file.write_text(combination.text(solver), encoding="utf-8")
         output = folder / f"{seed}_{name}"
-        command = [*([*launcher, str(ranks)] if ranks > 1 else []), os.environ["COROTET_PROGRAM"], str(file), "--output", str(output), "--quiet",
+        command = [*launcher(ranks), os.environ["COROTET_PROGRAM"], str(file), "--output", str(output), "--quiet",
                    "--set", "Output/Time between results = 1e300"]
         try:
             result = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
