@@ -20,7 +20,7 @@ COLUMNS = ("step time dt newton_iterations linear_iterations kinetic_energy elas
            "max_displacement min_det_F inverted_cells wall_time").split()
 COLUMNS_AFTER_PROBES = ("volume reaction_x reaction_y reaction_z degenerate_cells robust_rotations clamped_cells parts "
                         "internal_moment_x internal_moment_y internal_moment_z rejected_steps").split()
-SUMMARY_KEYS = ("status version git_revision dealii_version ranks cells nodes dofs degree mesh_volume total_mass steps end_time "
+SUMMARY_KEYS = ("status version git_revision dealii_version ranks cells nodes dofs degree mesh_volume total_mass steps end_time preconditioner_builds "
                 "final wall_time peak_memory_bytes").split()
 MODES_COLUMNS = ("mode frequency angular_frequency eigenvalue residual modal_mass effective_mass_x effective_mass_y effective_mass_z "
                  "mass_share_x mass_share_y mass_share_z").split()
