@@ -158,15 +158,17 @@ namespace corotet
     dealii::SolverControl control(limit, tolerance * norm(b));
     if (method == "gmres" || !symmetric)
       {
+        unsigned int done = 0;
         if (method != "gmres")
           {
             FlexibleCG cg(control, n_directions);
-            if (cg.solve(A, x, b, preconditioner.selected()))
-              return control.last_step();
+            const bool has_converged =
+              cg.solve(A, x, b, preconditioner.selected());
+            done = control.last_step();
+            if (has_converged)
+              return done;
           }
-        const unsigned int    done = control.last_step();
-        dealii::SolverControl left(limit - std::min(done, limit),
-                                   control.tolerance());
+        dealii::SolverControl left(limit - done, control.tolerance());
         // The flexible variant: a preconditioner in single precision is not
         // quite linear, and the plain one trusts that it is.
         dealii::SolverFGMRES<Vector> gmres(left);
