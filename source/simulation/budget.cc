@@ -29,7 +29,8 @@ namespace corotet
     for (Forces *forces : {&last, &now})
       {
         discretization.initialize_vector(forces->external);
-        discretization.initialize_vector(forces->damping);
+        if (system.has_damping())
+          discretization.initialize_vector(forces->damping);
         discretization.initialize_vector(forces->displacement);
         forces->carried.resize(n_prescribed);
         forces->velocity.resize(n_prescribed);

@@ -94,8 +94,6 @@ namespace corotet
                            &u_ghosted,
                            &v_ghosted,
                            &a_ghosted,
-                           &free_residual,
-                           &free_acceleration,
                            &positions})
       discretization.initialize_vector(*vector);
 

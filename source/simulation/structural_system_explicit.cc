@@ -48,6 +48,9 @@ namespace corotet
         return report;
       }
 
+    if (free_residual.size() == 0)
+      for (Vector *vector : {&free_residual, &free_acceleration})
+        discretization.initialize_vector(*vector);
     // Free accelerations from those that are prescribed: M_ff a_f = r_f.
     for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
       if (!motion.is_prescribed()[i])
