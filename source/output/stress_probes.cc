@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 #include <corotet/output/stress_probes.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 namespace corotet
 {
-  using dealii::Point;
   using dealii::SymmetricTensor;
   namespace mpi = dealii::Utilities::MPI;
 
@@ -18,19 +16,19 @@ namespace corotet
                              const Discretization          &discretization)
     : comm(discretization.communicator())
   {
-    const auto &fe = discretization.finite_element().base_element(0);
+    const auto       &fe = discretization.finite_element().base_element(0);
+    const PointSearch search(discretization);
     for (const auto &[name, x] : points)
       {
         const std::size_t n_before = located.size();
         for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
           {
-            const Point<3> xi = reference_coordinates(discretization, c, x);
-            if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) <
-                -probe_tolerance)
+            const auto xi = search.find(c, x);
+            if (!xi)
               continue;
             Located probe{static_cast<unsigned int>(probe_names.size()), c, {}};
             for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
-              probe.shape_values.push_back(fe.shape_value(i, xi));
+              probe.shape_values.push_back(fe.shape_value(i, *xi));
             located.push_back(probe);
           }
         if (mpi::max(located.size() - n_before, comm) == 0)
