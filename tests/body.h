@@ -95,7 +95,12 @@ namespace corotet::tests
     Body(const SerialMesh &serial_mesh, const std::string &text)
       : log(MPI_COMM_WORLD, true)
       , parameters(text)
-      , mesh(serial_mesh, 0, 1., MPI_COMM_WORLD, log)
+      , mesh(serial_mesh,
+             0,
+             1.,
+             MPI_COMM_WORLD,
+             log,
+             parameters.element().degree())
       , discretization(mesh, parameters.element())
       , system(discretization, parameters, tables, wall_times, log)
     {

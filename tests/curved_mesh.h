@@ -56,6 +56,27 @@ namespace corotet::tests
     return mesh;
   }
 
+  /// An eighth of a sphere of radius 1 m with a hole at its pole, 4 mm thick,
+  /// of n x n x 1 cuboids (five tetrahedra each). With n = 4 the edges of cells
+  /// are off their chords by up to ten times the thickness.
+  inline SerialMesh
+  thin_shell(const unsigned int n, const unsigned int q)
+  {
+    const std::string cells = std::to_string(n);
+    return curved(box("1, 1, 1", cells + ", " + cells + ", 1"),
+                  q,
+                  [](const dealii::Point<3> &x) {
+                    const double pole  = 0.3;
+                    const double right = dealii::numbers::PI_2;
+                    const double phi   = right * x[0];
+                    const double theta = right - (right - pole) * x[1];
+                    const double r     = 1 + 0.004 * (x[2] - 0.5);
+                    return dealii::Point<3>(r * std::sin(theta) * std::cos(phi),
+                                            r * std::sin(theta) * std::sin(phi),
+                                            r * std::cos(theta));
+                  });
+  }
+
   struct Curved
   {
     unsigned int q;

@@ -289,11 +289,19 @@ namespace corotet
 
 
   void
-  check_mesh(SerialMesh &mesh)
+  check_cells(const SerialMesh &mesh, const unsigned int element_degree)
+  {
+    check_volumes(mesh);
+    check_curved_cells(mesh, element_degree);
+  }
+
+
+
+  void
+  check_mesh(SerialMesh &mesh, const unsigned int element_degree)
   {
     check_vertices(mesh);
-    check_volumes(mesh);
-    check_curved_cells(mesh);
+    check_cells(mesh, element_degree);
     const Triangles triangles = check_neighbours(mesh);
     check_surface(mesh, triangles.surface);
     check_faces(mesh, triangles);

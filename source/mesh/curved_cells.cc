@@ -200,10 +200,12 @@ namespace corotet
 
 
   double
-  check_curved_cells(const SerialMesh &mesh)
+  check_curved_cells(const SerialMesh &mesh, const unsigned int element_degree)
   {
     double worst = std::numeric_limits<double>::infinity();
-    for (unsigned int degree = mesh.geometry_degree; degree > 1; --degree)
+    for (unsigned int degree = std::min(mesh.geometry_degree, element_degree);
+         degree > 1;
+         --degree)
       {
         const Folds folds = find_folds(mesh, degree);
         if (folds.n_cells > 0)
@@ -212,8 +214,9 @@ namespace corotet
             fmt::format(
               "{} of {} curved cells {} folded: found a Jacobian determinant "
               "of {:.3g} times its mean at {}; it must be positive everywhere, "
-              "so make the mesh finer there or let gmsh optimise its "
-              "high-order nodes",
+              "so make the mesh finer there, let gmsh optimise its "
+              "high-order nodes, or take Discretization/Degree = 1, whose "
+              "cells are straight",
               folds.n_cells,
               mesh.curved_nodes.size() /
                 map_points(mesh.geometry_degree).size(),

@@ -107,7 +107,9 @@ namespace corotet
 
 
     void
-    log_quality(const SerialMesh &mesh, Log &log)
+    log_quality(const SerialMesh  &mesh,
+                const unsigned int element_degree,
+                Log               &log)
     {
       const MeshQuality quality = mesh_quality(mesh);
       log.line(fmt::format("Mesh: {} cells, {} vertices, volume {:.6g} m^3",
@@ -121,15 +123,18 @@ namespace corotet
                            quality.worst_aspect_ratio));
       if (mesh.geometry_degree > 1)
         log.line(fmt::format(
-          "  {} curved cells of degree {}, smallest Jacobian determinant {:.3g} "
-          "times its mean in the cell",
+          "  {} curved cells of degree {}, {}",
           std::count_if(mesh.cells.begin(),
                         mesh.cells.end(),
                         [](const SerialMesh::Cell &cell) {
                           return cell.curve != SerialMesh::straight;
                         }),
           mesh.geometry_degree,
-          check_curved_cells(mesh)));
+          element_degree == 1 ?
+            "taken as straight ones by elements of degree 1" :
+            fmt::format("smallest Jacobian determinant {:.3g} times its mean "
+                        "in the cell",
+                        check_curved_cells(mesh, element_degree))));
       if (quality.smallest_dihedral_angle < 2)
         log.warning("the mesh has almost flat cells; solvers will need many "
                     "iterations");
@@ -165,12 +170,14 @@ namespace corotet
   Mesh::Mesh(const MeshParameters &parameters,
              const std::string    &folder,
              const MPI_Comm        comm,
-             Log                  &log)
+             Log                  &log,
+             const unsigned int    element_degree)
     : Mesh(create_on_root(parameters, folder, comm),
            parameters.n_refinements,
            parameters.scale,
            comm,
-           log)
+           log,
+           element_degree)
   {}
 
 
@@ -179,23 +186,27 @@ namespace corotet
              const unsigned int n_refinements,
              const double       scale,
              const MPI_Comm     comm,
-             Log               &log)
+             Log               &log,
+             const unsigned int element_degree)
     : tria(comm)
     , region_names("region", {})
     , boundary_names("boundary", {})
   {
     Names regions, boundaries;
     on_root(comm, [&] {
-      check_mesh(mesh);
+      check_mesh(mesh, element_degree);
       const unsigned int n_left = n_refinements - mesh.n_refinements;
       check_size(mesh, n_left, dealii::Utilities::MPI::n_mpi_processes(comm));
       refine_uniformly(mesh, n_left);
+      if (n_left > 0 && mesh.geometry_degree > 1)
+        // Vertices have moved to where the curves have them.
+        check_cells(mesh, element_degree);
       for (auto *points : {&mesh.vertices, &mesh.curved_nodes})
         for (dealii::Point<3> &point : *points)
           point *= scale;
       sort_along_curve(mesh);
 
-      log_quality(mesh, log);
+      log_quality(mesh, element_degree, log);
       for (const std::string &remark : mesh.remarks)
         log.line("  " + remark);
       regions    = regions_of(mesh);

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/discretization/point_geometry.h>
+#include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 namespace corotet
 {
@@ -21,28 +22,23 @@ namespace corotet
     using dealii::Tensor;
     namespace mpi = dealii::Utilities::MPI;
 
-    // The owned cell that a point is deepest in, the point's reference
-    // coordinates there, and the smallest of its barycentric coordinates.
+    // A point in an owned cell; its reference coordinates there.
     struct Location
     {
-      unsigned int cell = 0;
+      unsigned int cell;
       Point<3>     xi;
-      double       depth = -std::numeric_limits<double>::max();
     };
 
-    Location
-    locate(const Point<3> &x, const Discretization &discretization)
+    // The first that there is.
+    std::optional<Location>
+    locate(const Point<3>       &x,
+           const PointSearch    &search,
+           const Discretization &discretization)
     {
-      Location best;
       for (unsigned int cell = 0; cell < discretization.n_owned_cells(); ++cell)
-        {
-          const Point<3> xi = reference_coordinates(discretization, cell, x);
-          const double   depth =
-            std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]});
-          if (depth > best.depth)
-            best = {cell, xi, depth};
-        }
-      return best;
+        if (const auto xi = search.find(cell, x))
+          return Location{cell, *xi};
+      return {};
     }
 
     // "x in [0, 1], y in [0, 0.1], z in [0, 0.1]".
@@ -93,21 +89,21 @@ namespace corotet
     const unsigned int rank   = mpi::this_mpi_process(comm);
     const unsigned int nobody = mpi::n_mpi_processes(comm);
     const auto        &fe     = discretization.finite_element().base_element(0);
+    const PointSearch  search(discretization);
     for (const auto &[name, x] : points)
       {
-        const Location     location = locate(x, discretization);
-        const unsigned int owner =
-          mpi::min(location.depth >= -probe_tolerance ? rank : nobody, comm);
+        const auto         location = locate(x, search, discretization);
+        const unsigned int owner    = mpi::min(location ? rank : nobody, comm);
         if (owner == nobody)
           throw_outside_of_body("Output/Probes", name, x, discretization);
         if (owner == rank)
           {
-            const auto nodes = discretization.cell_nodes(location.cell);
+            const auto nodes = discretization.cell_nodes(location->cell);
             Located    probe;
             probe.probe = probe_names.size();
             probe.nodes.assign(nodes.begin(), nodes.end());
             for (unsigned int i = 0; i < nodes.size(); ++i)
-              probe.shape_values.push_back(fe.shape_value(i, location.xi));
+              probe.shape_values.push_back(fe.shape_value(i, location->xi));
             located.push_back(probe);
           }
         probe_names.push_back(name);

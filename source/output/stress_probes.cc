@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 #include <corotet/output/stress_probes.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 namespace corotet
 {
-  using dealii::Point;
   using dealii::SymmetricTensor;
   namespace mpi = dealii::Utilities::MPI;
 
@@ -20,19 +18,19 @@ namespace corotet
     : comm(discretization.communicator())
     , raw(raw)
   {
+    const PointSearch search(discretization);
     for (const auto &[name, x] : points)
       {
         const std::size_t n_before = located.size();
         for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
           {
-            const Point<3> xi = reference_coordinates(discretization, c, x);
-            if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) <
-                -probe_tolerance)
+            const auto xi = search.find(c, x);
+            if (!xi)
               continue;
             located.push_back({static_cast<unsigned int>(probe_names.size()),
                                c,
                                ReferenceElement::tabulate(
-                                 discretization.element(), {xi}, {1.})});
+                                 discretization.element(), {*xi}, {1.})});
           }
         if (mpi::max(located.size() - n_before, comm) == 0)
           throw_outside_of_body("Output/Stress probes",

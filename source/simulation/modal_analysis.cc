@@ -85,7 +85,7 @@ namespace corotet
                                Log                  &log)
     : parameters(parameters)
     , log(log)
-    , mesh(parameters.mesh, folder, comm, log)
+    , mesh(parameters.mesh, folder, comm, log, parameters.element().degree())
     , disc(mesh, parameters.element())
     , reference(disc.element())
     , conditions(parameters.boundary_conditions,

@@ -5,6 +5,7 @@
 
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/mesh.h>
 #include <corotet/mesh/triangulation.h>
 
 #include <fmt/format.h>
@@ -174,6 +175,49 @@ TEST(CurvedCells, OneCell)
                    "determinant ");
   EXPECT_NE(text.find("it must be positive everywhere, so make the mesh finer"),
             std::string::npos);
+}
+
+// Elements of degree 1 use the vertices only: they take a folded cell, unless a
+// refinement puts vertices where the fold is. With the middle of the edge from
+// (0, 0, 0) to (1, 0, 0) at y = 0.6 the child at (1, 0, 0) is turned over.
+TEST(CurvedCells, FoldsAreNoMatterToDegreeOne)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder.write("cell.msh", tetrahedron("0.6"));
+  Log                   log(MPI_COMM_WORLD, true);
+  const auto            make = [&](const unsigned int refinements,
+                        const unsigned int degree) {
+    Mesh(read_gmsh(file), refinements, 1., MPI_COMM_SELF, log, degree);
+  };
+  make(0, 1);
+  for (const unsigned int degree : {2, 3})
+    EXPECT_NE(refusal([&] { make(0, degree); }).find("curved cells is folded"),
+              std::string::npos);
+  EXPECT_NE(refusal([&] { make(1, 1); }).find("no positive volume"),
+            std::string::npos);
+}
+
+// The nodes at the thirds of an edge are moved by s and -s along y, so that its
+// middle stays. With barycentric coordinates l the determinant there is
+// 1 - 13.5 s l1 (2 l0 - l1), negative at l1 = 1/3 for s = 0.3. The quadratic
+// interpolant is straight.
+TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
+{
+  SerialMesh mesh;
+  mesh.vertices        = {Point<3>(0, 0, 0),
+                          Point<3>(1, 0, 0),
+                          Point<3>(0, 1, 0),
+                          Point<3>(0, 0, 1)};
+  mesh.cells           = {{{{0, 1, 2, 3}}, 0, 0}};
+  mesh.geometry_degree = 3;
+  mesh.curved_nodes    = map_points(3);
+  for (Point<3> &x : mesh.curved_nodes)
+    if (x[1] == 0 && x[2] == 0 && x[0] > 0 && x[0] < 1)
+      x[1] += x[0] < 0.5 ? 0.3 : -0.3;
+  EXPECT_NE(refusal([&] { check_mesh(mesh, 3); }).find("folded"),
+            std::string::npos);
+  EXPECT_EQ(refusal([&] { check_mesh(mesh, 2); }), "none");
+  EXPECT_NEAR(check_curved_cells(mesh, 2), 1, 1e-14);
 }
 
 TEST(CurvedCells, Refusals)

@@ -4,6 +4,7 @@
 // Probes in curved cells.
 
 #include <corotet/output/probes.h>
+#include <corotet/output/stress_probes.h>
 
 #include <gtest/gtest.h>
 
@@ -52,5 +53,30 @@ TEST(Probes, CurvedCells)
                   Probes({{"a", {2.21, 0.7, 1.}}}, body.discretization);
                 }).substr(0, 55),
                 "Output/Probes: probe 'a' at (2.21, 0.7, 1) lies outside");
+    }
+}
+
+// All nodes of a thin, strongly curved shell: vertices, on edges, on faces; for
+// stresses as well. Positions, and so displacements, have the round-off of sums
+// of 20 terms of order one.
+TEST(Probes, NodesOfThinCurvedCells)
+{
+  const auto affine = [](const Point<3> &x) {
+    return Tensor<1, 3>({1 + x[0] - 2 * x[1], x[2] - 3 * x[0], x[1] + x[2]});
+  };
+  for (const unsigned int degree : {2u, 3u})
+    {
+      const SerialMesh        mesh = thin_shell(4, degree);
+      std::vector<ProbePoint> points;
+      for (const Point<3> &x : mesh.curved_nodes)
+        points.push_back({"p" + std::to_string(points.size()), x});
+      const Body   body(mesh, element_text(degree));
+      const Probes probes(points, body.discretization);
+      const auto   values = probes.displacements(body.interpolate(affine));
+      for (unsigned int p = 0; p < points.size(); ++p)
+        EXPECT_LT((values[p] - affine(points[p].position)).norm(), 1e-13)
+          << points[p].position;
+      EXPECT_NO_THROW(StressProbes(points, body.discretization));
+      EXPECT_THROW(Probes({{"a", {0, 0, 1}}}, body.discretization), InputError);
     }
 }

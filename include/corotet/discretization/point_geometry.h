@@ -27,16 +27,6 @@ namespace corotet
                  const ReferenceElement::PointValues &rule,
                  const unsigned int                   cell,
                  const unsigned int                   q);
-
-  /**
-   * Reference coordinates of the point at @p x of the body at rest, in or near
-   * local cell @p cell; if it is far away from a curved cell, those of any
-   * point outside of the reference cell.
-   */
-  dealii::Point<3>
-  reference_coordinates(const Discretization   &discretization,
-                        const unsigned int      cell,
-                        const dealii::Point<3> &x);
 } // namespace corotet
 
 #endif

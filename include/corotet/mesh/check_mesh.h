@@ -13,7 +13,8 @@ namespace corotet
    * says what is wrong and where (in the coordinates of @p mesh):
    * - there are cells, and indices of vertices are in range;
    * - every volume is positive, that of the straight cell with the vertices of
-   *   a curved one, too, and curved cells have no folds;
+   *   a curved one, too, and curved cells have no folds that elements of degree
+   *   @p element_degree use;
    * - a triangle belongs to one cell, or to two that lie on its two sides;
    * - no two vertices of the surface coincide, and nowhere does the surface
    *   touch itself other than in shared vertices and edges. (Where cells do not
@@ -25,7 +26,11 @@ namespace corotet
    * are removed with a remark.
    */
   void
-  check_mesh(SerialMesh &mesh);
+  check_mesh(SerialMesh &mesh, const unsigned int element_degree = 3);
+
+  /// The part of check_mesh() that looks at volumes and folds.
+  void
+  check_cells(const SerialMesh &mesh, const unsigned int element_degree);
 
   /// Throws an InputError if so many cells, refined so often, are too many.
   void

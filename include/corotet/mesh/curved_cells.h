@@ -75,11 +75,12 @@ namespace corotet
    * Smallest determinant of the Jacobians of curved cells over its mean in the
    * cell [-]: 1 for a straight one; infinity if none is curved. Throws
    * InputError, as check_mesh() does, unless it is positive. Looks at the
-   * points with barycentric coordinates of i / 6, of the map itself and of its
-   * interpolants of lower degree above 1.
+   * points with barycentric coordinates of i / 6, of the interpolants of the
+   * map (itself among them) with degrees from 2 to @p element_degree: elements
+   * use no others, and those of degree 1 none.
    */
   double
-  check_curved_cells(const SerialMesh &mesh);
+  check_curved_cells(const SerialMesh &mesh, const unsigned int element_degree);
 
   /// Volumes of curved cells less those of the straight ones with the same
   /// vertices, summed up [m^3]. Exact.

@@ -78,20 +78,23 @@ namespace corotet
   public:
     /**
      * Makes the mesh on rank 0, checks it, logs its statistics and distributes
-     * it. @p folder is that of the parameter file. Throws InputError.
-     * Collective.
+     * it. @p folder is that of the parameter file. Folds of curved cells that
+     * elements of degree @p element_degree do not use are allowed. Throws
+     * InputError. Collective.
      */
     Mesh(const MeshParameters &parameters,
          const std::string    &folder,
          const MPI_Comm        comm,
-         Log                  &log);
+         Log                  &log,
+         const unsigned int    element_degree = 3);
 
     /// The same for a mesh that is already made (it is read on rank 0 only).
     Mesh(SerialMesh         mesh,
          const unsigned int n_refinements,
          const double       scale,
          const MPI_Comm     comm,
-         Log               &log);
+         Log               &log,
+         const unsigned int element_degree = 3);
 
     /// Cells carry the region as material id and the surface's faces the
     /// boundary as boundary id, or unnamed_boundary (triangulation.h) where

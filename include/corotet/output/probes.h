@@ -14,10 +14,6 @@
 
 namespace corotet
 {
-  /// How far outside of a cell a point may be, in barycentric coordinates:
-  /// round-off in the coordinates of a point on the surface.
-  inline constexpr double probe_tolerance = 1e-8;
-
   /// Throws the InputError, blamed on @p entry, for a probe at @p x that is
   /// outside the body. Collective.
   [[noreturn]] void
@@ -38,7 +34,7 @@ namespace corotet
   {
   public:
     /// Throws InputError blamed on Output/Probes if a point is outside the
-    /// body (by more than 1e-8 of a cell). Collective.
+    /// body (PointSearch). Collective.
     Probes(const std::vector<ProbePoint> &points,
            const Discretization          &discretization);
 
