@@ -75,7 +75,8 @@ namespace corotet
 
   /**
    * A part of a virtual table: all @p n_rows rows of a table in @p file, a path
-   * relative to the folder of the file that has the virtual table.
+   * relative to the folder of the file that has the virtual table, or "." for
+   * that file.
    */
   struct Hdf5Part
   {
@@ -122,12 +123,21 @@ namespace corotet
                     const std::vector<Number> &values,
                     const hsize_t              n_columns = 0);
 
+    /// Writes a table that has the same number everywhere and, whatever its
+    /// size, takes no room. Collective.
+    void
+    write_constant(const std::string &name,
+                   const std::int64_t value,
+                   const hsize_t      n_rows,
+                   const hsize_t      n_columns = 0);
+
     /**
-     * Writes a table of doubles that stands for those called @p source in other
-     * files, one below the other (an HDF5 virtual dataset): the numbers stay
-     * there. @p n_columns is the same in all of them. Costs some 30
-     * microseconds per part. Collective.
+     * Writes a table of double or std::int64_t that stands for those called
+     * @p source in other files, one below the other (an HDF5 virtual dataset):
+     * the numbers stay there. @p n_columns is the same in all of them. Costs
+     * some 30 microseconds per part. Collective.
      */
+    template <typename Number>
     void
     write_virtual(const std::string           &name,
                   const std::string           &source,
@@ -137,6 +147,11 @@ namespace corotet
     /// Collective.
     void
     create_group(const std::string &name);
+
+    /// Gives the table @p target of this file the name @p name, too.
+    /// Collective.
+    void
+    link(const std::string &name, const std::string &target);
 
     /// Makes @p name stand for @p target of @p file, a path relative to this
     /// file's folder. Collective.
