@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/expression.h>
 #include <corotet/base/formula_functions.h>
+#include <corotet/base/jet_formula.h>
 #include <corotet/base/text.h>
 
 #include <fmt/format.h>
@@ -12,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
+#include <optional>
 
 namespace corotet
 {
@@ -98,7 +101,18 @@ namespace corotet
                                  std::string::npos)
               return "it assigns by =; comparisons are ==, !=, <, <=, > and >=";
           }
-      for (const std::string &name : identifiers(formula))
+      const std::vector<std::string> names = identifiers(formula);
+      for (const std::string &name : names)
+        if (std::find(random_functions.begin(), random_functions.end(), name) !=
+            random_functions.end())
+          return fmt::format(
+            "it has the function \"{}\", whose values would "
+            "depend on how often and on which rank they are "
+            "asked for; allowed is what depends on x, y, z and "
+            "t alone, such as a table of random numbers, or "
+            "acos(cos(1e4*sin(13*x + 78*y + 38*z)))/pi",
+            name);
+      for (const std::string &name : names)
         if (!parser.GetVar().contains(name) &&
             !parser.GetConst().contains(name) &&
             !parser.GetFunDef().contains(name))
@@ -182,12 +196,24 @@ namespace corotet
                                    reason));
     }
 
+    // With derivatives in time. Few formulas need it.
+    const JetFormula &
+    jets(const unsigned int component)
+    {
+      jet_formulas.resize(parsers.size());
+      std::optional<JetFormula> &formula = jet_formulas[component];
+      if (!formula)
+        formula.emplace(parsers[component].GetExpr(), tables);
+      return *formula;
+    }
+
     std::array<double, 4>   variables = {};
     std::vector<mu::Parser> parsers;
 
   private:
     // The parsers point to these.
-    const TableFunctions tables;
+    const TableFunctions                   tables;
+    std::vector<std::optional<JetFormula>> jet_formulas;
   };
 
   Expression::Expression(const std::string    &text,
@@ -214,10 +240,8 @@ namespace corotet
         formulas->compile(c, components[c], entry);
         for (const std::string &name : identifiers(components[c]))
           {
-            const bool random = name == "rand" || name == "rand_seed";
-            time_dependent |= name == "t" || random;
-            space_dependent |=
-              name == "x" || name == "y" || name == "z" || random;
+            time_dependent |= name == "t";
+            space_dependent |= name == "x" || name == "y" || name == "z";
           }
       }
 
@@ -240,6 +264,31 @@ namespace corotet
     AssertIndexRange(component, n_components());
     formulas->variables = {{p[0], p[1], p[2], t}};
     return formulas->parsers[component].Eval();
+  }
+
+  std::array<double, 2>
+  Expression::time_derivatives(const dealii::Point<3> &p,
+                               const double            t,
+                               const double            width,
+                               const unsigned int      component) const
+  {
+    AssertIndexRange(component, n_components());
+    if (!time_dependent)
+      return {};
+    const Jet jet = formulas->jets(component).value({{p[0], p[1], p[2], t}});
+    std::array<double, 2> result{{jet.first, jet.second}};
+    // Forwards, and where the formula ends, backwards.
+    for (const double h : {width, -width})
+      {
+        if (std::isfinite(result[0]) && std::isfinite(result[1]))
+          break;
+        std::array<double, 4> u;
+        for (unsigned int i = 0; i < 4; ++i)
+          u[i] = value(p, t + i * h, component);
+        result = {{(-11 * u[0] + 18 * u[1] - 9 * u[2] + 2 * u[3]) / (6 * h),
+                   (2 * u[0] - 5 * u[1] + 4 * u[2] - u[3]) / (h * h)}};
+      }
+    return result;
   }
 
   dealii::Tensor<1, 3>

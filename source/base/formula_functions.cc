@@ -9,10 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
-#include <random>
 
 namespace corotet
 {
@@ -66,22 +64,6 @@ namespace corotet
       return std::abs(condition) >= 0.5;
     }
 
-    double
-    random_number()
-    {
-      thread_local std::mt19937 generator;
-      return std::uniform_real_distribution<>()(generator);
-    }
-
-    double
-    seeded_random_number(const double seed)
-    {
-      thread_local std::map<double, std::mt19937> generators;
-      const auto                                  place =
-        generators.try_emplace(seed, std::hash<double>()(seed)).first;
-      return std::uniform_real_distribution<>()(place->second);
-    }
-
     using Unary  = double (*)(double);
     using Binary = double (*)(double, double);
 
@@ -118,9 +100,6 @@ namespace corotet
           return is_true(a) && is_true(b);
         },
         mu::prLAND);
-      // Not to be evaluated once and for all.
-      parser.DefineFun("rand", random_number, false);
-      parser.DefineFun("rand_seed", seeded_random_number, false);
     }
   } // namespace
 
@@ -136,6 +115,17 @@ namespace corotet
     parser.DefineFun("triangle", triangle);
   }
 
+  const std::map<std::string, double> &
+  formula_constants()
+  {
+    static const std::map<std::string, double> constants = [] {
+      mu::Parser parser;
+      define_functions(parser);
+      return parser.GetConst();
+    }();
+    return constants;
+  }
+
   bool
   is_formula_name(const std::string &name)
   {
@@ -145,6 +135,8 @@ namespace corotet
            parser.GetConst().contains(name) ||
            std::find(formula_variables.begin(),
                      formula_variables.end(),
-                     name) != formula_variables.end();
+                     name) != formula_variables.end() ||
+           std::find(random_functions.begin(), random_functions.end(), name) !=
+             random_functions.end();
   }
 } // namespace corotet

@@ -88,13 +88,23 @@ namespace corotet
     const std::size_t i =
       std::upper_bound(arguments.begin(), arguments.end(), argument) -
       arguments.begin() - 1;
-    const double h = arguments[i + 1] - arguments[i];
-    const double d = values[i + 1] - values[i];
-    const double s = (argument - arguments[i]) / h;
+    return derivatives(i, argument)[0];
+  }
+
+  std::array<double, 3>
+  TableFunction::derivatives(const std::size_t row, const double argument) const
+  {
+    const double h = arguments[row + 1] - arguments[row];
+    const double d = values[row + 1] - values[row];
+    const double s = (argument - arguments[row]) / h;
     if (slopes.empty())
-      return values[i] + s * d;
-    const double a = h * slopes[i];
-    const double b = h * slopes[i + 1];
-    return values[i] + s * (a + s * (3 * d - 2 * a - b + s * (a + b - 2 * d)));
+      return {{values[row] + s * d, d / h, 0.}};
+    const double a  = h * slopes[row];
+    const double b  = h * slopes[row + 1];
+    const double c2 = 3 * d - 2 * a - b;
+    const double c3 = a + b - 2 * d;
+    return {{values[row] + s * (a + s * (c2 + s * c3)),
+             (a + s * (2 * c2 + s * 3 * c3)) / h,
+             (2 * c2 + 6 * s * c3) / (h * h)}};
   }
 } // namespace corotet

@@ -54,8 +54,9 @@ namespace corotet
       "Displacement [m] of boundaries: 'name: x; y; z, name: x; y; z', each "
       "component an expression in x, y, z, t or 'free'; edges and corners as "
       "in Fixed. Supports move with the expression's own velocity and "
-      "acceleration: let it have no kinks, like smooth_step and cubic tables "
-      "that begin and end at rest.");
+      "acceleration, its exact derivatives; at a kink those of what follows. "
+      "Let it have none, like smooth_step and cubic tables that begin and end "
+      "at rest.");
     prm.add_parameter(
       "Traction",
       traction,

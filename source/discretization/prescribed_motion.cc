@@ -25,7 +25,7 @@ namespace corotet
                                      const double              time_scale)
     : discretization(discretization)
     , conditions(conditions)
-    , difference_step(0.1 * time_scale)
+    , time_scale(time_scale)
     , flags(3 * discretization.n_local_nodes())
   {
     double volume = 0;
@@ -139,6 +139,34 @@ namespace corotet
       }
   }
 
+  std::array<double, 3>
+  PrescribedMotion::motion(const Entry &entry, const double time) const
+  {
+    const Expression &formula = expression(entry);
+    const double      u       = value(entry, time);
+    if (!std::isfinite(u))
+      throw InputError(blamed_entry,
+                       fmt::format("the displacement at t = {} is not "
+                                   "finite: found {}",
+                                   time,
+                                   u));
+    if (time_scale == 0 || !formula.depends_on_time())
+      return {{u, 0, 0}};
+    const auto [v, a] =
+      formula.time_derivatives(discretization.node_position(entry.dof / 3),
+                               time,
+                               0.1 * time_scale);
+    if (!std::isfinite(v) || !std::isfinite(a))
+      throw InputError(blamed_entry,
+                       fmt::format("the displacement has no velocity or "
+                                   "acceleration at t = {}: found {} and {}, "
+                                   "allowed are finite ones",
+                                   time,
+                                   v,
+                                   a));
+    return {{u, v, a}};
+  }
+
   void
   PrescribedMotion::apply(const double time,
                           const double load_factor,
@@ -148,27 +176,18 @@ namespace corotet
   {
     on_all_ranks(discretization.communicator(), [&] {
       check_agreement(time);
-      const double h = difference_step;
+      // What does not depend on space is the same for all nodes of a condition.
+      std::array<std::array<double, 3>, 3> known{};
+      std::array<unsigned int, 3>          known_condition;
+      known_condition.fill(dealii::numbers::invalid_unsigned_int);
       for (const Entry &entry : entries)
         {
-          const double u = value(entry, time);
-          if (!std::isfinite(u))
-            throw InputError(blamed_entry,
-                             fmt::format("the displacement at t = {} is not "
-                                         "finite: found {}",
-                                         time,
-                                         u));
-          double v = 0;
-          double a = 0;
-          if (expression(entry).depends_on_time())
-            {
-              const double m2 = value(entry, time - 2 * h);
-              const double m1 = value(entry, time - h);
-              const double p1 = value(entry, time + h);
-              const double p2 = value(entry, time + 2 * h);
-              v               = (m2 - p2 + 8 * (p1 - m1)) / (12 * h);
-              a = (16 * (p1 + m1) - (p2 + m2) - 30 * u) / (12 * h * h);
-            }
+          const unsigned int component = entry.dof % 3;
+          if (known_condition[component] != entry.condition ||
+              expression(entry).depends_on_space())
+            known[component] = motion(entry, time);
+          known_condition[component]            = entry.condition;
+          const auto &[u, v, a]                 = known[component];
           displacement.local_element(entry.dof) = load_factor * u;
           velocity.local_element(entry.dof)     = load_factor * v;
           acceleration.local_element(entry.dof) = load_factor * a;

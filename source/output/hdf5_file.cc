@@ -95,8 +95,13 @@ namespace corotet
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         const Silence silence;
-        file = Hdf5Id(H5Fcreate(
-          temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+        const Hdf5Id  access(H5Pcreate(H5P_FILE_ACCESS));
+        // What virtual tables need anyway makes groups and references smaller,
+        // too.
+        check(
+          H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
+        file = Hdf5Id(
+          H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
         check(file);
       }
     // Then it is there, for all to open.
@@ -191,6 +196,31 @@ namespace corotet
   }
 
   void
+  Hdf5File::write_constant(const std::string &name,
+                           const std::int64_t value,
+                           const hsize_t      n_rows,
+                           const hsize_t      n_columns)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    const Hdf5Id  creation(H5Pcreate(H5P_DATASET_CREATE));
+    check(H5Pset_fill_value(creation, H5T_NATIVE_INT64, &value));
+    // Rows that are never written have the fill value.
+    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_LATE));
+    const Hdf5Id space = table_space(n_rows, n_columns);
+    const Hdf5Id dataset(H5Dcreate2(file,
+                                    name.c_str(),
+                                    H5T_NATIVE_INT64,
+                                    space,
+                                    H5P_DEFAULT,
+                                    creation,
+                                    H5P_DEFAULT));
+    check(dataset);
+  }
+
+  template <typename Number>
+  void
   Hdf5File::write_virtual(const std::string           &name,
                           const std::string           &source,
                           const std::vector<Hdf5Part> &parts,
@@ -216,7 +246,7 @@ namespace corotet
     H5Sselect_all(space);
     const Hdf5Id dataset(H5Dcreate2(file,
                                     name.c_str(),
-                                    H5T_NATIVE_DOUBLE,
+                                    native_type<Number>(),
                                     space,
                                     H5P_DEFAULT,
                                     creation,
@@ -233,6 +263,16 @@ namespace corotet
     const Hdf5Id  group(
       H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     check(group);
+  }
+
+  void
+  Hdf5File::link(const std::string &name, const std::string &target)
+  {
+    if (file < 0)
+      return;
+    const Silence silence;
+    check(H5Lcreate_hard(
+      file, target.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
   }
 
   void
@@ -346,4 +386,14 @@ namespace corotet
   Hdf5File::write_from_root(const std::string &,
                             const std::vector<std::int64_t> &,
                             const hsize_t);
+  template void
+  Hdf5File::write_virtual<double>(const std::string &,
+                                  const std::string &,
+                                  const std::vector<Hdf5Part> &,
+                                  const hsize_t);
+  template void
+  Hdf5File::write_virtual<std::int64_t>(const std::string &,
+                                        const std::string &,
+                                        const std::vector<Hdf5Part> &,
+                                        const hsize_t);
 } // namespace corotet

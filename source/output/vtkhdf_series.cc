@@ -123,6 +123,8 @@ namespace corotet
         Hdf5File file(directory + "/" + name + "/" + joined.file_name(),
                       MPI_COMM_SELF);
         write_references(file, first, "", "");
+        // The numbers of the steps are few: here they are themselves.
+        write_steps(file, n_results_before(first), joined.n_results);
         file.finish();
         blocks.resize(first);
         blocks.push_back(joined);
@@ -146,7 +148,7 @@ namespace corotet
     const auto write = [&](const std::string           &name,
                            const std::vector<Hdf5Part> &parts,
                            const hsize_t                n_columns) {
-      file.write_virtual(parent + name, name, parts, n_columns);
+      file.write_virtual<double>(parent + name, name, parts, n_columns);
     };
     for (const Table &table : point_data)
       write("PointData/" + table.name, point_parts, table.n_columns);
@@ -173,41 +175,80 @@ namespace corotet
     file.finish();
   }
 
+  std::size_t
+  VtkhdfSeries::n_results_before(const std::size_t block) const
+  {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < block; ++i)
+      n += blocks[i].n_results;
+    return n;
+  }
+
+  void
+  VtkhdfSeries::write_steps(Hdf5File         &file,
+                            const std::size_t first,
+                            const std::size_t n_results) const
+  {
+    const auto rows = [&](const hsize_t n_rows) {
+      std::vector<std::int64_t> offsets(n_results);
+      for (std::size_t i = 0; i < n_results; ++i)
+        offsets[i] = (first + i) * n_rows;
+      return offsets;
+    };
+    file.create_group("Steps");
+    file.write_from_root("Steps/Values",
+                         std::vector<double>(times.begin() + first,
+                                             times.begin() + first +
+                                               n_results));
+    file.write_from_root("Steps/PointRows", rows(n_points));
+    file.write_from_root("Steps/CellRows", rows(n_cells));
+  }
+
   void
   VtkhdfSeries::write_index_steps(Hdf5File &file) const
   {
+    // Those of results that no block has yet are in the index itself.
+    const std::size_t     n = times.size();
+    std::vector<Hdf5Part> parts;
+    std::size_t           n_in_blocks = 0;
+    for (const Block &block : blocks)
+      if (block.level > 0)
+        {
+          parts.push_back({name + "/" + block.file_name(), block.n_results});
+          n_in_blocks += block.n_results;
+        }
+    write_steps(file, n_in_blocks, n - n_in_blocks);
+    if (n > n_in_blocks)
+      parts.push_back({".", n - n_in_blocks});
+
     const std::string steps = "VTKHDF/Steps";
     file.create_group(steps);
     file.write_number_attribute(steps,
                                 "NSteps",
-                                {static_cast<std::int64_t>(times.size())});
-    file.write_from_root(steps + "/Values", times);
+                                {static_cast<std::int64_t>(n)});
+    file.write_virtual<double>(steps + "/Values", "Steps/Values", parts, 0);
 
     // Where the tables of each step begin: the mesh and what belongs to it are
     // the same rows for all.
-    const std::vector<std::int64_t> same(times.size(), 0);
-    file.write_from_root(steps + "/PartOffsets", same);
-    file.write_from_root(steps + "/NumberOfParts",
-                         std::vector<std::int64_t>(times.size(), 1));
-    file.write_from_root(steps + "/PointOffsets", same);
-    file.write_from_root(steps + "/CellOffsets", same, 1);
-    file.write_from_root(steps + "/ConnectivityIdOffsets", same, 1);
+    file.write_constant(steps + "/NumberOfParts", 1, n);
+    file.write_constant(steps + "/PartOffsets", 0, n);
+    file.link(steps + "/PointOffsets", steps + "/PartOffsets");
+    file.write_constant(steps + "/CellOffsets", 0, n, 1);
+    file.link(steps + "/ConnectivityIdOffsets", steps + "/CellOffsets");
 
-    const auto consecutive = [&](const hsize_t n_rows) {
-      std::vector<std::int64_t> offsets(times.size());
-      for (std::size_t i = 0; i < offsets.size(); ++i)
-        offsets[i] = i * n_rows;
-      return offsets;
+    const auto write_offsets = [&](const std::string        &group,
+                                   const std::vector<Table> &tables,
+                                   const std::string        &rows) {
+      file.create_group(group);
+      for (const Table &table : tables)
+        if (&table == &tables.front())
+          file.write_virtual<std::int64_t>(group + table.name, rows, parts, 0);
+        else
+          file.link(group + table.name, group + tables.front().name);
     };
-    file.create_group(steps + "/PointDataOffsets");
-    for (const Table &table : point_data)
-      file.write_from_root(steps + "/PointDataOffsets/" + table.name,
-                           consecutive(n_points));
-    file.create_group(steps + "/CellDataOffsets");
-    for (const Table &table : cell_data)
-      file.write_from_root(steps + "/CellDataOffsets/" + table.name,
-                           consecutive(n_cells));
+    write_offsets(steps + "/PointDataOffsets/", point_data, "Steps/PointRows");
+    write_offsets(steps + "/CellDataOffsets/", cell_data, "Steps/CellRows");
     for (const std::string &table : static_cell_data)
-      file.write_from_root(steps + "/CellDataOffsets/" + table, same);
+      file.link(steps + "/CellDataOffsets/" + table, steps + "/PartOffsets");
   }
 } // namespace corotet

@@ -76,17 +76,20 @@ namespace corotet
                        const double size)
   {
     // What the step would have to be for the target, with a margin.
-    const double scale  = std::max(largest_size, size);
-    const double ratio  = error > 0 ? parameters.target_error * scale / error :
-                                      std::numeric_limits<double>::infinity();
-    const double factor = std::clamp(0.9 * std::cbrt(ratio), 0.2, 2.);
-    if (ratio < 1 && taken > smallest * (1 + 1e-12))
+    const double scale = std::max(largest_size, size);
+    const double ratio = error > 0 ? parameters.target_error * scale / error :
+                                     std::numeric_limits<double>::infinity();
+    // Not a number if the motion has no finite size.
+    const bool   is_accurate = ratio >= 1;
+    const double factor =
+      ratio >= 0 ? std::clamp(0.9 * std::cbrt(ratio), 0.2, 2.) : 0.2;
+    if (!is_accurate && taken > smallest * (1 + 1e-12))
       {
         ++rejected;
         set_length(factor * taken);
         return false;
       }
-    if (ratio < 1)
+    if (!is_accurate)
       ++too_inaccurate;
     largest_size = scale;
     // A step that was shortened to end at a result says nothing against the

@@ -96,10 +96,20 @@ namespace corotet
       throw ComputationError(
         "the forces at the end of the step are not finite");
 
+    before = {{this->dt, work, dissipation}};
     work += sums[0];
     dissipation += sums[1];
     this->dt = dt;
     std::swap(last, now);
+  }
+
+  void
+  Budget::take_back()
+  {
+    std::swap(last, now);
+    dt          = before[0];
+    work        = before[1];
+    dissipation = before[2];
   }
 
   void

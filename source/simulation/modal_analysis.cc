@@ -99,7 +99,7 @@ namespace corotet
               reference,
               parameters.material.materials(mesh.regions()),
               Rotation::none)
-    , motion(disc, reference, conditions, parameters.time_step)
+    , motion(disc, reference, conditions, 0.)
     , rigid_motions(disc, motion)
     , A(disc, elastic, mass, motion.is_prescribed())
     , solver(A,

@@ -114,7 +114,7 @@ namespace corotet
                         "In s. It is shortened a little if the duration is not "
                         "a multiple of it. 0: the program's choice, with "
                         "'central difference' only. With an adaptive step the "
-                        "first one.",
+                        "first one. A run may have 4000000000 steps.",
                         Double(0));
       prm.add_parameter("Maximum halvings",
                         max_halvings,

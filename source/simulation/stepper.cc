@@ -30,91 +30,6 @@ namespace corotet
     choose_step();
   }
 
-  void
-  Stepper::check_parameters() const
-  {
-    const std::string section = "Time integration/";
-    if (!(parameters.end_time > parameters.start_time))
-      throw InputError(section + "End time",
-                       fmt::format("found {}; allowed: a time after the start "
-                                   "time {}",
-                                   parameters.end_time,
-                                   parameters.start_time));
-    if (parameters.newton.linearly_implicit && !integrator.is_dynamic())
-      throw InputError("Newton/Linearly implicit",
-                       "found true; allowed with Time integration/Type = "
-                       "static: false, as nothing would correct the error of "
-                       "a load step");
-    if (parameters.time_step == 0 && integrator.is_dynamic() &&
-        !integrator.stability())
-      throw InputError(section + "Time step",
-                       "found 0; allowed: a positive number (0, the program's "
-                       "choice, with Type = central difference)");
-    parameters.adaptive_step.check();
-    if (parameters.adaptive_step.enabled && integrator.error_constant() == 0)
-      throw InputError(section + "Adaptive step/Enabled",
-                       "found true; allowed with Type = Newmark (beta other "
-                       "than 1/6), HHT-alpha and generalized-alpha, which "
-                       "estimate their error");
-  }
-
-  void
-  Stepper::choose_step()
-  {
-    const double duration = parameters.end_time - parameters.start_time;
-    if (parameters.adaptive_step.enabled)
-      {
-        adaptive = std::make_unique<AdaptiveStep>(parameters.adaptive_step,
-                                                  parameters.time_step);
-        discretization.initialize_vector(acceleration_change);
-      }
-    else if (parameters.time_step > 0 || !integrator.is_dynamic())
-      {
-        n_steps     = integrator.n_steps(duration, parameters.time_step);
-        step_length = duration / n_steps;
-      }
-    if (!integrator.stability())
-      return;
-    try
-      {
-        follow_stable_step();
-      }
-    catch (const ComputationError &error)
-      {
-        throw InputError("Time integration/Time step", error.what());
-      }
-  }
-
-  void
-  Stepper::follow_stable_step()
-  {
-    const StabilityControl &control = *integrator.stability();
-    const double            stable =
-      integrator.stable_step(system.largest_frequency(present),
-                             parameters.damping.coefficients().stiffness);
-    if (n_steps == 0)
-      {
-        step_length = control.safety_factor * stable;
-        if (done == 0)
-          log.line(fmt::format("Stable step: {:.6g} s; steps of {:.6g} s",
-                               stable,
-                               step_length));
-        return;
-      }
-    if (step_length <= stable)
-      return;
-    const std::string text = fmt::format(
-      "found a step of {:.6g} s at t = {:.6g}, which is unstable; allowed: up "
-      "to the stable step, {:.6g} s{}, or 0 for the program's choice",
-      step_length,
-      time(done),
-      stable,
-      done == 0 ? "" : " now that the body has deformed");
-    if (control.refuse)
-      throw ComputationError(text);
-    log.warning(text);
-  }
-
   double
   Stepper::end_of_step(const unsigned int step, const unsigned int ahead) const
   {
@@ -207,6 +122,10 @@ namespace corotet
     StepRecord next = record;
     do
       {
+        if (next.step == largest_number_of_steps)
+          throw ComputationError(
+            fmt::format("found {} steps already; allowed are no more",
+                        next.step));
         ++next.step;
         next.dt                = 0;
         next.parts             = 0;
@@ -295,7 +214,7 @@ namespace corotet
     try
       {
         integrate(from, to, record);
-        account(from, to, record);
+        finish_step(from, to, record);
         is_made = true;
       }
     catch (const ComputationError &error)
@@ -314,7 +233,7 @@ namespace corotet
         announce_half(to, error);
       }
     if (is_made)
-      return complete(record);
+      return;
     const double middle = 0.5 * (from + to);
     advance(from, middle, halvings - 1, record);
     advance(middle, to, halvings - 1, record);
@@ -329,6 +248,12 @@ namespace corotet
       {
         const double to = end_of_step(record.step);
         const double dt = (to - done) * duration;
+        if (!(to > done))
+          throw ComputationError(
+            fmt::format("found a step of {:.6g} s, which round-off of the time "
+                        "swallows",
+                        adaptive->length()));
+        const AdaptiveStep known = *adaptive;
         try
           {
             integrate(done, to, record);
@@ -338,14 +263,15 @@ namespace corotet
                                  system.mean_size(acceleration_change);
             if (adaptive->accept(dt, error, system.mean_size(present.u)))
               {
-                account(done, to, record);
-                complete(record);
+                finish_step(done, to, record);
                 record.rejected_steps = adaptive->n_rejected();
                 return;
               }
           }
         catch (const ComputationError &error)
           {
+            // A step that was accepted may have failed after that.
+            adaptive = std::make_unique<AdaptiveStep>(known);
             if (!adaptive->reduce(dt))
               {
                 present = good_state;
@@ -354,6 +280,8 @@ namespace corotet
             announce_half(to, error);
           }
         present = good_state;
+        warn_of_steps(record.step + (1 - done) * duration / adaptive->length(),
+                      adaptive->length());
       }
   }
 
@@ -381,6 +309,24 @@ namespace corotet
     done = to;
     record.dt += dt;
     ++record.parts;
+  }
+
+  void
+  Stepper::finish_step(const double from, const double to, StepRecord &record)
+  {
+    StepRecord finished = record;
+    account(from, to, finished);
+    try
+      {
+        complete(finished);
+      }
+    catch (const ComputationError &)
+      {
+        budget->take_back();
+        done = from;
+        throw;
+      }
+    record = finished;
   }
 
   void

@@ -29,6 +29,31 @@ namespace corotet
         result[region] = material.density;
       return result;
     }
+
+    // The time step; if the run chooses it, the time that a wave takes through
+    // the smallest cell. Zero in statics.
+    double
+    time_scale(const SimulationParameters &parameters,
+               const Discretization       &discretization)
+    {
+      if (!parameters.time_integrator.selected().is_dynamic())
+        return 0;
+      if (parameters.time_step > 0)
+        return parameters.time_step;
+      const auto materials =
+        parameters.material.materials(discretization.mesh().regions());
+      double shortest = std::numeric_limits<double>::max();
+      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+        {
+          const auto              &geometry = discretization.geometry(c);
+          const IsotropicMaterial &material = materials.at(geometry.region);
+          const double             speed =
+            std::sqrt((material.lambda + 2 * material.mu) / material.density);
+          shortest = std::min(shortest, std::cbrt(6 * geometry.volume) / speed);
+        }
+      return dealii::Utilities::MPI::min(shortest,
+                                         discretization.communicator());
+    }
   } // namespace
 
   StructuralSystem::StructuralSystem(const Discretization &discretization,
@@ -67,8 +92,7 @@ namespace corotet
     , motion(discretization,
              reference,
              conditions,
-             std::max(parameters.time_step,
-                      1e-4 * (parameters.end_time - parameters.start_time)))
+             time_scale(parameters, discretization))
     , mass_solver(discretization, mass_matrix, motion)
     , damping(parameters.damping.coefficients())
     , wanted_tangent(parameters.newton.tangent == "consistent" ?

@@ -63,8 +63,9 @@ namespace corotet
   CentralDifference::stable_step(const double omega, const double alpha_K) const
   {
     // The amplification matrix of the mode has an eigenvalue -1 where (omega
-    // dt)^2 + 2 alpha_K omega^2 dt = 4.
+    // dt)^2 + 2 alpha_K omega^2 dt = 4. The root (sqrt(c^2 + 4) - c) / omega
+    // without its cancellation for large c.
     const double c = alpha_K * omega;
-    return (std::sqrt(c * c + 4) - c) / omega;
+    return 4 / (omega * (std::hypot(c, 2.) + c));
   }
 } // namespace corotet

@@ -3,6 +3,7 @@
 
 #include <corotet/time_integration/time_integrator.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corotet
@@ -20,10 +21,10 @@ namespace corotet
     return report;
   }
 
-  unsigned int
+  double
   TimeIntegrator::n_steps(const double duration, const double dt) const
   {
-    // Round-off in the quotient must not add a step.
-    return static_cast<unsigned int>(std::ceil(duration / dt * (1 - 1e-10)));
+    // Round-off in the quotient must not add a step, nor make it none.
+    return std::max(1., std::ceil(duration / dt * (1 - 1e-10)));
   }
 } // namespace corotet

@@ -99,22 +99,6 @@ TEST(FormulaFunctions, GeneralFunctions)
   EXPECT_EQ(at("max (t, 3) * (2)", 1), 6);
 }
 
-TEST(FormulaFunctions, RandomNumbers)
-{
-  for (const std::string formula : {"rand()", "rand_seed(3)"})
-    {
-      const Expression e(formula, 1, "");
-      const double     first  = e.value(dealii::Point<3>(), 0);
-      const double     second = e.value(dealii::Point<3>(), 0);
-      EXPECT_NE(first, second);
-      for (const double value : {first, second})
-        {
-          EXPECT_GE(value, 0);
-          EXPECT_LT(value, 1);
-        }
-    }
-}
-
 TEST(FormulaFunctions, KnowsItsNames)
 {
   for (const std::string name :

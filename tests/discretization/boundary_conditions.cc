@@ -127,8 +127,7 @@ TEST(PrescribedMotion, BoundariesThatDoNotMeetAreRefused)
 }
 
 // Prescribed nodes carry the expression; velocity and acceleration are its
-// derivatives. With step h = 1e-3 the difference formulas of fourth order have
-// an error of h^4 f^(5)/30 and round-off 1e-16 / h^2.
+// derivatives, but for round-off of numbers of size one.
 TEST(PrescribedMotion, DerivativesInTime)
 {
   Body         body(box("1, 1, 1", "2, 2, 2"), R"(
@@ -150,13 +149,13 @@ TEST(PrescribedMotion, DerivativesInTime)
       EXPECT_EQ(body.state.u.local_element(3 * n), 0.1 * std::sin(3 * t));
       EXPECT_NEAR(body.state.v.local_element(3 * n),
                   0.3 * std::cos(3 * t),
-                  1e-12);
+                  1e-15);
       EXPECT_NEAR(body.state.a.local_element(3 * n),
                   -0.9 * std::sin(3 * t),
-                  1e-9);
+                  1e-15);
       EXPECT_EQ(body.state.u.local_element(3 * n + 1), 0.);
-      EXPECT_NEAR(body.state.v.local_element(3 * n + 2), 2 * x[1] * t, 1e-11);
-      EXPECT_NEAR(body.state.a.local_element(3 * n + 2), 2 * x[1], 1e-9);
+      EXPECT_NEAR(body.state.v.local_element(3 * n + 2), 2 * x[1] * t, 1e-15);
+      EXPECT_NEAR(body.state.a.local_element(3 * n + 2), 2 * x[1], 1e-15);
     }
   EXPECT_EQ(dealii::Utilities::MPI::sum(n_found, MPI_COMM_WORLD), 25u);
 }
@@ -196,4 +195,20 @@ TEST(PrescribedMotion, NotFiniteIsRefused)
     refusal([&] { body.system.prescribe(body.state, 0., 1.); }),
     "Boundary conditions/Displacement: the displacement at t = 0 is not "
     "finite: found inf");
+}
+
+// Finite at t = 0 only.
+TEST(PrescribedMotion, NoVelocityIsRefused)
+{
+  Body              body(box("1, 1, 1", "1, 1, 1"), R"(
+    subsection Boundary conditions
+      set Displacement = x-min: sqrt(-t^2); 0; 0
+    end)");
+  const std::string text =
+    refusal([&] { body.system.prescribe(body.state, 0., 1.); });
+  EXPECT_EQ(text.find("Boundary conditions/Displacement: the displacement has "
+                      "no velocity or acceleration at t = 0: found "),
+            0u)
+    << text;
+  EXPECT_NE(text.find("allowed are finite ones"), std::string::npos) << text;
 }

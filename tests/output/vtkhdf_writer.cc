@@ -149,6 +149,29 @@ TEST(VtkhdfWriter, BlocksStandForResults)
   EXPECT_EQ(run_python("check_vtkhdf.py " + scratch.path + " --test-field"), 0);
 }
 
+// The file that refers to all results is written after each of them, so it must
+// not grow with their number: nine times as many results, which are in one
+// block as well, take a few letters more in a name.
+TEST(VtkhdfWriter, IndexDoesNotGrow)
+{
+  const ScratchFolder scratch;
+  ModelBody           body(1);
+  VtkhdfWriter        writer(scratch.path, 0, 3);
+  HistoryWriter       history(scratch.path, Probes({}, body.discretization));
+  std::uintmax_t      sizes[2] = {0, 0};
+  for (unsigned int step = 0; step < 729; ++step)
+    {
+      body.show(writer, step, step / 1024., step == 728);
+      body.show(history, step, step / 1024., step == 728);
+      wait_for_all();
+      if (step == 80 || step == 728)
+        sizes[step == 80 ? 0 : 1] =
+          fs::file_size(scratch.path + "/solution.vtkhdf");
+    }
+  EXPECT_LT(sizes[1], sizes[0] + 100);
+  EXPECT_EQ(run_python("check_vtkhdf.py " + scratch.path + " --test-field"), 0);
+}
+
 // When a file cannot be written, all ranks learn it, and what was written
 // before stays as it is. Files that may not grow stand for a full disk.
 TEST(VtkhdfWriter, FullDiskLosesNothing)

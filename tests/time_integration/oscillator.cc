@@ -340,3 +340,27 @@ TEST(TimeIntegrator, NumberOfSteps)
   statics.load_steps = 7;
   EXPECT_EQ(statics.n_steps(1., 0.1), 7u);
 }
+
+// With c = alpha_K omega the stable x = omega dt solves x^2 + 2 c x = 4, from
+// very small to very large c: to a few units of round-off, as the left side is
+// at most twice as far off as x, all its terms being positive.
+TEST(CentralDifference, StableStepWithDamping)
+{
+  const CentralDifference method;
+  // So that c is exact.
+  const double omega = 8;
+  for (double c = 1e-8; c < 2e12; c *= 10)
+    {
+      const long double x = omega * method.stable_step(omega, c / omega);
+      EXPECT_NEAR(static_cast<double>((x * x + 2 * c * x) / 4), 1, 1e-15) << c;
+    }
+  EXPECT_EQ(method.stable_step(omega, 0), 2 / omega);
+}
+
+TEST(TimeIntegrator, NumberOfStepsDoesNotOverflow)
+{
+  const Newmark newmark;
+  EXPECT_NEAR(newmark.n_steps(1., 1e-12), 1e12, 1e3);
+  EXPECT_NEAR(newmark.n_steps(1., 1e-300), 1e300, 1e291);
+  EXPECT_EQ(newmark.n_steps(1e-300, 1e300), 1.);
+}

@@ -9,6 +9,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -43,6 +44,16 @@ namespace corotet
     /// The value of an expression of three components.
     dealii::Tensor<1, 3>
     vector_value(const dealii::Point<3> &p, const double t) const;
+
+    /// First and second derivative in time; at a jump or kink, those of what
+    /// follows. They are exact but for round-off, or where no finite ones exist
+    /// (of sqrt(t) at t = 0, say), one-sided differences of values up to
+    /// 3 @p width [s] away.
+    std::array<double, 2>
+    time_derivatives(const dealii::Point<3> &p,
+                     const double            t,
+                     const double            width,
+                     const unsigned int      component = 0) const;
 
     unsigned int
     n_components() const;

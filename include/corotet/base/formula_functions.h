@@ -4,6 +4,7 @@
 #ifndef corotet_base_formula_functions_h
 #define corotet_base_formula_functions_h
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,11 @@ namespace corotet
                                                              "half_sine",
                                                              "triangle"};
 
+  /// Functions that other programs have and formulas must not: their values
+  /// depend on the order of evaluation, so on the number of ranks.
+  inline const std::vector<std::string> random_functions = {"rand",
+                                                            "rand_seed"};
+
   /**
    * Adds to those of muParser the constant pi and the functions that formulas
    * have.
@@ -43,13 +49,17 @@ namespace corotet
    * and the others zero.
    *
    * Further if(condition, a, b), pow, erf, erfc, int (nearest whole number),
-   * ceil, floor, cot, csc, sec, log (natural), the operators | and &; rand()
-   * and rand_seed(seed), uniform in [0, 1), the same sequence in each run.
+   * ceil, floor, cot, csc, sec, log (natural), the operators | and &.
    */
   void
   define_functions(mu::Parser &parser);
 
-  /// Whether formulas have a variable, constant or function of this name.
+  /// The constants that formulas have, muParser's among them.
+  const std::map<std::string, double> &
+  formula_constants();
+
+  /// Whether formulas have a variable, constant or function of this name, or
+  /// refuse one.
   bool
   is_formula_name(const std::string &name);
 } // namespace corotet

@@ -4,6 +4,8 @@
 #ifndef corotet_base_table_function_h
 #define corotet_base_table_function_h
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace corotet
@@ -36,6 +38,18 @@ namespace corotet
 
     double
     value(const double argument) const;
+
+    /// Value, first and second derivative at @p argument of the polynomial
+    /// between the rows @p row and @p row + 1.
+    std::array<double, 3>
+    derivatives(const std::size_t row, const double argument) const;
+
+    /// The arguments of the rows.
+    const std::vector<double> &
+    rows() const
+    {
+      return arguments;
+    }
 
   private:
     std::vector<double> arguments;

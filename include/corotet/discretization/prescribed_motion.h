@@ -9,6 +9,7 @@
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
 
+#include <array>
 #include <vector>
 
 namespace corotet
@@ -16,20 +17,20 @@ namespace corotet
   /**
    * The unknowns whose displacement is prescribed, and their motion in time.
    *
-   * Velocity and acceleration are the time derivatives of the expression, by
-   * central differences of fourth order with a tenth of a time scale: their
-   * error is about (omega h)^4 / 30, some 1e-10 for a motion that the time
-   * scale resolves, and round-off makes 1e-16 / (omega h)^2 of it. (Derivatives
-   * by the integrator's own formulas would oscillate from step to step.) So an
-   * expression is also evaluated shortly before the start and after the end.
+   * Velocity and acceleration are the time derivatives of the expression,
+   * exact where it has any; see Expression::time_derivatives(). (Derivatives by
+   * the integrator's own formulas would oscillate from step to step.) At an
+   * instant where none is finite, the expression is also evaluated up to three
+   * tenths of a time scale later, or earlier.
    *
    * @p discretization and @p conditions must outlive this object.
    */
   class PrescribedMotion
   {
   public:
-    /// @p time_scale [s]: the time step, unless that is far below what the
-    /// motion needs. Throws InputError. Collective.
+    /// @p time_scale [s]: the time step, or one that would be accurate; 0 if
+    /// velocities and accelerations are to be zero, as in statics. Throws
+    /// InputError. Collective.
     PrescribedMotion(const Discretization     &discretization,
                      const ReferenceElement   &reference,
                      const BoundaryConditions &conditions,
@@ -39,7 +40,7 @@ namespace corotet
      * Sets the prescribed owned entries of the displacement, and those of the
      * velocity and the acceleration, to their values at @p time multiplied by
      * @p load_factor. Throws InputError if two boundaries disagree at a node
-     * that they share, or a value is not finite. Collective.
+     * that they share, or a value or derivative is not finite. Collective.
      */
     void
     apply(const double time,
@@ -94,12 +95,16 @@ namespace corotet
     double
     value(const Entry &entry, const double time) const;
 
+    /// Displacement, velocity, acceleration. Throws InputError.
+    std::array<double, 3>
+    motion(const Entry &entry, const double time) const;
+
     void
     check_agreement(const double time) const;
 
     const Discretization      &discretization;
     const BoundaryConditions  &conditions;
-    double                     difference_step;
+    double                     time_scale;
     double                     length_scale;
     std::vector<unsigned char> flags;
     std::vector<unsigned int>  prescribed;

@@ -75,7 +75,8 @@ namespace corotet
 
   /**
    * A part of a virtual table: all @p n_rows rows of a table in @p file, a path
-   * relative to the folder of the file that has the virtual table.
+   * relative to the folder of the file that has the virtual table, or "." for
+   * that file.
    */
   struct Hdf5Part
   {
@@ -128,12 +129,22 @@ namespace corotet
                     const std::vector<Number> &values,
                     const hsize_t              n_columns = 0);
 
+    /// Writes a table that has the same number everywhere and, whatever its
+    /// size, takes no room. Of rank 0; others do
+    /// nothing.
+    void
+    write_constant(const std::string &name,
+                   const std::int64_t value,
+                   const hsize_t      n_rows,
+                   const hsize_t      n_columns = 0);
+
     /**
-     * Writes a table of doubles that stands for those called @p source in other
-     * files, one below the other (an HDF5 virtual dataset): the numbers stay
-     * there. @p n_columns is the same in all of them. Costs some 30
-     * microseconds per part. Of rank 0; others do nothing.
+     * Writes a table of double or std::int64_t that stands for those called
+     * @p source in other files, one below the other (an HDF5 virtual dataset):
+     * the numbers stay there. @p n_columns is the same in all of them. Costs
+     * some 30 microseconds per part. Of rank 0; others do nothing.
      */
+    template <typename Number>
     void
     write_virtual(const std::string           &name,
                   const std::string           &source,
@@ -143,6 +154,11 @@ namespace corotet
     /// Of rank 0; others do nothing.
     void
     create_group(const std::string &name);
+
+    /// Gives the table @p target of this file the name @p name, too. Of rank 0;
+    /// others do nothing.
+    void
+    link(const std::string &name, const std::string &target);
 
     /// Makes @p name stand for @p target of @p file, a path relative to this
     /// file's folder. Of rank 0; others do nothing.

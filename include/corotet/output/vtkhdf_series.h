@@ -27,7 +27,8 @@ namespace corotet
    * References cost time, to write and to read, so there must not be one to
    * each of thousands of results: NAME/block_NNNNNN.h5 refers to 32 results
    * from that of step NNNNNN on, NAME/block_2_NNNNNN.h5 to 32 of such blocks,
-   * and so on.
+   * and so on. These have the times of their results, too. So the size of
+   * NAME.vtkhdf grows with the logarithm of the number of results only.
    */
   class VtkhdfSeries
   {
@@ -115,6 +116,14 @@ namespace corotet
     /// level. On rank 0.
     void
     join_blocks();
+    /// Number of results in the blocks before number @p block.
+    std::size_t
+    n_results_before(const std::size_t block) const;
+    /// Writes times and first rows of results in a group Steps. On rank 0.
+    void
+    write_steps(Hdf5File         &file,
+                const std::size_t first,
+                const std::size_t n_results) const;
     /// Writes NAME.vtkhdf. On rank 0.
     void
     write_index() const;

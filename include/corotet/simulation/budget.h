@@ -47,6 +47,11 @@ namespace corotet
     void
     account(const State &state, const double time, const double dt);
 
+    /// Takes the last call of account() back, as if it had not been made. Not
+    /// twice in a row.
+    void
+    take_back();
+
     /**
      * Fills in the budget of the state that was accounted for last. Throws
      * ComputationError if an energy is not finite. The fields of the record
@@ -95,6 +100,8 @@ namespace corotet
     double     work        = 0;
     double     dissipation = 0;
     StepRecord initial;
+    /// What dt, work and dissipation were before the last step.
+    std::array<double, 3> before{};
   };
 } // namespace corotet
 

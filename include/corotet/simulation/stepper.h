@@ -90,8 +90,13 @@ namespace corotet
     void
     choose_step();
     /// Estimates the stable step and takes it, or compares the given one.
+    /// Throws ComputationError.
     void
     follow_stable_step();
+    /// Warns, once, if a run of that many steps [-] of that length [s] takes
+    /// very long.
+    void
+    warn_of_steps(const double n, const double dt);
 
     /// Time when that part of the run, in [0, 1], is done: not a sum of steps,
     /// so no round-off accumulates.
@@ -163,6 +168,11 @@ namespace corotet
             const double       to,
             StepRecord        &record,
             const unsigned int n = 1);
+    /// Accounts for what integrate() has done and fills in the record of the
+    /// present state. If that throws a ComputationError, all is as before but
+    /// the state itself.
+    void
+    finish_step(const double from, const double to, StepRecord &record);
     /// Fills in the record of the present state.
     void
     complete(StepRecord &record)
@@ -173,6 +183,9 @@ namespace corotet
     /// Throws ComputationError if energy has come out of nothing.
     void
     check_growth(const StepRecord &record);
+
+    /// Fits in the counter of steps.
+    static constexpr unsigned int largest_number_of_steps = 4000000000;
 
     SimulationParameters   &parameters;
     const Discretization   &discretization;
@@ -201,6 +214,7 @@ namespace corotet
     Vector                        acceleration_change;
 
     bool is_partial = false;
+    bool has_warned = false;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
   };

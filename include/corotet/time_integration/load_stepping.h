@@ -36,7 +36,7 @@ namespace corotet
       return proportional ? done : 1.;
     }
 
-    unsigned int
+    double
     n_steps(const double, const double) const override
     {
       return load_steps;

@@ -17,6 +17,10 @@ namespace corotet
    *
    * with a_m = (1 - alpha_m) a_1 + alpha_m a_0 and the index f for
    * (1 - alpha_f) ()_1 + alpha_f ()_0. The unknown of the stage is u_f.
+   *
+   * That is for free unknowns, whose a_n is the acceleration at t_n + (alpha_m
+   * - alpha_f) dt, so that a_m is that at t_f. Accelerations that are
+   * prescribed belong to t_n itself: they enter M a_m as a_f.
    */
   class NewmarkFamily : public TimeIntegrator
   {

@@ -110,8 +110,8 @@ namespace corotet
     }
 
     /// Number of equal steps for a run of @p duration when the parameters ask
-    /// for the step @p dt (both in s).
-    virtual unsigned int
+    /// for the step @p dt (both in s): a whole number, as large as it may be.
+    virtual double
     n_steps(const double duration, const double dt) const;
   };
 } // namespace corotet

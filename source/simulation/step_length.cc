@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// How long steps are, and how many.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/simulation/stepper.h>
+
+#include <fmt/format.h>
+
+namespace corotet
+{
+  void
+  Stepper::check_parameters() const
+  {
+    const std::string section = "Time integration/";
+    if (!(parameters.end_time > parameters.start_time))
+      throw InputError(section + "End time",
+                       fmt::format("found {}; allowed: a time after the start "
+                                   "time {}",
+                                   parameters.end_time,
+                                   parameters.start_time));
+    if (parameters.newton.linearly_implicit && !integrator.is_dynamic())
+      throw InputError("Newton/Linearly implicit",
+                       "found true; allowed with Time integration/Type = "
+                       "static: false, as nothing would correct the error of "
+                       "a load step");
+    if (parameters.time_step == 0 && integrator.is_dynamic() &&
+        !integrator.stability())
+      throw InputError(section + "Time step",
+                       "found 0; allowed: a positive number (0, the program's "
+                       "choice, with Type = central difference)");
+    parameters.adaptive_step.check();
+    if (parameters.adaptive_step.enabled && integrator.error_constant() == 0)
+      throw InputError(section + "Adaptive step/Enabled",
+                       "found true; allowed with Type = Newmark (beta other "
+                       "than 1/6), HHT-alpha and generalized-alpha, which "
+                       "estimate their error");
+  }
+
+  void
+  Stepper::choose_step()
+  {
+    const double duration = parameters.end_time - parameters.start_time;
+    if (parameters.adaptive_step.enabled)
+      {
+        adaptive = std::make_unique<AdaptiveStep>(parameters.adaptive_step,
+                                                  parameters.time_step);
+        discretization.initialize_vector(acceleration_change);
+        warn_of_steps(duration / adaptive->length(), adaptive->length());
+      }
+    else if (parameters.time_step > 0 || !integrator.is_dynamic())
+      {
+        const double n = integrator.n_steps(duration, parameters.time_step);
+        if (!(n <= largest_number_of_steps))
+          throw InputError("Time integration/Time step",
+                           fmt::format("found {}, which makes {:.4g} steps "
+                                       "from t = {} to {}; allowed: at most {} "
+                                       "steps, so at least {:.6g}",
+                                       parameters.time_step,
+                                       n,
+                                       parameters.start_time,
+                                       parameters.end_time,
+                                       largest_number_of_steps,
+                                       duration / largest_number_of_steps));
+        n_steps     = static_cast<unsigned int>(n);
+        step_length = duration / n_steps;
+        warn_of_steps(n, step_length);
+      }
+    if (!integrator.stability())
+      return;
+    try
+      {
+        follow_stable_step();
+      }
+    catch (const ComputationError &error)
+      {
+        throw InputError("Time integration/Time step", error.what());
+      }
+  }
+
+  void
+  Stepper::follow_stable_step()
+  {
+    const StabilityControl &control = *integrator.stability();
+    const double            stable =
+      integrator.stable_step(system.largest_frequency(present),
+                             parameters.damping.coefficients().stiffness);
+    if (n_steps == 0)
+      {
+        step_length = control.safety_factor * stable;
+        if (done == 0)
+          log.line(fmt::format("Stable step: {:.6g} s; steps of {:.6g} s",
+                               stable,
+                               step_length));
+        const double n = (1 - done) *
+                         (parameters.end_time - parameters.start_time) /
+                         step_length;
+        if (!(n <= largest_number_of_steps))
+          throw ComputationError(
+            fmt::format("found {} and stable steps of {:.6g} s, which makes "
+                        "{:.4g} steps from t = {:.6g} to {}; allowed: at most "
+                        "{} steps",
+                        parameters.time_step,
+                        step_length,
+                        n,
+                        time(done),
+                        parameters.end_time,
+                        largest_number_of_steps));
+        warn_of_steps(n, step_length);
+        return;
+      }
+    if (step_length <= stable)
+      return;
+    const std::string text = fmt::format(
+      "found a step of {:.6g} s at t = {:.6g}, which is unstable; allowed: up "
+      "to the stable step, {:.6g} s{}, or 0 for the program's choice",
+      step_length,
+      time(done),
+      stable,
+      done == 0 ? "" : " now that the body has deformed");
+    if (control.refuse)
+      throw ComputationError(text);
+    log.warning(text);
+  }
+
+  void
+  Stepper::warn_of_steps(const double n, const double dt)
+  {
+    constexpr double many = 1e7;
+    if (!(n > many) || has_warned)
+      return;
+    has_warned = true;
+    log.warning(fmt::format(
+      "steps of {:.6g} s: {:.3g} of them up to the end time", dt, n));
+  }
+} // namespace corotet

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Supports that move: their reactions against Newton's second law, and against
+// those of a run that lasts longer.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../temporary_folder.h"
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // Ends a run after some steps.
+  class Stop : public Observer
+  {
+  public:
+    explicit Stop(const unsigned int n_steps)
+      : n_steps(n_steps)
+    {}
+
+    void
+    start(const Snapshot &) override
+    {}
+
+    void
+    step(const Snapshot &state) override
+    {
+      if (state.record.step == n_steps)
+        throw ComputationError("enough");
+    }
+
+    void
+    finish(const RunSummary &) override
+    {}
+
+  private:
+    unsigned int n_steps;
+  };
+
+  // The first records of a run.
+  std::vector<StepRecord>
+  records(const std::string &text, const unsigned int n_steps)
+  {
+    CompleteRun run(text);
+    run.observers.push_back(std::make_unique<Stop>(n_steps));
+    run.run();
+    EXPECT_GE(run.recorder().records.size(), n_steps + 1);
+    return run.recorder().records;
+  }
+
+  std::string
+  bar(const std::string &displacement,
+      const std::string &integration,
+      const std::string &further = "",
+      const unsigned int n_cells = 2)
+  {
+    return fmt::format(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 2, 1, 1
+          set Cells = {}, 1, 1
+        end
+      end
+      subsection Discretization
+        set Degree = 1
+        set Mass   = diagonal scaling
+      end
+      subsection Material
+        set Young's modulus = 10
+        set Density         = 3
+      end
+      subsection Boundary conditions
+        set Displacement = {}
+      end
+      subsection Linear solver
+        set Type = direct
+      end
+      subsection Time integration
+        {}
+      end
+      {})",
+                       n_cells,
+                       displacement,
+                       integration,
+                       further);
+  }
+
+  // All nodes are on sides that move alike.
+  std::string
+  carried_bar(const std::string &u,
+              const std::string &integration,
+              const std::string &further)
+  {
+    return bar(fmt::format("x-min: {0}; 0; 0, x-max: {0}; 0; 0", u),
+               integration,
+               further,
+               1);
+  }
+} // namespace
+
+// A body all of whose nodes are carried along has the reaction m a, m = 6 kg,
+// at each moment, whatever the method and the duration of the run: with the
+// exact second derivative, but for round-off.
+TEST(MovingSupports, ReactionIsMassTimesAcceleration)
+{
+  const TemporaryFolder folder;
+  // Rows where values turn have slope zero: in between, 3 s^2 - 2 s^3. Times
+  // of kinks are those of steps but for round-off.
+  const std::string file =
+    folder.write("table.csv", "-1 0\n0 0\n0.5 1\n1 0\n2 0\n");
+  const std::string tables = fmt::format(
+    "subsection Tables\n set Cubic = smooth: {0}\n set Linear = kinked: "
+    "{0}\nend\n",
+    file);
+  const auto cubic = [](const double t) {
+    const double s = t < 0.5 ? 2 * t : 2 * (1 - t);
+    return t > 1 - 1e-12 ? 0. : 4 * (6 - 12 * s);
+  };
+  const std::vector<std::pair<std::string, std::function<double(const double)>>>
+    motions = {{"0.1*sin(40*t)",
+                [](const double t) { return -160 * std::sin(40 * t); }},
+               {"(1 + t)*exp(-t)*t^2",
+                [](const double t) {
+                  return std::exp(-t) * (2 + 2 * t - 5 * t * t + t * t * t);
+                }},
+               {"smooth(t)", cubic},
+               {"kinked(t)", [](const double) { return 0.; }},
+               {"triangle(t, 0, 1) + ramp(t, 0.25, 0.5)",
+                [](const double) { return 0.; }},
+               {"abs(t - 0.5)*sin(4*t)", [](const double t) {
+                  const double a =
+                    8 * std::cos(4 * t) - 16 * (t - 0.5) * std::sin(4 * t);
+                  return t < 0.5 - 1e-12 ? -a : a;
+                }}};
+  for (const std::string type :
+       {"Newmark", "backward Euler", "BDF2", "central difference"})
+    for (const std::string end : {"1.5", "15000"})
+      for (const auto &[u, acceleration] : motions)
+        for (const StepRecord &record :
+             records(carried_bar(
+                       u,
+                       "set Type = " + type +
+                         "\n set Time step = 0.0625\n set End time = " + end,
+                       tables),
+                     20))
+          EXPECT_NEAR(record.reaction[0], 6 * acceleration(record.time), 1e-10)
+            << u << " at " << record.time << ", " << type;
+}
+
+// The same steps of a longer run have the same history, bit for bit: the
+// times of both are exact in binary.
+TEST(MovingSupports, DurationDoesNotMatter)
+{
+  for (const std::string type : {"backward Euler",
+                                 "BDF2",
+                                 "implicit midpoint",
+                                 "Newmark",
+                                 "HHT-alpha",
+                                 "generalized-alpha",
+                                 "central difference"})
+    for (const std::string u : {"1e-2*sin(300*t)",
+                                "1e-2*abs(sin(20*t))*ramp(t, 0, 0.0625)",
+                                "1e-3*asin(sin(32*pi*t))"})
+      {
+        const auto first = [&](const std::string &end) {
+          return records(bar("x-min: " + u + "; 0; 0",
+                             "set Type = " + type +
+                               "\n set Time step = 0.015625\n set End time = " +
+                               end),
+                         8);
+        };
+        const auto a = first("0.125"), b = first("16"), c = first("8192");
+        for (unsigned int i = 0; i <= 8; ++i)
+          for (const auto &other : {b, c})
+            {
+              EXPECT_EQ(a[i].time, other[i].time);
+              EXPECT_EQ(a[i].reaction, other[i].reaction)
+                << type << ", " << u << ", step " << i;
+              EXPECT_EQ(a[i].kinetic_energy, other[i].kinetic_energy);
+              EXPECT_EQ(a[i].elastic_energy, other[i].elastic_energy);
+              EXPECT_EQ(a[i].external_work, other[i].external_work);
+              EXPECT_EQ(a[i].momentum, other[i].momentum);
+            }
+      }
+}
+
+// A support that vibrates at 20 kHz, in a short and in a long run. With a given
+// step times differ by round-off, which makes 1e-15 of the phases and less than
+// 1e-11 of reactions that are sums of larger forces. Stable steps are cut to
+// end with the run: by less than one part in the number of steps, some ten
+// thousand.
+TEST(MovingSupports, VibrationIsTheSameInALongRun)
+{
+  const auto first = [](const std::string &step, const std::string &end) {
+    return records(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 0.1, 0.01, 0.01
+          set Cells = 10, 1, 1
+        end
+      end
+      subsection Discretization
+        set Degree = 1
+        set Mass   = diagonal scaling
+      end
+      subsection Material
+        set Young's modulus = 7e10
+        set Poisson's ratio = 0.3
+        set Density         = 2700
+      end
+      subsection Boundary conditions
+        set Displacement = x-min: 1e-5 * sin(2 * pi * 20000 * t); 0; 0
+      end
+      subsection Time integration
+        set Type      = central difference
+        set Time step = )" +
+                     step + "\n set End time = " + end + "\nend\n",
+                   10);
+  };
+  const auto compare =
+    [](const auto &a, const auto &b, const double tolerance) {
+      for (unsigned int i = 1; i <= 10; ++i)
+        EXPECT_NEAR(a[i].reaction[0],
+                    b[i].reaction[0],
+                    tolerance * std::abs(a[i].reaction[0]))
+          << i;
+    };
+  compare(first("2e-7", "1e-4"), first("2e-7", "10"), 1e-11);
+  compare(first("0", "1e-2"), first("0", "10"), 1e-3);
+}
+
+// Statics needs no velocity: that of sqrt(t - 1) at the start is infinite.
+TEST(MovingSupports, StaticsNeedsNoVelocity)
+{
+  CompleteRun run(bar("x-min: 0; 0; 0, x-max: 0.1*sqrt(t - 1); 0; 0",
+                      "set Type = static\n set Start time = 1\n set End time = "
+                      "2\n subsection static\n set Proportional loading = "
+                      "false\n end"));
+  EXPECT_EQ(run.run(), "");
+  EXPECT_EQ(run.recorder().records.back().max_displacement, 0.1);
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Runs of very many steps: refused where they cannot be counted, else said.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../temporary_folder.h"
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  std::string
+  cube(const std::string &integration)
+  {
+    return "subsection Discretization\n set Degree = 1\n set Mass = diagonal "
+           "scaling\nend\nsubsection Linear solver\n set Type = "
+           "direct\nend\nsubsection Boundary conditions\n set Fixed = "
+           "x-min\nend\nsubsection Time integration\n set End time = 1\n" +
+           integration + "\nend";
+  }
+
+  std::string
+  refusal(const std::string &integration)
+  {
+    try
+      {
+        const CompleteRun run(cube(integration));
+      }
+    catch (const InputError &error)
+      {
+        return error.entry + ": " + error.what();
+      }
+    return "nothing was refused";
+  }
+
+  // The lines of the log that are warnings.
+  std::string
+  warnings(CompleteRun &run)
+  {
+    const TemporaryFolder folder;
+    run.log.open(folder / "log.txt");
+    std::istringstream lines(folder.read("log.txt"));
+    std::string        line, result;
+    while (std::getline(lines, line))
+      if (line.rfind("warning: steps", 0) == 0)
+        result += line + "\n";
+    return result;
+  }
+} // namespace
+
+TEST(NumberOfSteps, EqualSteps)
+{
+  EXPECT_EQ(refusal("set Time step = 1e-12"),
+            "Time integration/Time step: found 1e-12, which makes 1e+12 steps "
+            "from t = 0 to 1; allowed: at most 4000000000 steps, so at least "
+            "2.5e-10");
+  EXPECT_EQ(
+    refusal("set Type = central difference\n set Time step = 1e-300"),
+    "Time integration/Time step: found 1e-300, which makes 1e+300 steps "
+    "from t = 0 to 1; allowed: at most 4000000000 steps, so at least "
+    "2.5e-10");
+  EXPECT_EQ(refusal("set Time step = 2.5e-10"), "nothing was refused");
+
+  CompleteRun few(cube("set Time step = 1e-7"));
+  CompleteRun many(cube("set Time step = 0.99e-7"));
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+    return;
+  EXPECT_EQ(warnings(few), "");
+  EXPECT_EQ(warnings(many),
+            "warning: steps of 9.9e-08 s: 1.01e+07 of them up to the end "
+            "time\n");
+}
+
+// The stable step of the default material is some microseconds.
+TEST(NumberOfSteps, StableSteps)
+{
+  const std::string type =
+    "set Type = central difference\n set Time step = 0\n";
+  EXPECT_EQ(refusal(type + "set End time = 1e9")
+              .rfind("Time integration/Time step: found 0 and stable steps of",
+                     0),
+            0u);
+  EXPECT_EQ(refusal(type), "nothing was refused");
+  CompleteRun many(cube(type + "set End time = 1e5"));
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    EXPECT_NE(warnings(many), "");
+}
+
+// Adaptive steps: those of the first length would be too many, and so are those
+// that get ever shorter before a load that is not finite, until there are none.
+TEST(NumberOfSteps, AdaptiveSteps)
+{
+  const auto adaptive = [](const std::string &entries) {
+    return cube("set Type = Newmark\n subsection Adaptive step\n set Enabled = "
+                "true\n end\n" +
+                entries);
+  };
+  CompleteRun few(adaptive("set Time step = 1e-3"));
+  CompleteRun many(adaptive("set Time step = 1e-9"));
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    {
+      EXPECT_EQ(warnings(few), "");
+      EXPECT_EQ(warnings(many),
+                "warning: steps of 1e-09 s: 1e+09 of them up to the end "
+                "time\n");
+    }
+
+  CompleteRun shorter(adaptive("set Time step = 1e-2\n subsection Adaptive "
+                               "step\n set Smallest step = 1e-30\n end\n end\n "
+                               "subsection Loads\n set Gravity = 0; 0; if(t > "
+                               "0.5, 1/0, -1)"));
+  const std::string message = shorter.run();
+  EXPECT_NE(message.find("which round-off of the time swallows"),
+            std::string::npos)
+    << message;
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    EXPECT_NE(warnings(shorter), "");
+}
+
+// An energy of which the squares overflow while the forces are good: the step
+// that makes it does not count, and time, state and record stay those of the
+// step before.
+class EnergyOverflow : public testing::TestWithParam<std::string>
+{};
+
+TEST_P(EnergyOverflow, StepIsTakenBack)
+{
+  CompleteRun       run(R"(
+    subsection Mesh
+      subsection box
+        set Size  = 2, 1, 1
+        set Cells = 2, 1, 1
+      end
+    end
+    subsection Discretization
+      set Degree = 1
+    end
+    subsection Material
+      set Type            = linear
+      set Young's modulus = 1e-20
+      set Density         = 1e-20
+    end
+    subsection Boundary conditions
+      set Fixed        = x-min
+      set Displacement = x-max: 1e155*t^4; 0; 0
+    end
+    subsection Linear solver
+      set Type = direct
+    end
+    subsection Time integration
+      set End time         = 2
+      set Maximum halvings = 3
+      )" + GetParam() +
+                  "\nend");
+  const std::string message = run.run();
+  EXPECT_NE(message.find("the energy is not finite"), std::string::npos)
+    << message;
+
+  const StepRecord &last = run.recorder().records.back();
+  EXPECT_GT(last.step, 2u);
+  EXPECT_TRUE(std::isfinite(last.kinetic_energy + last.elastic_energy +
+                            last.external_work + last.energy_balance));
+  const double time = last.time;
+  EXPECT_LT(time, 2);
+  // The last record may be that of a part of a step.
+  EXPECT_NE(message.find(fmt::format("(t = {:.6g}): ", time)),
+            std::string::npos)
+    << message;
+  EXPECT_DOUBLE_EQ(run.simulation.state().u.linfty_norm(),
+                   1e155 * std::pow(time, 4));
+  EXPECT_EQ(run.recorder().summary.end_time, time);
+  EXPECT_EQ(run.recorder().summary.steps, last.step);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  All,
+  EnergyOverflow,
+  testing::Values("set Type = Newmark\n set Time step = 0.01\n subsection "
+                  "Adaptive step\n set Enabled = true\n set Smallest step = "
+                  "1e-3\n set Largest step = 0.1\n set Target error = 1\n end",
+                  "set Type = Newmark\n set Time step = 0.01",
+                  "set Type = central difference\n set Time step = 0.01"));
