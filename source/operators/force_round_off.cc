@@ -50,11 +50,11 @@ namespace corotet
             square += sum;
           }
         const IsotropicMaterial &material = elasticity.material(c);
-        const double stress = 3 * material.lambda + 2 * material.mu;
-        const auto   nodes  = discretization.cell_nodes(c);
+        const double             stress = 3 * material.lambda + 2 * material.mu;
+        const auto               nodes  = discretization.cell_nodes(c);
         for (unsigned int i = 0; i < reference.n_nodes; ++i)
           {
-            const double force  = stress * geometry.volume * slopes[i];
+            const double force = stress * geometry.volume * slopes[i];
             sums.local_element(3 * nodes[i]) += force * force;
             sums.local_element(3 * nodes[i] + 1) += force * force * square;
           }
@@ -88,9 +88,9 @@ namespace corotet
         double square = 0;
         for (unsigned int a = 0; a < 3; ++a)
           square += u.local_element(3 * n + a) * u.local_element(3 * n + a);
-        sum += strain_noise * strain_noise * by_strain[n] +
-               displacement_noise * displacement_noise * square *
-                 by_displacement[n];
+        sum +=
+          strain_noise * strain_noise * by_strain[n] +
+          displacement_noise * displacement_noise * square * by_displacement[n];
       }
     return std::numeric_limits<double>::epsilon() *
            std::sqrt(

@@ -98,8 +98,7 @@ namespace corotet
         const Hdf5Id  access(H5Pcreate(H5P_FILE_ACCESS));
         // What virtual tables need anyway makes groups and references smaller,
         // too.
-        check(
-          H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
+        check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
         file = Hdf5Id(
           H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
         check(file);

@@ -84,10 +84,10 @@ namespace corotet
   SummaryWriter::finish(const RunSummary &summary)
   {
     nlohmann::ordered_json results;
-    results["steps"]    = summary.steps;
-    results["end_time"] = summary.end_time;
+    results["steps"]                 = summary.steps;
+    results["end_time"]              = summary.end_time;
     results["preconditioner_builds"] = summary.preconditioner_builds;
-    results["final"]    = history.last_row();
+    results["final"]                 = history.last_row();
     if (summary.errors)
       {
         results["errors"]      = norms_object(summary.errors->error);

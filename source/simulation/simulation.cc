@@ -196,10 +196,10 @@ namespace corotet
       volume += disc.geometry(c).volume;
     summary.mesh_volume =
       dealii::Utilities::MPI::sum(volume, disc.communicator());
-    summary.total_mass   = system.mass().total();
-    summary.steps        = record.step;
-    summary.end_time     = record.time;
-    summary.final_record = record;
+    summary.total_mass            = system.mass().total();
+    summary.steps                 = record.step;
+    summary.end_time              = record.time;
+    summary.final_record          = record;
     summary.preconditioner_builds = system.preconditioner_builds();
     if (is_started)
       summary.errors = errors();

@@ -221,10 +221,10 @@ namespace corotet
       const NewtonProblem::Norm increment = problem.add(1., dx);
       residual                            = problem.residual(r);
       increment_is_round_off = increment.value <= increment.round_off;
-      if (is_finite(residual) && (residual.value < best || is_round_off() ||
-                                  increment_is_round_off ||
-                                  (n_without_progress < patience &&
-                                   residual.value < divergence * best)))
+      if (is_finite(residual) &&
+          (residual.value < best || is_round_off() || increment_is_round_off ||
+           (n_without_progress < patience &&
+            residual.value < divergence * best)))
         {
           // On the way down from a rise that an increment has made there is
           // progress, too.
@@ -359,9 +359,9 @@ namespace corotet
     double              size     = 1;
     bool                definite = false;
     /// Of the last full increment.
-    bool                increment_is_round_off = false;
-    unsigned int        linear_iterations  = 0;
-    unsigned int        n_without_progress = 0;
+    bool         increment_is_round_off = false;
+    unsigned int linear_iterations      = 0;
+    unsigned int n_without_progress     = 0;
     /// Residual at the best point. A search for less energy may raise it.
     double best = 0;
     /// Residuals after each iteration.

@@ -33,13 +33,13 @@ namespace
                        const std::string &material,
                        const double       distance)
   {
-    Body       body(mesh,
-              element_text(element) + "subsection Material\n" + material +
-                " set Young's modulus = 1e3\n set Poisson's ratio = 0.3\nend\n");
+    Body body(
+      mesh,
+      element_text(element) + "subsection Material\n" + material +
+        " set Young's modulus = 1e3\n set Poisson's ratio = 0.3\nend\n");
     Elasticity elastic(body.discretization,
                        body.system.reference_element(),
-                       body.parameters.material.materials(
-                         body.mesh.regions()),
+                       body.parameters.material.materials(body.mesh.regions()),
                        body.parameters.material.rotation_placement());
     const auto displacement = [](const Point<3> &x) {
       return Tensor<1, 3>({1e-3 * std::sin(2 * x[0] + x[1]),

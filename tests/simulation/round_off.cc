@@ -50,8 +50,8 @@ namespace
   {
     double largest = 0;
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
-      largest = std::max(largest,
-                         std::abs(u.local_element(i) - (i % 3 == 2 ? z : 0)));
+      largest =
+        std::max(largest, std::abs(u.local_element(i) - (i % 3 == 2 ? z : 0)));
     return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
   }
 
@@ -95,10 +95,10 @@ class FreeFall
   : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
 {};
 
-// A steel block falls for five seconds, 120 m: its cells of 0.2 m are then known
-// to a strain of 1e-13, a stress of 0.03 Pa, where gravity makes 8 kPa. The
-// displacement must be that of a point mass to 1e-9, and no step may take more
-// than one iteration: what is left after it is round-off.
+// A steel block falls for five seconds, 120 m: its cells of 0.2 m are then
+// known to a strain of 1e-13, a stress of 0.03 Pa, where gravity makes 8 kPa.
+// The displacement must be that of a point mass to 1e-9, and no step may take
+// more than one iteration: what is left after it is round-off.
 TEST_P(FreeFall, OfSteel)
 {
   const auto [degree, law] = GetParam();
@@ -106,7 +106,8 @@ TEST_P(FreeFall, OfSteel)
   constexpr double       T = 5;
   for (const auto &integrator : time_integrators())
     {
-      if (integrator.name == "static" || integrator.name == "central difference")
+      if (integrator.name == "static" ||
+          integrator.name == "central difference")
         continue;
       CompleteRun fall(steel + element_text(degree) + law_text(law) +
                        fmt::format(R"(
@@ -124,7 +125,7 @@ TEST_P(FreeFall, OfSteel)
                                    T,
                                    T / n));
       ASSERT_EQ(fall.run(), "") << integrator.name;
-      const auto  &steps = fall.recorder().steps;
+      const auto &steps = fall.recorder().steps;
       ASSERT_EQ(steps.size(), n);
       const double z = fallen(integrator.name, n, T / n);
       EXPECT_LE(distance_from(fall.recorder().displacement, z),
@@ -141,7 +142,7 @@ TEST_P(FreeFall, OfSteel)
 TEST_P(FreeFall, OfSteelExplicitly)
 {
   const auto [degree, law] = GetParam();
-  constexpr double z       = -100, v = -44, T = 2e-3;
+  constexpr double z = -100, v = -44, T = 2e-3;
   CompleteRun      fall(steel + element_text(degree) + law_text(law) +
                    fmt::format(R"(
     subsection Discretization
@@ -249,8 +250,8 @@ namespace
         end
       end
       subsection Linear solver
-        set Type = )" +
-                       solver + "\nend\n" + box);
+        set Type = )" + solver +
+                       "\nend\n" + box);
   }
 
   // The linear solver's tolerance, times what a slender body may make of a
@@ -268,8 +269,8 @@ TEST_P(LinearStatics, Unloads)
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
   ASSERT_EQ(steps.size(), 4u);
-  // Of beam theory: F L^3 / (3 E I) = 5.12 mm, to which six quadratic cells come
-  // close.
+  // Of beam theory: F L^3 / (3 E I) = 5.12 mm, to which six quadratic cells
+  // come close.
   EXPECT_NEAR(steps[1].max_displacement, 5.12e-3, 0.05 * 5.12e-3);
   EXPECT_NEAR(steps[0].max_displacement,
               0.5 * steps[1].max_displacement,

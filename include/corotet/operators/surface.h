@@ -57,8 +57,8 @@ namespace corotet
                          const Vector           *u,
                          const Function         &function)
   {
-    const auto &rule  = reference.face_rules[face.face];
-    const auto  nodes = discretization.cell_nodes(face.cell);
+    const auto &rule         = reference.face_rules[face.face];
+    const auto  nodes        = discretization.cell_nodes(face.cell);
     const auto  displacement = [u](const unsigned int node) {
       dealii::Tensor<1, 3> result;
       if (u != nullptr)
@@ -66,9 +66,9 @@ namespace corotet
           result[a] = u->local_element(3 * node + a);
       return result;
     };
-    const auto                 first = nodes[reference.face_nodes[face.face][0]];
-    const dealii::Point<3>     X_0   = discretization.node_position(first);
-    const dealii::Tensor<1, 3> u_0   = displacement(first);
+    const auto             first   = nodes[reference.face_nodes[face.face][0]];
+    const dealii::Point<3> X_0     = discretization.node_position(first);
+    const dealii::Tensor<1, 3> u_0 = displacement(first);
     for (unsigned int q = 0; q < rule.weights.size(); ++q)
       {
         SurfacePoint point{q, {}, {}, {}, {}};

@@ -46,10 +46,7 @@ namespace corotet
      */
     template <typename Matrix, typename Preconditioner>
     bool
-    solve(const Matrix         &A,
-          Vector               &x,
-          const Vector         &b,
-          const Preconditioner &P)
+    solve(const Matrix &A, Vector &x, const Vector &b, const Preconditioner &P)
     {
       Vector r(b), p(x), Ap(x);
       A.vmult(Ap, x);
@@ -99,7 +96,8 @@ namespace corotet
       const unsigned int     n      = residuals.size();
       if (n < 3 * window / 2 || n % (window / 2) != 0)
         return false;
-      const double fall = std::log(residuals[n - 1 - window] / residuals[n - 1]);
+      const double fall =
+        std::log(residuals[n - 1 - window] / residuals[n - 1]);
       const double left = std::log(residuals[n - 1] / control.tolerance());
       return !(left * window <= 2. * n * fall);
     }

@@ -40,7 +40,7 @@ namespace corotet
 
     RoundOff round_off = RoundOff::none;
     /// At the end.
-    double final_residual = 0;
+    double                       final_residual    = 0;
     unsigned int                 iterations        = 0;
     unsigned int                 linear_iterations = 0;
     unsigned int                 line_searches     = 0;

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The equation of an implicit stage as Newton's method sees it.
+
+#include <corotet/operators/force_round_off.h>
+#include <corotet/simulation/structural_system.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corotet
+{
+  namespace
+  {
+    constexpr double machine_precision = std::numeric_limits<double>::epsilon();
+  } // namespace
+
+  NewtonProblem::Norm
+  StructuralSystem::residual(Vector &r)
+  {
+    evaluate(*stage_state, stage.time, stage.load_factor);
+    r = forces.external;
+    r -= forces.internal;
+    r -= forces.damping;
+    r -= forces.inertia;
+    motion.set_zero(r);
+    force_scale = std::max({norm(forces.external),
+                            norm(forces.internal),
+                            norm(forces.damping),
+                            norm(forces.inertia)});
+    // Far from the solution of a nonlinear problem forces may be of any size.
+    if (is_linear())
+      stage_scale = std::max(stage_scale, force_scale);
+    return {norm(r), std::max(stage_scale, force_scale), round_off()};
+  }
+
+  double
+  StructuralSystem::round_off() const
+  {
+    const ForceRoundOff &noise = effective_operator->force_round_off();
+    double               sum =
+      noise.of_force(u_ghosted) + 4 * machine_precision * force_scale;
+    if (damping.stiffness > 0)
+      sum += damping.stiffness * noise.of_product(v_ghosted);
+    if (loads.has_follower_pressure())
+      sum += loads.relative_round_off(u_ghosted) * norm(forces.external);
+    return sum;
+  }
+
+  void
+  StructuralSystem::report_round_off(const NewtonReport &report)
+  {
+    using RoundOff = NewtonReport::RoundOff;
+    if (report.round_off == RoundOff::none ||
+        !shown_round_off.insert(report.round_off).second)
+      return;
+    const double size = u_ghosted.linfty_norm();
+    log.line(fmt::format(
+      "t = {:.6g}: round-off ended Newton's iterations, which is not said "
+      "again: {}; the residual is {:.2g} of the forces",
+      stage.time,
+      report.round_off == RoundOff::of_residual ?
+        fmt::format("displacements of up to {:.3g} m, known to {:.1g} m, leave "
+                    "no smaller residual",
+                    size,
+                    machine_precision * size) :
+        "an increment was no more than the round-off of the displacement",
+      report.final_residual));
+  }
+
+  bool
+  StructuralSystem::is_linear() const
+  {
+    return elastic.rotation_placement() == Rotation::none;
+  }
+
+  unsigned int
+  StructuralSystem::solve_linearized(Vector &dx, const Vector &r)
+  {
+    const double c_K = 1 + stage.velocity_factor * damping.stiffness;
+    const double c_M =
+      stage.acceleration_factor + stage.velocity_factor * damping.mass;
+    if (elastic.rotation_placement() != Rotation::none || c_K != operator_c_K ||
+        c_M != operator_c_M)
+      {
+        ScopedTimer timer(wall_times.assembly);
+        effective_operator->update(c_K, c_M);
+        operator_c_K = c_K;
+        operator_c_M = c_M;
+      }
+    const TangentOperator *J = nullptr;
+    if (!elastic.is_by_cell(tangent))
+      {
+        ScopedTimer timer(wall_times.assembly);
+        clamped_cells = std::max(clamped_cells,
+                                 tangent_operator->update(u_ghosted,
+                                                          tangent,
+                                                          stage.time,
+                                                          stage.load_factor));
+        J             = tangent_operator.get();
+      }
+    ScopedTimer timer(wall_times.solve);
+    positions.copy_locally_owned_data_from(discretization.node_positions());
+    positions += stage_state->u;
+    return parameters.linear_solver.solve(
+      *effective_operator, dx, r, positions, J);
+  }
+
+  NewtonProblem::Norm
+  StructuralSystem::add(const double factor, const Vector &dx)
+  {
+    stage_state->u.add(factor, dx);
+    stage_state->v.add(factor * stage.velocity_factor, dx);
+    stage_state->a.add(factor * stage.acceleration_factor, dx);
+    const double size = norm(stage_state->u);
+    return {std::abs(factor) * norm(dx), size, 4 * machine_precision * size};
+  }
+
+  void
+  StructuralSystem::keep()
+  {
+    kept = *stage_state;
+  }
+
+  void
+  StructuralSystem::restore()
+  {
+    *stage_state = kept;
+  }
+
+  bool
+  StructuralSystem::has_energy() const
+  {
+    // Damping by a stiffness that turns with the body is not a gradient.
+    return elastic.is_symmetric(Tangent::consistent) &&
+           !loads.has_follower_pressure() &&
+           (damping.stiffness == 0 ||
+            elastic.rotation_placement() == Rotation::none);
+  }
+
+  bool
+  StructuralSystem::use_definite_tangent(const bool use)
+  {
+    tangent = use ? Tangent::frozen_rotation : wanted_tangent;
+    return wanted_tangent != Tangent::frozen_rotation &&
+           elastic.rotation_placement() != Rotation::none;
+  }
+} // namespace corotet

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Where Newton's method ends because of round-off, and of linear problems.
+
+#include <gtest/gtest.h>
+
+#include "scalar_problem.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+// A residual that round-off keeps from shrinking: accepted if the problem says
+// that it is round-off, else a failure.
+TEST(Newton, RoundOffIsAccepted)
+{
+  class Noisy : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    Norm
+    residual(Vector &r) override
+    {
+      Norm norm = Scalar::residual(r);
+      norm.value += 1e-9;
+      norm.round_off = round_off;
+      return norm;
+    }
+
+    double round_off = 0;
+  };
+  Noisy root([](double x) { return x * x - 2; },
+             [](double x) { return 2 * x; },
+             1.);
+  EXPECT_EQ(failure(root).find("Newton's method found no descent"), 0u);
+  root.x         = 1;
+  root.round_off = 2e-9;
+  EXPECT_LE(solve(root).iterations, 6u);
+  EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
+}
+
+// An increment that x is too coarse for is the last one, whatever the residual.
+TEST(Newton, RoundOffOfIncrementIsTheEnd)
+{
+  class Coarse : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    Norm
+    add(const double factor, const Vector &dx) override
+    {
+      Norm norm      = Scalar::add(factor, dx);
+      norm.round_off = 1e-6;
+      return norm;
+    }
+  };
+  // With a residual that never falls below 1e-3.
+  Coarse root([](double x) { return x * x - 2 + (x < 1.5 ? 1e-3 : 0.); },
+              [](double x) { return 1e5 * x; },
+              1.4);
+  const NewtonReport report = solve(root);
+  EXPECT_EQ(report.iterations, 1u);
+  EXPECT_EQ(report.round_off, NewtonReport::RoundOff::of_increment);
+  EXPECT_NEAR(report.final_residual, std::abs(root.f(root.x)), 1e-15);
+}
+
+// A linear problem is not asked for its increment: a linear solver of the same
+// tolerance leaves as much of it.
+TEST(Newton, LinearProblemIsSolvedOnce)
+{
+  class Line : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    bool
+    is_linear() const override
+    {
+      return linear;
+    }
+
+    bool linear = true;
+  };
+  // The slope of an inexact solver: 2e-6 is left.
+  for (const bool linear : {true, false})
+    {
+      Line line([](double x) { return 1e-4 * (x - 1e3); },
+                [](double) { return 1e-4 * (1 + 2e-6); },
+                0.);
+      line.linear = linear;
+      EXPECT_EQ(solve(line, 1e-6).iterations, linear ? 1u : 2u);
+      EXPECT_NEAR(line.x, 1e3, 1e-2);
+    }
+}
