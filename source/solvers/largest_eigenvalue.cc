@@ -16,25 +16,25 @@ namespace corotet
   largest_of_tridiagonal(const std::vector<double> &diagonal,
                          const std::vector<double> &beside)
   {
-    const unsigned int               n = diagonal.size();
+    const unsigned int n    = diagonal.size();
+    double             norm = 0;
+    for (unsigned int k = 0; k < n; ++k)
+      norm += std::abs(diagonal[k]) + (k + 1 < n ? 2 * beside[k] : 0.);
+    if (norm == 0)
+      return {0., 1.};
+    // Of the order of one: LAPACK does not converge for very small numbers.
     dealii::LAPACKFullMatrix<double> T(n);
-    double                           norm = 0;
     for (unsigned int k = 0; k < n; ++k)
       {
-        T(k, k) = diagonal[k];
-        norm += std::abs(diagonal[k]);
+        T(k, k) = diagonal[k] / norm;
         if (k + 1 < n)
-          {
-            T(k, k + 1) = T(k + 1, k) = beside[k];
-            norm += 2 * beside[k];
-          }
+          T(k, k + 1) = T(k + 1, k) = beside[k] / norm;
       }
     dealii::Vector<double>     eigenvalues;
     dealii::FullMatrix<double> eigenvectors;
-    T.compute_eigenvalues_symmetric(
-      -norm, norm, 1e-6 * norm, eigenvalues, eigenvectors);
+    T.compute_eigenvalues_symmetric(-1, 1, 1e-6, eigenvalues, eigenvectors);
     // In ascending order.
-    return {eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
+    return {norm * eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
   }
 
   double
