@@ -238,8 +238,8 @@ namespace corotet
     // Measured, see doc/rotations.md: with less no error was above a percent.
     if (angle > 0.005)
       log.warning(text + ", which may make errors of some percent; finer cells "
-                         "or Material/Rotation = quadrature points (best with "
-                         "Newton/Tangent = consistent) make them small");
+                         "or Material/Rotation = quadrature points make them "
+                         "small");
     else
       log.line("Material: " + text);
     return angle;
