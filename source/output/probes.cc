@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 
 namespace corotet
 {
@@ -22,23 +21,37 @@ namespace corotet
     using dealii::Tensor;
     namespace mpi = dealii::Utilities::MPI;
 
-    // A point in an owned cell; its reference coordinates there.
+    // None.
+    constexpr double far_outside = -std::numeric_limits<double>::max();
+
+    // The owned cell that has a point, the point's reference coordinates there,
+    // and how far it is outside: its smallest barycentric coordinate or 0.
     struct Location
     {
-      unsigned int cell;
-      Point<3>     xi;
+      unsigned int cell    = 0;
+      Point<3>     xi      = {};
+      double       outside = far_outside;
     };
 
-    // The first that there is.
-    std::optional<Location>
+    // Of cells that have it, one that it is least outside of.
+    Location
     locate(const Point<3>       &x,
            const PointSearch    &search,
            const Discretization &discretization)
     {
-      for (unsigned int cell = 0; cell < discretization.n_owned_cells(); ++cell)
-        if (const auto xi = search.find(cell, x))
-          return Location{cell, *xi};
-      return {};
+      Location best;
+      for (unsigned int cell = 0;
+           cell < discretization.n_owned_cells() && best.outside < 0;
+           ++cell)
+        if (const auto found = search.find(cell, x))
+          {
+            const Point<3> &xi = *found;
+            const double    outside =
+              std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2], 0.});
+            if (outside > best.outside)
+              best = {cell, xi, outside};
+          }
+      return best;
     }
 
     // "x in [0, 1], y in [0, 0.1], z in [0, 0.1]".
@@ -92,18 +105,20 @@ namespace corotet
     const PointSearch  search(discretization);
     for (const auto &[name, x] : points)
       {
-        const auto         location = locate(x, search, discretization);
-        const unsigned int owner    = mpi::min(location ? rank : nobody, comm);
-        if (owner == nobody)
+        const Location location = locate(x, search, discretization);
+        const double   outside  = mpi::max(location.outside, comm);
+        if (outside == far_outside)
           throw_outside_of_body("Output/Probes", name, x, discretization);
+        const unsigned int owner =
+          mpi::min(location.outside == outside ? rank : nobody, comm);
         if (owner == rank)
           {
-            const auto nodes = discretization.cell_nodes(location->cell);
+            const auto nodes = discretization.cell_nodes(location.cell);
             Located    probe;
             probe.probe = probe_names.size();
             probe.nodes.assign(nodes.begin(), nodes.end());
             for (unsigned int i = 0; i < nodes.size(); ++i)
-              probe.shape_values.push_back(fe.shape_value(i, location->xi));
+              probe.shape_values.push_back(fe.shape_value(i, location.xi));
             located.push_back(probe);
           }
         probe_names.push_back(name);

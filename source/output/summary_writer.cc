@@ -93,6 +93,9 @@ namespace corotet
         results["errors"]      = norms_object(summary.errors->error);
         results["exact_norms"] = norms_object(summary.errors->reference);
       }
+    if (summary.largest_rotation_difference)
+      results["largest_rotation_difference"] =
+        *summary.largest_rotation_difference;
     if (error_estimate)
       results["error_estimate"] = {{"energy_norm", error_estimate->energy_norm},
                                    {"relative", error_estimate->relative}};

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/discretization/rigid_motions.h>
+#include <corotet/operators/rotation_difference.h>
 #include <corotet/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,7 +19,7 @@ namespace corotet
     : parameters(parameters)
     , log(log)
     , tables(read_table_functions(parameters.tables, folder, comm))
-    , mesh(parameters.mesh, folder, comm, log)
+    , mesh(parameters.mesh, folder, comm, log, parameters.element().degree())
     , disc(mesh, parameters.element())
     , system(disc, parameters, tables, wall_times, log)
     , stepper(parameters, disc, system, log)
@@ -202,7 +203,10 @@ namespace corotet
     summary.final_record          = record;
     summary.preconditioner_builds = system.preconditioner_builds();
     if (is_started)
-      summary.errors = errors();
+      {
+        summary.errors                      = errors();
+        summary.largest_rotation_difference = rotation_difference();
+      }
     summary.wall_times      = wall_times;
     summary.total_wall_time = seconds();
     for (const auto &observer : observers)
@@ -233,6 +237,30 @@ namespace corotet
                          text(norms.error.H1, norms.reference.H1),
                          text(norms.error.energy, norms.reference.energy)));
     return norms;
+  }
+
+  std::optional<double>
+  Simulation::rotation_difference()
+  {
+    const Rotation placement = system.elasticity().rotation_placement();
+    if (disc.degree() == 1 || (placement != Rotation::cell_centre &&
+                               placement != Rotation::cell_centre_variational))
+      return {};
+    const double      angle = largest_rotation_difference(disc,
+                                                     system.reference_element(),
+                                                     system.displacement());
+    const std::string text =
+      fmt::format("rotations inside of cells differ from those of their "
+                  "centres by up to {:.3g} degrees",
+                  angle * 180 / dealii::numbers::PI);
+    // Measured, see doc/rotations.md: with less no error was above a percent.
+    if (angle > 0.005)
+      log.warning(text + ", which may make errors of some percent; finer cells "
+                         "or Material/Rotation = quadrature points make them "
+                         "small");
+    else
+      log.line("Material: " + text);
+    return angle;
   }
 
   double

@@ -3,6 +3,7 @@
 
 // The equation of an implicit stage as Newton's method sees it.
 
+#include <corotet/base/exceptions.h>
 #include <corotet/operators/force_round_off.h>
 #include <corotet/simulation/structural_system.h>
 
@@ -106,8 +107,37 @@ namespace corotet
     ScopedTimer timer(wall_times.solve);
     positions.copy_locally_owned_data_from(discretization.node_positions());
     positions += stage_state->u;
-    return parameters.linear_solver.solve(
-      *effective_operator, dx, r, positions, J);
+    try
+      {
+        const unsigned int n_iterations = parameters.linear_solver.solve(
+          *effective_operator, dx, r, positions, J);
+        advise_direct_solver(n_iterations);
+        return n_iterations;
+      }
+    catch (const ComputationError &)
+      {
+        advise_direct_solver(std::numeric_limits<unsigned int>::max());
+        throw;
+      }
+  }
+
+  void
+  StructuralSystem::advise_direct_solver(const unsigned int n_iterations)
+  {
+    // Measured on plates of one layer of cells (doc/algorithms.md): up to this
+    // size a factorisation takes as long as this many iterations, or less.
+    constexpr unsigned int small      = 50000;
+    constexpr unsigned int worthwhile = 1000;
+    const auto             n_unknowns = 3 * discretization.n_global_nodes();
+    if (n_iterations <= 100 || slow_iterations > worthwhile ||
+        n_unknowns > small || parameters.linear_solver.type() != "p-multigrid")
+      return;
+    slow_iterations += std::min(n_iterations, worthwhile + 1);
+    if (slow_iterations > worthwhile)
+      log.line(fmt::format("p-multigrid converges slowly on this body, as on "
+                           "thin ones: with {} unknowns, 'Linear solver/Type = "
+                           "direct' may be faster",
+                           n_unknowns));
   }
 
   NewtonProblem::Norm

@@ -147,6 +147,25 @@ INSTANTIATE_TEST_SUITE_P(
                   std::make_tuple(3u, "consistent"),
                   std::make_tuple(3u, "diagonal scaling")));
 
+// The frequency goes with 1 / sqrt(density), to the estimate's tolerance, in
+// any units: squares of frequencies from 1e-40 to 1e40 times the usual ones.
+TEST(Explicit, FrequencyInAnyUnits)
+{
+  const auto frequency = [](const double density) {
+    Body body(box("2, 1, 1", "4, 2, 2", 0.2),
+              discretization(2, "diagonal scaling") +
+                fmt::format("subsection Material\n set Density = {}\nend\n",
+                            density));
+    return body.system.largest_frequency(body.state);
+  };
+  const double expected = frequency(1000);
+  for (const double factor : {1e-40, 1e-20, 1e-10, 1e10, 1e20, 1e40})
+    EXPECT_NEAR(frequency(1000 * factor) * std::sqrt(factor) / expected,
+                1,
+                1e-3)
+      << factor;
+}
+
 class Explicit : public testing::TestWithParam<unsigned int>
 {};
 

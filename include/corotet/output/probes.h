@@ -26,9 +26,10 @@ namespace corotet
    * Points of the undeformed body, anywhere in it, at which a displacement is
    * evaluated: u(x) = sum_i u_i N_i(x) in the cell that contains x.
    *
-   * A point on several ranks' cells is evaluated by the lowest of them. The
-   * cell's nodes and the values of N_i are found once. @p discretization must
-   * outlive this object.
+   * A point on several cells is evaluated in one that it is least outside of,
+   * by round-off, on the lowest rank that has such a one. The cell's nodes and
+   * the values of N_i are found once. @p discretization must outlive this
+   * object.
    */
   class Probes
   {

@@ -25,7 +25,7 @@ namespace corotet
   {
   public:
     /// Throws InputError blamed on Output/Stress probes if a point is outside
-    /// the body (by more than 1e-8 of a cell). Collective.
+    /// the body (PointSearch). Collective.
     StressProbes(const std::vector<ProbePoint> &points,
                  const Discretization          &discretization,
                  const bool                     raw = false);

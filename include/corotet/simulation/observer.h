@@ -114,6 +114,9 @@ namespace corotet
     unsigned int preconditioner_builds = 0;
     /// Of the last displacement, where the exact one is known.
     std::optional<ErrorNorms> errors;
+    /// Largest angle between rotations inside of cells and those of their
+    /// centres [rad], of the last displacement, where only the latter are used.
+    std::optional<double> largest_rotation_difference;
 
     WallTimes wall_times;
     double    total_wall_time = 0;

@@ -91,6 +91,10 @@ namespace corotet
     /// Of the last state, if the exact solution is known.
     std::optional<ErrorNorms>
     errors();
+    /// Of the last state [rad], if one rotation for each cell is not all of it;
+    /// logs it.
+    std::optional<double>
+    rotation_difference();
     Snapshot
     snapshot(const StepRecord &record, const bool last);
     /// Of the present displacement. Made when it is first asked for.

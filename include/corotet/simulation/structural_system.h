@@ -207,6 +207,10 @@ namespace corotet
     /// Says once that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
+    /// Says once that a direct solver is faster, if @p n_iterations of a solve
+    /// with p-multigrid and those of slow ones before tell so.
+    void
+    advise_direct_solver(const unsigned int n_iterations);
     /// All terms but inertia.
     void
     evaluate_forces(const State &state,
@@ -253,6 +257,8 @@ namespace corotet
     double operator_c_M = -1;
 
     unsigned int clamped_cells = 0;
+    /// Of linear solves that were slow.
+    unsigned int slow_iterations = 0;
 
     Forces forces;
     double forces_time = 0;

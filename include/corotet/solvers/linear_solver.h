@@ -58,6 +58,13 @@ namespace corotet
           const Vector            &positions,
           const TangentOperator   *J = nullptr);
 
+    /// Name of the preconditioner, as the parameter has it.
+    const std::string &
+    type() const
+    {
+      return preconditioner.name();
+    }
+
     /// Makes the tolerance no larger than @p limit.
     void
     limit_tolerance(const double limit)

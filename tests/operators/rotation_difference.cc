@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// How far rotations differ inside of cells from those of their centres, held
+// against formulas of a motion in a plane.
+
+#include <corotet/operators/rotation_difference.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  double
+  difference(const Body &body, const Vector &u)
+  {
+    return largest_rotation_difference(body.discretization,
+                                       body.system.reference_element(),
+                                       u);
+  }
+
+  // u = (-c x z, 0, c x^2 / 2): F in the plane is {{1 - c z, -c x}, {c x, 1}},
+  // and its rotation has the angle atan2(2 c x, 2 - c z).
+  constexpr double c = 0.3;
+
+  double
+  angle(const Point<3> &x)
+  {
+    return std::atan2(2 * c * x[0], 2 - c * x[2]);
+  }
+} // namespace
+
+// To round-off of sums of terms of order one.
+TEST(RotationDifference, BentBox)
+{
+  for (const unsigned int degree : {2u, 3u})
+    {
+      const Body  body(box("2, 1, 1", "4, 2, 2", 0.2), element_text(degree));
+      const auto  u       = body.interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({-c * x[0] * x[2], 0., 0.5 * c * x[0] * x[0]});
+      });
+      double      largest = 0;
+      const auto &disc    = body.discretization;
+      const auto &rule    = body.system.reference_element().stiffness_rule;
+      for (unsigned int cell = 0; cell < disc.n_owned_cells(); ++cell)
+        {
+          const Point<3>     p0 = disc.node_position(disc.cell_nodes(cell)[0]);
+          const Tensor<2, 3> J  = invert(disc.geometry(cell).inverse_jacobian);
+          const double centre   = angle(p0 + J * Point<3>(0.25, 0.25, 0.25));
+          for (const Point<3> &xi : rule.points)
+            largest = std::max(largest, std::abs(angle(p0 + J * xi) - centre));
+        }
+      largest = dealii::Utilities::MPI::max(largest, disc.communicator());
+      EXPECT_GT(largest, 0.05);
+      EXPECT_NEAR(difference(body, u), largest, 1e-13);
+    }
+}
+
+// A body at rest, and one that has turned and is stretched, have the same
+// rotation everywhere.
+TEST(RotationDifference, NoneWhereRotationIsTheSame)
+{
+  const Body body(box("2, 1, 1", "4, 2, 2", 0.2), element_text(2));
+  EXPECT_EQ(difference(body, body.interpolate([](const Point<3> &) {
+              return Tensor<1, 3>();
+            })),
+            0);
+  EXPECT_LT(difference(body, body.interpolate([](const Point<3> &x) {
+              const double s = std::sin(2.), k = std::cos(2.);
+              return Tensor<1, 3>({1.1 * k * x[0] - s * x[1] - x[0],
+                                   1.1 * s * x[0] + k * x[1] - x[1],
+                                   0.});
+            })),
+            1e-13);
+}
