@@ -178,10 +178,11 @@ TEST(SummaryWriter, HasAllKeys)
   std::string keys;
   for (const auto &[key, value] : json.items())
     keys += (keys.empty() ? "" : ",") + key;
-  EXPECT_EQ(keys,
-            "status,version,git_revision,dealii_version,ranks,cells,nodes,dofs,"
-            "degree,mesh_volume,total_mass,steps,end_time,preconditioner_builds,"
-            "final,wall_time,peak_memory_bytes");
+  EXPECT_EQ(
+    keys,
+    "status,version,git_revision,dealii_version,ranks,cells,nodes,dofs,"
+    "degree,mesh_volume,total_mass,steps,end_time,preconditioner_builds,"
+    "final,wall_time,peak_memory_bytes");
   keys.clear();
   for (const auto &[key, value] : json["final"].items())
     keys += (keys.empty() ? "" : ",") + key;
