@@ -25,8 +25,9 @@ namespace corotet
 
     // Boundaries that disagree show themselves before the run starts.
     system.initialize(present);
-    for (const double part : {0.5, 1., 0.})
-      system.prescribe(present, time(part), 1.);
+    State moved = present;
+    for (const double part : {0., 0.5, 1.})
+      system.prescribe(moved, time(part), 1.);
     choose_step();
   }
 

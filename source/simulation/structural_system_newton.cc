@@ -20,6 +20,48 @@ namespace corotet
     constexpr double machine_precision = std::numeric_limits<double>::epsilon();
   } // namespace
 
+  StageReport
+  StructuralSystem::move_supports(State       &state,
+                                  const double time,
+                                  const double load_factor)
+  {
+    Vector before(state.u);
+    prescribe(state, time, load_factor);
+    Vector motion_of_supports(state.u);
+    motion_of_supports -= before;
+    if (is_linear() || norm(motion_of_supports) == 0)
+      return {};
+    if (!effective_operator)
+      make_operators();
+    state.u.swap(before);
+    stage       = {time, 0., 0., load_factor};
+    stage_state = &state;
+    Vector r, du, f;
+    for (Vector *vector : {&r, &du, &f})
+      discretization.initialize_vector(*vector);
+    residual(r);
+    if (!elastic.is_by_cell(tangent))
+      elastic.linearize(u_ghosted, tangent);
+    motion_of_supports.update_ghost_values();
+    apply_stiffness(f, motion_of_supports, tangent);
+    r -= f;
+    motion.set_zero(r);
+    unsigned int n_iterations = 0;
+    try
+      {
+        n_iterations = solve_linearized(du, r);
+        if (!std::isfinite(norm(du)))
+          du = 0;
+      }
+    catch (const ComputationError &)
+      {
+        du = 0;
+      }
+    state.u.swap(before);
+    state.u += du;
+    return {1, n_iterations};
+  }
+
   NewtonProblem::Norm
   StructuralSystem::residual(Vector &r)
   {

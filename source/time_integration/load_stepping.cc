@@ -28,9 +28,12 @@ namespace corotet
   {
     const double time   = step.time + step.dt;
     const double factor = load_factor(step.done);
-    system.prescribe(state, time, factor);
     state.v = 0;
     state.a = 0;
-    return system.solve_stage(state, {time, 0., 0., factor});
+    const StageReport supports = system.move_supports(state, time, factor);
+    StageReport       report = system.solve_stage(state, {time, 0., 0., factor});
+    report.newton_iterations += supports.newton_iterations;
+    report.linear_iterations += supports.linear_iterations;
+    return report;
   }
 } // namespace corotet

@@ -244,3 +244,60 @@ TEST(MovingSupports, StaticsNeedsNoVelocity)
   EXPECT_EQ(run.run(), "");
   EXPECT_EQ(run.recorder().records.back().max_displacement, 0.1);
 }
+
+// In one load step a support moves by the length of the beam, by many times
+// that, or by less than a cell: the beam hangs from it as from one that stays,
+// after about as many iterations. (A support that alone moved first would crush
+// the cells at it, and leave them in another equilibrium.)
+TEST(MovingSupports, CarryABendingBeamInOneLoadStep)
+{
+  const auto hang = [](const std::string &rotation, const double way) {
+    CompleteRun run(fmt::format(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 1, 0.2, 0.2
+          set Cells = 5, 1, 1
+        end
+      end
+      subsection Material
+        set Young's modulus = 1e6
+        set Density         = 1000
+        set Rotation        = {}
+      end
+      subsection Boundary conditions
+        set Displacement = x-min: {}; 0; {}
+      end
+      subsection Loads
+        set Gravity = 0; 0; -10
+      end
+      subsection Time integration
+        set Type = static
+        subsection static
+          set Load steps = 1
+        end
+      end
+      )",
+                                rotation,
+                                way,
+                                0.5 * way));
+    EXPECT_EQ(run.run(), "");
+    Vector u = run.recorder().displacement;
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      u.local_element(i) -= i % 3 == 0 ? way : i % 3 == 2 ? 0.5 * way : 0;
+    return std::make_pair(u, run.recorder().steps.at(0));
+  };
+  for (const std::string rotation : {"cell centre", "quadrature points"})
+    {
+      const auto [u, at_rest] = hang(rotation, 0);
+      EXPECT_GT(at_rest.max_displacement, 0.3);
+      for (const double way : {0.1, 1., 1e4})
+        {
+          auto [v, moved] = hang(rotation, way);
+          v -= u;
+          // Newton's method ends with an error of 1e-8 of the displacement.
+          EXPECT_LE(v.linfty_norm(), 1e-8 * (1 + way)) << rotation << way;
+          EXPECT_LE(moved.newton_iterations, at_rest.newton_iterations + 1)
+            << rotation << way;
+        }
+    }
+}

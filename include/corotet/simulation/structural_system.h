@@ -61,6 +61,18 @@ namespace corotet
               const double time,
               const double load_factor) override;
 
+    /**
+     * The first iteration of Newton's method in a load step, with the supports'
+     * motion in its increment, from the equilibrium before: the body follows
+     * them as its tangent there says. (Supports that move alone would crush the
+     * cells at them, and may leave the body in another equilibrium.) Nothing
+     * but prescribe() if they do not move or the material is linear.
+     */
+    StageReport
+    move_supports(State       &state,
+                  const double time,
+                  const double load_factor) override;
+
     StageReport
     solve_stage(State &state, const Stage &stage) override;
 

@@ -65,6 +65,18 @@ namespace corotet
     prescribe(State &state, const double time, const double load_factor) = 0;
 
     /**
+     * The same for a body at rest, whose other entries may go along with the
+     * prescribed ones: @p state comes in as an equilibrium and goes out as a
+     * guess of the next one. Returns what that took.
+     */
+    virtual StageReport
+    move_supports(State &state, const double time, const double load_factor)
+    {
+      prescribe(state, time, load_factor);
+      return {};
+    }
+
+    /**
      * Solves the equation of @p stage. @p state comes in as a guess that
      * satisfies the coupling and the prescribed values, and goes out as the
      * solution; prescribed entries do not change. Throws ComputationError.
