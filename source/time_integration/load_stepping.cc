@@ -26,12 +26,12 @@ namespace corotet
                      const TimeStep    &step,
                      State             &state)
   {
-    const double time   = step.time + step.dt;
-    const double factor = load_factor(step.done);
-    state.v = 0;
-    state.a = 0;
+    const double time          = step.time + step.dt;
+    const double factor        = load_factor(step.done);
+    state.v                    = 0;
+    state.a                    = 0;
     const StageReport supports = system.move_supports(state, time, factor);
-    StageReport       report = system.solve_stage(state, {time, 0., 0., factor});
+    StageReport report = system.solve_stage(state, {time, 0., 0., factor});
     report.newton_iterations += supports.newton_iterations;
     report.linear_iterations += supports.linear_iterations;
     return report;

@@ -202,14 +202,14 @@ class Extremes(ProgramTest):
                 self.assertLessEqual(last, 1e-5 * largest)
 
     def test_long_explicit_steps(self):
-        # A bar that is pulled at once goes to twice its static length and back, in 4 L / c. Without Poisson's ratio its cells make
-        # errors by their size only.
+        # A bar that is pulled at once goes to twice its static length and back, in 4 L / c; a little less far, as eight cells of
+        # degree 1 round off the wave's front.
         static = 1e4 * 2e6 / 5e10
         for ranks in RANKS:
             rows = read_history(self.run_text(ROCK, "rock", ranks)[1])
             self.assertGreater(float(rows[1]["dt"]), 20)
             stretched = [float(row["max_displacement"]) for row in rows]
-            self.assertAlmostEqual(max(stretched), 2 * static, delta=0.03 * static)
+            self.assertAlmostEqual(max(stretched), 2 * static, delta=0.05 * static)
             first = stretched.index(max(stretched[:len(rows) // 3]))
             self.assertAlmostEqual(float(rows[first]["time"]), 2 * 2e6 / math.sqrt(5e10 / 3000), delta=60)
 

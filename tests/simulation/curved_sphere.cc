@@ -145,7 +145,11 @@ TEST(CurvedSphere, Orders)
                 << std::endl;
             // Orders of curved cells are still coming in.
             if (n == n_refinements)
-              EXPECT_NEAR(order, is_curved ? p + 1 : 2, is_curved ? 0.3 : 0.1);
+              {
+                EXPECT_NEAR(order,
+                            is_curved ? p + 1 : 2,
+                            is_curved ? 0.3 : 0.1);
+              }
             last[is_curved] = now;
           }
       EXPECT_LT(last[1].u, 0.2 * last[0].u);

@@ -146,13 +146,13 @@ TEST(Supports, SeveralParts)
 TEST(Supports, Words)
 {
   const dealii::Point<3> centre(1, 0, 0);
-  EXPECT_EQ(describe({{0., 0., 0.5, 0., 0., 1.}}, centre, 2.),
+  EXPECT_EQ(describe({{{0., 0., 0.5, 0., 0., 1.}}}, centre, 2.),
             "rotate about the axis through (1, 0, 0) along z while it moves "
             "along it by 1 m per radian");
-  EXPECT_EQ(describe({{1., 1., 0., 0., 0., 0.}}, centre, 2.),
+  EXPECT_EQ(describe({{{1., 1., 0., 0., 0., 0.}}}, centre, 2.),
             "move along (0.7071, 0.7071, 0)");
   // About the line x = 3, y = 0.
-  EXPECT_EQ(describe({{0., -1., 0., 0., 0., 1.}}, centre, 2.),
+  EXPECT_EQ(describe({{{0., -1., 0., 0., 0., 1.}}}, centre, 2.),
             "rotate about the axis through (3, 0, 0) along z");
 }
 
