@@ -223,7 +223,7 @@ namespace corotet
       increment_is_round_off = increment.value <= increment.round_off;
       if (is_finite(residual) &&
           (residual.value < best || is_round_off() || increment_is_round_off ||
-           (n_without_progress < patience_left &&
+           (n_without_progress < patience &&
             residual.value < divergence * best)))
         {
           // On the way down from a rise that an increment has made there is
@@ -239,10 +239,7 @@ namespace corotet
           best = std::min(best, residual.value);
           return;
         }
-      // Back to the best point, and along the direction found there. From now
-      // on less energy is looked for wherever the residual does not fall.
-      if (problem.has_energy())
-        patience_left = 0;
+      // Back to the best point, and along the direction found there.
       search_from_best(true);
     }
 
@@ -365,7 +362,6 @@ namespace corotet
     bool         increment_is_round_off = false;
     unsigned int linear_iterations      = 0;
     unsigned int n_without_progress     = 0;
-    unsigned int patience_left          = patience;
     /// Residual at the best point. A search for less energy may raise it.
     double best = 0;
     /// Residuals after each iteration.
