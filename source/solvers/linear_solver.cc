@@ -36,7 +36,8 @@ namespace corotet
                       "symmetric systems, MINRES where these turn out to be "
                       "indefinite; for those that are not symmetric flexible "
                       "conjugate gradients, and where these are slow GMRES "
-                      "(flexible, restarted after 30 iterations), whose "
+                      "(flexible, restarted after 30 iterations, up to 200 "
+                      "where its vectors take less than 64 MiB), whose "
                       "vectors take nearly as much memory as all the rest.",
                       dealii::Patterns::Selection(
                         "automatic|conjugate gradients|minres|gmres"));
@@ -143,6 +144,18 @@ namespace corotet
     return iterations;
   }
 
+  namespace
+  {
+    // After how many iterations GMRES starts again, which stores two vectors
+    // for each: few of them make it stagnate on ill-conditioned systems.
+    unsigned int
+    basis_size(const Vector &b)
+    {
+      constexpr double few = 30, many = 200, memory = 64 << 20;
+      return std::clamp(memory / (2 * sizeof(double) * b.size()), few, many);
+    }
+  } // namespace
+
   template <typename Matrix>
   unsigned int
   LinearSolver::iterate(const Matrix &A,
@@ -171,7 +184,8 @@ namespace corotet
         dealii::SolverControl left(limit - done, control.tolerance());
         // The flexible variant: a preconditioner in single precision is not
         // quite linear, and the plain one trusts that it is.
-        dealii::SolverFGMRES<Vector> gmres(left);
+        using GMRES = dealii::SolverFGMRES<Vector>;
+        GMRES gmres(left, GMRES::AdditionalData(basis_size(b)));
         gmres.solve(A, x, b, preconditioner.selected());
         return done + left.last_step();
       }
