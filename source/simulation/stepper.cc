@@ -292,9 +292,10 @@ namespace corotet
                      StepRecord        &record,
                      const unsigned int n)
   {
-    const double      dt = duration((to - from) / n);
-    const StageReport report =
-      integrator.steps(system, {time(from), dt, to}, n, present);
+    TimeStep first = {time(from), duration((to - from) / n), to};
+    if (n == 1)
+      first.end = time(to);
+    const StageReport report = integrator.steps(system, first, n, present);
     record.newton_iterations += report.newton_iterations;
     record.linear_iterations += report.linear_iterations;
   }

@@ -10,12 +10,11 @@ namespace corotet
                       const TimeStep    &step,
                       State             &state)
   {
-    const double time = step.time + step.dt;
     // Guess: no acceleration.
     state.u.add(step.dt, state.v);
     state.a = 0;
-    system.prescribe(state, time, 1.);
+    system.prescribe(state, step.end, 1.);
     return system.solve_stage(state,
-                              {time, 1 / step.dt, 1 / (step.dt * step.dt)});
+                              {step.end, 1 / step.dt, 1 / (step.dt * step.dt)});
   }
 } // namespace corotet

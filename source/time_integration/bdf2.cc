@@ -46,7 +46,7 @@ namespace corotet
     state.u.add(dt, state.v);
     differentiate(state.v, state.u, &Past::u);
     differentiate(state.a, state.v, &Past::v);
-    system.prescribe(state, step.time + dt, 1.);
-    return system.solve_stage(state, {step.time + dt, c_1, c_1 * c_1});
+    system.prescribe(state, step.end, 1.);
+    return system.solve_stage(state, {step.end, c_1, c_1 * c_1});
   }
 } // namespace corotet

@@ -36,8 +36,8 @@ namespace corotet
   {
     state.v.add(0.5 * step.dt, state.a);
     state.u.add(step.dt, state.v);
-    system.prescribe(state, step.time + step.dt, 1.);
-    return system.solve_acceleration(state, step.time + step.dt, 0.5 * step.dt);
+    system.prescribe(state, step.end, 1.);
+    return system.solve_acceleration(state, step.end, 0.5 * step.dt);
   }
 
   StageReport

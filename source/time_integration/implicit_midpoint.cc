@@ -19,7 +19,7 @@ namespace corotet
     middle.u.add(dt, state.v, 0.5 * dt * dt, state.a);
     middle.v = state.v;
     middle.v.add(dt, state.a);
-    system.prescribe(middle, step.time + dt, 1.);
+    system.prescribe(middle, step.end, 1.);
 
     // From the end to the middle. The acceleration is that of the velocities,
     // also for what is prescribed.

@@ -26,7 +26,7 @@ namespace corotet
                      const TimeStep    &step,
                      State             &state)
   {
-    const double time          = step.time + step.dt;
+    const double time          = step.end;
     const double factor        = load_factor(step.done);
     state.v                    = 0;
     state.a                    = 0;

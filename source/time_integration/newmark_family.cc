@@ -31,7 +31,7 @@ namespace corotet
     stage.v = state.v;
     stage.v.add(dt, state.a);
     stage.a = state.a;
-    system.prescribe(stage, step.time + dt, 1.);
+    system.prescribe(stage, step.end, 1.);
     end_acceleration = stage.a;
 
     // From the end of the step to the intermediate times. The guess of free
@@ -45,7 +45,7 @@ namespace corotet
     const double      c_v = gamma / (beta * dt);
     const double      c_a = (1 - alpha_m) / ((1 - alpha_f) * beta * dt * dt);
     const StageReport report =
-      system.solve_stage(stage, {step.time + (1 - alpha_f) * dt, c_v, c_a});
+      system.solve_stage(stage, {step.end - alpha_f * dt, c_v, c_a});
 
     // And back to the end of the step.
     const auto extrapolate = [&](Vector &end, const Vector &middle) {

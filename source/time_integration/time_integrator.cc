@@ -15,9 +15,13 @@ namespace corotet
                         State             &state)
   {
     StageReport report;
+    TimeStep    now = first;
     for (unsigned int i = 0; i < n; ++i)
-      report =
-        step(system, {first.time + i * first.dt, first.dt, first.done}, state);
+      {
+        if (i > 0)
+          now = {first.time + i * first.dt, first.dt, first.done};
+        report = step(system, now, state);
+      }
     return report;
   }
 

@@ -13,14 +13,18 @@
 namespace corotet
 {
   /**
-   * One step from time to time + dt.
+   * One step from time to end.
    */
   struct TimeStep
   {
+    /// [s].
     double time;
     double dt;
     /// Part of the whole run that is done after this step, in (0, 1].
     double done;
+    /// [s]. What the step's record says: time + dt may have another last digit,
+    /// and loads may jump there.
+    double end = time + dt;
   };
 
   /**
