@@ -33,6 +33,7 @@ namespace corotet
       return {};
     if (!effective_operator)
       make_operators();
+    // With the state before, at which the tangent is taken.
     state.u.swap(before);
     stage       = {time, 0., 0., load_factor};
     stage_state = &state;
@@ -40,8 +41,10 @@ namespace corotet
     for (Vector *vector : {&r, &du, &f})
       discretization.initialize_vector(*vector);
     residual(r);
-    if (!elastic.is_by_cell(tangent))
-      elastic.linearize(u_ghosted, tangent);
+    // The solve before may have ended with the other one.
+    use_definite_tangent(false);
+    const TangentOperator *J = linearize();
+    // Without the derivative of follower pressures: it is a guess.
     motion_of_supports.update_ghost_values();
     apply_stiffness(f, motion_of_supports, tangent);
     r -= f;
@@ -49,12 +52,13 @@ namespace corotet
     unsigned int n_iterations = 0;
     try
       {
-        n_iterations = solve_linearized(du, r);
+        n_iterations = solve_tangent_system(du, r, J);
         if (!std::isfinite(norm(du)))
           du = 0;
       }
     catch (const ComputationError &)
       {
+        // Newton's method has other tangents.
         du = 0;
       }
     state.u.swap(before);
@@ -121,8 +125,8 @@ namespace corotet
     return elastic.rotation_placement() == Rotation::none;
   }
 
-  unsigned int
-  StructuralSystem::solve_linearized(Vector &dx, const Vector &r)
+  const TangentOperator *
+  StructuralSystem::linearize()
   {
     const double c_K = 1 + stage.velocity_factor * damping.stiffness;
     const double c_M =
@@ -135,17 +139,28 @@ namespace corotet
         operator_c_K = c_K;
         operator_c_M = c_M;
       }
-    const TangentOperator *J = nullptr;
-    if (!elastic.is_by_cell(tangent))
-      {
-        ScopedTimer timer(wall_times.assembly);
-        clamped_cells = std::max(clamped_cells,
-                                 tangent_operator->update(u_ghosted,
-                                                          tangent,
-                                                          stage.time,
-                                                          stage.load_factor));
-        J             = tangent_operator.get();
-      }
+    if (elastic.is_by_cell(tangent))
+      return nullptr;
+    ScopedTimer timer(wall_times.assembly);
+    clamped_cells = std::max(clamped_cells,
+                             tangent_operator->update(u_ghosted,
+                                                      tangent,
+                                                      stage.time,
+                                                      stage.load_factor));
+    return tangent_operator.get();
+  }
+
+  unsigned int
+  StructuralSystem::solve_linearized(Vector &dx, const Vector &r)
+  {
+    return solve_tangent_system(dx, r, linearize());
+  }
+
+  unsigned int
+  StructuralSystem::solve_tangent_system(Vector                &dx,
+                                         const Vector          &r,
+                                         const TangentOperator *J)
+  {
     ScopedTimer timer(wall_times.solve);
     positions.copy_locally_owned_data_from(discretization.node_positions());
     positions += stage_state->u;

@@ -89,6 +89,16 @@ namespace corotet
           throw NegativeCurvature();
       }
     };
+
+    // After how many iterations GMRES starts again, which stores two vectors
+    // for each: few of them make it stagnate on ill-conditioned systems.
+    unsigned int
+    basis_size(const Vector &b)
+    {
+      constexpr double few = 30, many = 200, memory = 64 << 20;
+      return static_cast<unsigned int>(
+        std::clamp(memory / (2 * sizeof(double) * b.size()), few, many));
+    }
   } // namespace
 
   void
@@ -143,18 +153,6 @@ namespace corotet
       throw dealii::SolverControl::NoConvergence(iterations, norm(r));
     return iterations;
   }
-
-  namespace
-  {
-    // After how many iterations GMRES starts again, which stores two vectors
-    // for each: few of them make it stagnate on ill-conditioned systems.
-    unsigned int
-    basis_size(const Vector &b)
-    {
-      constexpr double few = 30, many = 200, memory = 64 << 20;
-      return std::clamp(memory / (2 * sizeof(double) * b.size()), few, many);
-    }
-  } // namespace
 
   template <typename Matrix>
   unsigned int

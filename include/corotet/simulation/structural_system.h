@@ -213,6 +213,14 @@ namespace corotet
 
     void
     make_operators();
+    /// Takes the tangent at the last evaluation, for the stage. Returns its
+    /// operator; null if it is the effective operator.
+    const TangentOperator *
+    linearize();
+    /// Solves J dx = r, or A dx = r if @p J is null. Returns the number of
+    /// linear iterations. Throws ComputationError.
+    unsigned int
+    solve_tangent_system(Vector &dx, const Vector &r, const TangentOperator *J);
     /// What round-off may make of the sum of the last evaluation's forces [N].
     double
     round_off() const;

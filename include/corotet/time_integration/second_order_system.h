@@ -65,9 +65,10 @@ namespace corotet
     prescribe(State &state, const double time, const double load_factor) = 0;
 
     /**
-     * The same for a body at rest, whose other entries may go along with the
-     * prescribed ones: @p state comes in as an equilibrium and goes out as a
-     * guess of the next one. Returns what that took.
+     * Sets the prescribed entries as prescribe() does, in statics, where the
+     * others may go along with them: @p state comes in as an equilibrium and
+     * goes out as a guess of the next one. Returns what that took. Throws
+     * ComputationError.
      */
     virtual StageReport
     move_supports(State &state, const double time, const double load_factor)
