@@ -29,7 +29,7 @@ import sys
 import tempfile
 import unittest
 
-from support import ROOT, ProgramTest, launcher, read_history
+from support import ROOT, ProgramTest, launcher, parameter_text, read_history
 
 EPSILON = 2.0**-52
 INTEGRATORS = ("static", "backward Euler", "BDF2", "implicit midpoint", "Newmark", "HHT-alpha", "generalized-alpha", "central difference")
@@ -160,16 +160,6 @@ class Combination:
             self.other["Linear solver/Method"] = "gmres"
         self.ranks = self.random.choice((1, 2, 3))
 
-    def text(self, solver):
-        """As a parameter file."""
-        lines = []
-        for entry, value in {**self.entries, **solver}.items():
-            *sections, name = entry.split("/")
-            lines += [f"subsection {section}" for section in sections]
-            lines.append(f"set {name} = {value}")
-            lines += ["end"] * len(sections)
-        return "\n".join(lines) + "\n"
-
     def compare(self, histories):
         """What differs between the two by more than it may, as lines of text."""
         one, other = histories
@@ -210,7 +200,7 @@ def run(seed, folder):
     histories = []
     for name, ranks, solver in (("one", 1, combination.reference), ("other", combination.ranks, combination.other)):
         file = folder / f"{seed}_{name}.prm"
-        file.write_text(combination.text(solver), encoding="utf-8")
+        file.write_text(parameter_text({**combination.entries, **solver}), encoding="utf-8")
         output = folder / f"{seed}_{name}"
         command = [*launcher(ranks), os.environ["COROTET_PROGRAM"], str(file), "--output", str(output), "--quiet",
                    "--set", "Output/Time between results = 1e300"]

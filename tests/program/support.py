@@ -45,6 +45,17 @@ def read_summary(directory):
     return json.loads((directory / "summary.json").read_text(encoding="utf-8"))
 
 
+def parameter_text(entries):
+    """A parameter file with these entries, "Section/Subsection/Name": value."""
+    lines = []
+    for entry, value in entries.items():
+        *sections, name = entry.split("/")
+        lines += [f"subsection {section}" for section in sections]
+        lines.append(f"set {name} = {value}")
+        lines += ["end"] * len(sections)
+    return "\n".join(lines) + "\n"
+
+
 def launcher(ranks):
     """The words before a program that start it on so many ranks."""
     # The last word is a number of ranks.
