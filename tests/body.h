@@ -172,21 +172,6 @@ namespace corotet::tests
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "[ MEASURED ] " << what << ": " << figure << std::endl;
   }
-
-  /// The text of the InputError that @p action throws: "ENTRY: MESSAGE".
-  inline std::string
-  refusal(const std::function<void()> &action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const InputError &error)
-      {
-        return error.entry + ": " + error.what();
-      }
-    return "nothing was refused";
-  }
 } // namespace corotet::tests
 
 #endif

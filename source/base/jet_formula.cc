@@ -14,8 +14,6 @@ namespace corotet
 {
   namespace
   {
-    const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
     // Thrown where a formula has something without a rule.
     struct NoRule
     {};
@@ -238,7 +236,7 @@ namespace corotet
     catch (const NoRule &)
       {
         instructions.assign(1, Instruction());
-        instructions[0].constant = not_a_number;
+        instructions[0].constant = std::numeric_limits<double>::quiet_NaN();
       }
     std::size_t size = 0, largest = 0;
     for (const Instruction &instruction : instructions)

@@ -146,7 +146,7 @@ namespace corotet
 
     // Of t, t0 and t1.
     Jet
-    ramp(const Jet *a, const double soon)
+    ramp_rule(const Jet *a, const double soon)
     {
       if (!(a[1].value <= a[2].value))
         return {not_a_number};
@@ -339,23 +339,24 @@ namespace corotet
               {"if", timed<[](const Jet *a, const double soon) {
                  return rounds_to_true(a[0], soon) ? a[1] : a[2];
                }>},
-              {"ramp", timed<ramp>},
+              {"ramp", timed<ramp_rule>},
               {"smooth_step", timed<[](const Jet *a, const double soon) {
-                 const Jet s = ramp(a, soon);
+                 const Jet s = ramp_rule(a, soon);
                  return s * s * s * (Jet{10} + s * (Jet{6} * s - Jet{15}));
                }>},
               {"pulse", timed<[](const Jet *a, const double soon) {
-                 if (std::isnan(ramp(a, soon).value))
+                 if (std::isnan(ramp_rule(a, soon).value))
                    return Jet{not_a_number};
                  return truth(sign_soon(a[0] - a[1], soon) >= 0 &&
                               sign_soon(a[0] - a[2], soon) < 0);
                }>},
               {"half_sine", timed<[](const Jet *a, const double soon) {
-                 return sine(Jet{dealii::numbers::PI} * ramp(a, soon));
+                 return sine(Jet{dealii::numbers::PI} * ramp_rule(a, soon));
                }>},
               {"triangle", timed<[](const Jet *a, const double soon) {
                  return Jet{1} -
-                        absolute_value(Jet{2} * ramp(a, soon) - Jet{1}, soon);
+                        absolute_value(Jet{2} * ramp_rule(a, soon) - Jet{1},
+                                       soon);
                }>}};
     }
   } // namespace

@@ -18,7 +18,7 @@ namespace corotet
     using Corners = std::array<unsigned int, 3>;
     using Edge    = std::array<unsigned int, 2>;
 
-    struct Triangle
+    struct OuterTriangle
     {
       Corners              corners;
       unsigned int         boundary;
@@ -42,13 +42,13 @@ namespace corotet
     }
 
     // Faces of only one cell, with normals that point outwards.
-    std::vector<Triangle>
+    std::vector<OuterTriangle>
     surface_of(const SerialMesh &mesh)
     {
       std::map<Corners, unsigned int> boundaries;
       for (const SerialMesh::Face &face : mesh.faces)
         boundaries.emplace(sorted(face.vertices), face.boundary);
-      std::map<Corners, std::pair<Triangle, unsigned int>> found;
+      std::map<Corners, std::pair<OuterTriangle, unsigned int>> found;
       for (const SerialMesh::Cell &cell : mesh.cells)
         for (unsigned int k = 0; k < 4; ++k)
           {
@@ -69,7 +69,7 @@ namespace corotet
                                                                   boundary->second,
                                    normal / normal.norm()};
           }
-      std::vector<Triangle> result;
+      std::vector<OuterTriangle> result;
       for (const auto &[corners, entry] : found)
         if (entry.second == 1)
           result.push_back(entry.first);
@@ -77,7 +77,7 @@ namespace corotet
     }
 
     std::vector<Bend>
-    bends_of(const std::vector<Triangle> &surface)
+    bends_of(const std::vector<OuterTriangle> &surface)
     {
       std::map<Edge, std::vector<unsigned int>> edges;
       for (unsigned int t = 0; t < surface.size(); ++t)
@@ -137,10 +137,10 @@ namespace corotet
     constexpr double       flat = 0.1 * degree, sharp = 42 * degree;
     constexpr unsigned int n_in_sequence = 4;
 
-    const std::vector<Triangle> surface = surface_of(mesh);
-    const std::vector<Bend>     bends   = bends_of(surface);
-    DisjointSets                facets(surface.size());
-    std::vector<unsigned char>  is_bent(mesh.vertices.size());
+    const std::vector<OuterTriangle> surface = surface_of(mesh);
+    const std::vector<Bend>          bends   = bends_of(surface);
+    DisjointSets                     facets(surface.size());
+    std::vector<unsigned char>       is_bent(mesh.vertices.size());
     for (const Bend &bend : bends)
       if (bend.angle < flat)
         facets.join(bend.triangles[0], bend.triangles[1]);

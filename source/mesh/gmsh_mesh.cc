@@ -178,10 +178,10 @@ namespace corotet
 
     // The nodes that elements use, in the order in which they are asked for:
     // gmsh's tags may be sparse, and there may be nodes of no element.
-    class Nodes
+    class UsedNodes
     {
     public:
-      Nodes()
+      UsedNodes()
       {
         std::vector<std::size_t> tags;
         std::vector<double>      parameters;
@@ -224,7 +224,7 @@ namespace corotet
 
     void
     read_cells(SerialMesh                      &mesh,
-               Nodes                           &nodes,
+               UsedNodes                       &nodes,
                const gmsh_elements::Tetrahedra &kind,
                const PhysicalGroups            &groups)
     {
@@ -273,7 +273,7 @@ namespace corotet
 
 
     void
-    read_faces(SerialMesh &mesh, Nodes &nodes, const PhysicalGroups &groups)
+    read_faces(SerialMesh &mesh, UsedNodes &nodes, const PhysicalGroups &groups)
     {
       for (const auto &[entity, boundary] : groups.of_entity)
         {
@@ -300,7 +300,7 @@ namespace corotet
       mesh.origin         = path;
       mesh.region_names   = volumes.names;
       mesh.boundary_names = surfaces.names;
-      Nodes nodes;
+      UsedNodes nodes;
       read_cells(mesh, nodes, kind, volumes);
       read_faces(mesh, nodes, surfaces);
       if (kind.degree > 1)

@@ -27,44 +27,44 @@ namespace corotet
     {
       return dynamic_cast<const Epetra_MpiComm &>(graph.Comm()).Comm();
     }
-
-    /// What each rank has of a distributed array; on rank 0 only.
-    struct Shares
-    {
-      std::vector<int> counts, offsets;
-
-      Shares() = default;
-
-      /// Collective.
-      Shares(const int own_count, const MPI_Comm comm)
-        : counts(dealii::Utilities::MPI::gather(comm, own_count, 0))
-        , offsets(counts.size())
-      {
-        std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
-      }
-
-      /// Puts the parts of all ranks into @p all on rank 0; there, the own part
-      /// may be in place already. Collective.
-      template <typename T>
-      void
-      gather(const T          *part,
-             const std::size_t size,
-             T                *all,
-             const MPI_Comm    comm) const
-      {
-        const MPI_Datatype type = mpi_type_id_for_type<T>;
-        MPI_Gatherv(part == all ? MPI_IN_PLACE : part,
-                    size,
-                    type,
-                    all,
-                    counts.data(),
-                    offsets.data(),
-                    type,
-                    0,
-                    comm);
-      }
-    };
   } // namespace
+
+  /// What each rank has of a distributed array; on rank 0 only.
+  struct SparseCholesky::Shares
+  {
+    std::vector<int> counts, offsets;
+
+    Shares() = default;
+
+    /// Collective.
+    Shares(const int own_count, const MPI_Comm comm)
+      : counts(dealii::Utilities::MPI::gather(comm, own_count, 0))
+      , offsets(counts.size())
+    {
+      std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+    }
+
+    /// Puts the parts of all ranks into @p all on rank 0; there, the own part
+    /// may be in place already. Collective.
+    template <typename T>
+    void
+    gather(const T          *part,
+           const std::size_t size,
+           T                *all,
+           const MPI_Comm    comm) const
+    {
+      const MPI_Datatype type = mpi_type_id_for_type<T>;
+      MPI_Gatherv(part == all ? MPI_IN_PLACE : part,
+                  size,
+                  type,
+                  all,
+                  counts.data(),
+                  offsets.data(),
+                  type,
+                  0,
+                  comm);
+    }
+  };
 
   /**
    * What depends on the graph of A, and the numbers.

@@ -19,7 +19,7 @@ using namespace corotet;
 namespace
 {
   std::string
-  refusal(const std::string &text, const unsigned int n_components)
+  expression_refusal(const std::string &text, const unsigned int n_components)
   {
     testing::internal::CaptureStderr();
     std::string message = "accepted";
@@ -103,26 +103,26 @@ TEST(Expression, NonFiniteValuesAreTheCallersMatter)
 
 TEST(Expression, RefusesWrongNumberOfComponents)
 {
-  EXPECT_EQ(refusal("0; 1", 3),
+  EXPECT_EQ(expression_refusal("0; 1", 3),
             "the expression \"0; 1\" has 2 components; 3 are needed, separated "
             "by semicolons");
-  EXPECT_EQ(refusal("0", 3),
+  EXPECT_EQ(expression_refusal("0", 3),
             "the expression \"0\" has 1 component; 3 are needed, separated by "
             "semicolons");
-  EXPECT_EQ(refusal("0;1", 1),
+  EXPECT_EQ(expression_refusal("0;1", 1),
             "the expression \"0;1\" has 2 components; 1 is needed, separated "
             "by semicolons");
 }
 
 TEST(Expression, RefusesWhatIsNoFormula)
 {
-  EXPECT_EQ(refusal("0; ; 1", 3),
+  EXPECT_EQ(expression_refusal("0; ; 1", 3),
             "the expression \"\" is no formula: it is empty; a formula is "
             "needed, for example 0");
   // The reason is muParser's, whose words differ between versions.
   for (const std::string text : {"(1 + x", "1 +", "sin()", "x y", "\"x\""})
     {
-      const std::string message = refusal(text, 1);
+      const std::string message = expression_refusal(text, 1);
       const std::string start =
         "the expression \"" + text + "\" is no formula: ";
       EXPECT_EQ(message.rfind(start, 0), 0) << message;
@@ -134,13 +134,14 @@ TEST(Expression, RefusesWhatIsNoFormula)
 // or of an assignment.
 TEST(Expression, RefusesWhatMuParserWouldMisunderstand)
 {
-  EXPECT_EQ(refusal("1, 2", 1),
+  EXPECT_EQ(expression_refusal("1, 2", 1),
             "the expression \"1, 2\" is no formula: it has a comma outside of "
             "parentheses; components are separated by semicolons");
-  EXPECT_EQ(refusal("x = 3", 1),
+  EXPECT_EQ(expression_refusal("x = 3", 1),
             "the expression \"x = 3\" is no formula: it assigns by =; "
             "comparisons are ==, !=, <, <=, > and >=");
-  EXPECT_EQ(refusal("if(x <= 3 && x == 1 || x != 2, 1, 0)", 1), "accepted");
+  EXPECT_EQ(expression_refusal("if(x <= 3 && x == 1 || x != 2, 1, 0)", 1),
+            "accepted");
 }
 
 // Random numbers would differ with the number of ranks, and from one evaluation
@@ -151,7 +152,7 @@ TEST(Expression, RefusesRandomNumbers)
     {
       const std::string formula =
         "1 + " + name + (name == "rand" ? "()" : "(3)");
-      EXPECT_EQ(refusal(formula, 1),
+      EXPECT_EQ(expression_refusal(formula, 1),
                 "the expression \"" + formula +
                   "\" is no formula: it has the function \"" + name +
                   "\", whose values would depend on how often and on which "
@@ -163,11 +164,11 @@ TEST(Expression, RefusesRandomNumbers)
 
 TEST(Expression, RefusesUnknownNames)
 {
-  EXPECT_EQ(refusal("2 * u", 1),
+  EXPECT_EQ(expression_refusal("2 * u", 1),
             "the expression \"2 * u\" is no formula: it has the unknown name "
             "\"u\"; known are x, y, z, t, pi, ramp, smooth_step, pulse, "
             "half_sine, triangle and muParser's functions");
-  EXPECT_EQ(refusal("sine(x)", 1),
+  EXPECT_EQ(expression_refusal("sine(x)", 1),
             "the expression \"sine(x)\" is no formula: it has the unknown name "
             "\"sine\" (did you mean \"sin\"?); known are x, y, z, t, pi, ramp, "
             "smooth_step, pulse, half_sine, triangle and muParser's "

@@ -30,7 +30,7 @@ namespace
 
   // What is said about a file with this content, without its folder.
   std::string
-  refusal(const std::string &content)
+  file_refusal(const std::string &content)
   {
     const TemporaryFolder folder;
     const std::string     path = folder.write("table.csv", content);
@@ -63,7 +63,7 @@ namespace
 
   // "ENTRY: MESSAGE" of names with the files a.csv, of two rows, and none.
   std::string
-  refusal(const std::string &linear, const std::string &cubic)
+  functions_refusal(const std::string &linear, const std::string &cubic)
   {
     const TemporaryFolder folder;
     folder.write("a.csv", "0 0\n1 1\n");
@@ -104,33 +104,35 @@ TEST(TableFile, RefusesWhatIsNoTable)
 {
   const std::string number = ": a table consists of finite numbers, with a "
                              "point for decimals: found ";
-  EXPECT_EQ(refusal("0 1\n1 b\n"), ":2" + number + "'b'");
-  EXPECT_EQ(refusal("0;1\n0,5;2\n"), ":2" + number + "'0,5'");
-  EXPECT_EQ(refusal("0,1\n1,2m\n"), ":2" + number + "'2m'");
-  EXPECT_EQ(refusal("0,1\n1,\n"), ":2" + number + "''");
-  EXPECT_EQ(refusal("0,1\n1,nan\n"), ":2" + number + "'nan'");
-  EXPECT_EQ(refusal("0,1\n1,1e999\n"), ":2" + number + "'1e999'");
-  EXPECT_EQ(refusal("0,1\n1,+-2\n"), ":2" + number + "'+-2'");
+  EXPECT_EQ(file_refusal("0 1\n1 b\n"), ":2" + number + "'b'");
+  EXPECT_EQ(file_refusal("0;1\n0,5;2\n"), ":2" + number + "'0,5'");
+  EXPECT_EQ(file_refusal("0,1\n1,2m\n"), ":2" + number + "'2m'");
+  EXPECT_EQ(file_refusal("0,1\n1,\n"), ":2" + number + "''");
+  EXPECT_EQ(file_refusal("0,1\n1,nan\n"), ":2" + number + "'nan'");
+  EXPECT_EQ(file_refusal("0,1\n1,1e999\n"), ":2" + number + "'1e999'");
+  EXPECT_EQ(file_refusal("0,1\n1,+-2\n"), ":2" + number + "'+-2'");
   // A first line with a number is no header, and there is one header only.
-  EXPECT_EQ(refusal("t,1\n0,1\n1,2\n"), ":1" + number + "'t'");
-  EXPECT_EQ(refusal("t,u\ns,m\n0,1\n1,2\n"), ":2" + number + "'s'");
-  EXPECT_EQ(refusal("0,1\n" + std::string(100, 'a') + ",2\n"),
+  EXPECT_EQ(file_refusal("t,1\n0,1\n1,2\n"), ":1" + number + "'t'");
+  EXPECT_EQ(file_refusal("t,u\ns,m\n0,1\n1,2\n"), ":2" + number + "'s'");
+  EXPECT_EQ(file_refusal("0,1\n" + std::string(100, 'a') + ",2\n"),
             ":2" + number + "'" + std::string(40, 'a') + "...'");
 
   const std::string columns = ": a row of a table has two numbers, separated "
                               "by a comma, a semicolon or blanks: found ";
-  EXPECT_EQ(refusal("t,u,v\n0,1,2\n"), ":2" + columns + "3 columns, '0,1,2'");
-  EXPECT_EQ(refusal("0 1\n\n# end\n2\n"), ":4" + columns + "1 columns, '2'");
+  EXPECT_EQ(file_refusal("t,u,v\n0,1,2\n"),
+            ":2" + columns + "3 columns, '0,1,2'");
+  EXPECT_EQ(file_refusal("0 1\n\n# end\n2\n"),
+            ":4" + columns + "1 columns, '2'");
 
   const std::string increase = ": the first column of a table must increase: "
                                "found ";
-  EXPECT_EQ(refusal("0 1\n0.5 2\n0.25 3\n"),
+  EXPECT_EQ(file_refusal("0 1\n0.5 2\n0.25 3\n"),
             ":3" + increase + "0.25 after 0.5");
-  EXPECT_EQ(refusal("0 1\n\n0 2\n"), ":3" + increase + "0 after 0");
+  EXPECT_EQ(file_refusal("0 1\n\n0 2\n"), ":3" + increase + "0 after 0");
 
   const std::string few = ": a table has at least 2 rows: found ";
-  EXPECT_EQ(refusal(""), few + "0");
-  EXPECT_EQ(refusal("t,u\n1,2\n"), few + "1");
+  EXPECT_EQ(file_refusal(""), few + "0");
+  EXPECT_EQ(file_refusal("t,u\n1,2\n"), few + "1");
 }
 
 // Only rank 0 has the files: folders of ranks differ.
@@ -224,22 +226,22 @@ TEST(TableFunctions, ExpressionsKnowWhatTheyDependOn)
 
 TEST(TableFunctions, RefusesNamesAndFiles)
 {
-  EXPECT_EQ(refusal("a: a.csv", "b: a.csv"), "accepted");
-  EXPECT_EQ(refusal("", ""), "accepted");
+  EXPECT_EQ(functions_refusal("a: a.csv", "b: a.csv"), "accepted");
+  EXPECT_EQ(functions_refusal("", ""), "accepted");
   for (const std::string name : {"2a", "a-b", "a b", ""})
-    EXPECT_EQ(refusal(name + ": a.csv", ""),
+    EXPECT_EQ(functions_refusal(name + ": a.csv", ""),
               "Tables/Linear: the name of a table is no name of a function: "
               "found '" +
                 name + "'; allowed are letters, digits and _, no digit first");
   for (const std::string name : {"t", "pi", "sin", "if", "ramp"})
-    EXPECT_EQ(refusal("", name + ": a.csv"),
+    EXPECT_EQ(functions_refusal("", name + ": a.csv"),
               "Tables/Cubic: the name of a table is taken: found '" + name +
                 "', which formulas have already; allowed is any other");
-  EXPECT_EQ(refusal("a: a.csv", "a: a.csv"),
+  EXPECT_EQ(functions_refusal("a: a.csv", "a: a.csv"),
             "Tables/Cubic: found two tables called 'a'; allowed is one");
 
   // On every rank the path of rank 0, where there is a difference.
-  const std::string message = refusal("a: a.csv, b: none.csv", "");
+  const std::string message = functions_refusal("a: a.csv, b: none.csv", "");
   EXPECT_EQ(message.find("Tables/Linear: there is no table file: found '"), 0u)
     << message;
   EXPECT_EQ(message.substr(message.size() - 10), "/none.csv'") << message;

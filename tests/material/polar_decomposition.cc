@@ -16,25 +16,15 @@
 #include <limits>
 #include <random>
 
+#include "deviation_from_rotation.h"
 #include <Eigen/Dense>
 
 namespace
 {
   using namespace corotet;
+  using corotet::tests::deviation_from_rotation;
   using dealii::Tensor;
   using Extended = Eigen::Matrix<long double, 3, 3>;
-
-  // Largest deviation from R^T R = I and det R = 1.
-  double
-  deviation_from_rotation(const Tensor<2, 3> &R)
-  {
-    const Tensor<2, 3> C       = transpose(R) * R;
-    double             largest = std::abs(determinant(R) - 1);
-    for (unsigned int a = 0; a < 3; ++a)
-      for (unsigned int b = 0; b < 3; ++b)
-        largest = std::max(largest, std::abs(C[a][b] - (a == b)));
-    return std::isfinite(largest) ? largest : 1e300;
-  }
 
   struct Reference
   {

@@ -20,12 +20,15 @@
 #include <limits>
 #include <random>
 
+#include "deviation_from_rotation.h"
+
 namespace
 {
   using namespace corotet;
+  using corotet::tests::deviation_from_rotation;
   using dealii::Tensor;
 
-  constexpr int lanes = n_lanes<double>;
+  constexpr int n_matrices = n_lanes<double>;
 
   // One F per lane, and what becomes of it.
   struct Batch
@@ -71,18 +74,6 @@ namespace
       found = polar_decomposition(F, R);
     }
   };
-
-  // Largest deviation from R^T R = I and det R = 1.
-  double
-  deviation_from_rotation(const Tensor<2, 3> &R)
-  {
-    const Tensor<2, 3> C       = transpose(R) * R;
-    double             largest = std::abs(determinant(R) - 1);
-    for (unsigned int a = 0; a < 3; ++a)
-      for (unsigned int b = 0; b < 3; ++b)
-        largest = std::max(largest, std::abs(C[a][b] - (a == b)));
-    return std::isfinite(largest) ? largest : 1e300;
-  }
 
   double
   largest_entry(const Tensor<2, 3> &A)
@@ -203,7 +194,7 @@ namespace
   expect_scalar_result(const Batch &batch)
   {
     unsigned int n_fast = 0;
-    for (int lane = 0; lane < lanes; ++lane)
+    for (int lane = 0; lane < n_matrices; ++lane)
       {
         Tensor<2, 3> F;
         for (unsigned int i = 0; i < 3; ++i)
@@ -226,9 +217,9 @@ namespace
 
 #ifdef DEBUG
   // Debug mode checks a tenth of them, for its speed.
-  constexpr unsigned int n_batches = 100000 / lanes;
+  constexpr unsigned int n_batches = 100000 / n_matrices;
 #else
-  constexpr unsigned int n_batches = 1000000 / lanes;
+  constexpr unsigned int n_batches = 1000000 / n_matrices;
 #endif
 } // namespace
 
@@ -239,13 +230,13 @@ TEST(PolarDecompositionSimd, MillionMatricesOfAllSorts)
   for (unsigned int k = 0; k < n_batches && !HasFailure(); ++k)
     {
       Batch batch;
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < n_matrices; ++lane)
         batch.set(lane, matrices.any());
       batch.decompose();
       n_fast += expect_scalar_result(batch);
     }
   // Not all went to the scalar function.
-  EXPECT_GT(n_fast, n_batches * lanes / 2);
+  EXPECT_GT(n_fast, n_batches * n_matrices / 2);
 }
 
 // Condition numbers up to 100, where the fast path takes what is not too flat.
@@ -255,7 +246,7 @@ TEST(PolarDecompositionSimd, LargeStretches)
   for (unsigned int k = 0; k < n_batches / 10 && !HasFailure(); ++k)
     {
       Batch batch;
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < n_matrices; ++lane)
         batch.set(lane, matrices.stretched(0.05, 5));
       batch.decompose();
       expect_scalar_result(batch);
@@ -271,10 +262,10 @@ TEST(PolarDecompositionSimd, OrdinaryStretchesTakeTheFastPath)
       for (unsigned int k = 0; k < 100 && !HasFailure(); ++k)
         {
           Batch batch;
-          for (int lane = 0; lane < lanes; ++lane)
+          for (int lane = 0; lane < n_matrices; ++lane)
             batch.set(lane, matrices.stretched(1 / stretch, stretch) * scale);
           batch.decompose();
-          EXPECT_EQ(expect_scalar_result(batch), lanes);
+          EXPECT_EQ(expect_scalar_result(batch), n_matrices);
         }
 }
 
@@ -287,14 +278,14 @@ TEST(PolarDecompositionSimd, NeighboursDoNotMatter)
     {
       const Tensor<2, 3> F = matrices.any();
       Batch              reference;
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < n_matrices; ++lane)
         reference.set(lane, F);
       reference.decompose();
       const Tensor<2, 3> R = reference.rotation(0);
-      for (int own = 0; own < lanes; ++own)
+      for (int own = 0; own < n_matrices; ++own)
         {
           Batch batch;
-          for (int lane = 0; lane < lanes; ++lane)
+          for (int lane = 0; lane < n_matrices; ++lane)
             batch.set(lane, lane == own ? F : matrices.any());
           batch.decompose();
           const Tensor<2, 3> R_mixed = batch.rotation(own);
@@ -311,7 +302,7 @@ TEST(PolarDecompositionSimd, InPlace)
   for (unsigned int k = 0; k < 1000 && !HasFailure(); ++k)
     {
       Batch batch;
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < n_matrices; ++lane)
         batch.set(lane, matrices.any());
       batch.decompose();
       polar_decomposition(batch.F, batch.F);

@@ -12,26 +12,11 @@
 #include <fstream>
 #include <functional>
 
+#include "../refusal.h"
 #include "../temporary_folder.h"
 
 namespace corotet::tests
 {
-  /// "ENTRY: MESSAGE" of the InputError that @p action throws, or "none".
-  inline std::string
-  refusal(const std::function<void()> &action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const InputError &error)
-      {
-        return error.entry.empty() ? error.what() :
-                                     error.entry + ": " + error.what();
-      }
-    return "none";
-  }
-
   inline SerialMesh
   read_gmsh(const std::string &file,
             const std::string &folder        = "",

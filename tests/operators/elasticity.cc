@@ -19,9 +19,9 @@ using dealii::Tensor;
 namespace
 {
   std::string
-  case_text(const unsigned int degree,
-            const std::string &type,
-            const std::string &mass = "consistent")
+  material_text(const unsigned int degree,
+                const std::string &type,
+                const std::string &mass = "consistent")
   {
     return "subsection Discretization\n set Degree = " +
            std::to_string(degree) + "\n set Mass = " + mass +
@@ -51,8 +51,8 @@ class ElasticityTest : public testing::TestWithParam<unsigned int>
 TEST_P(ElasticityTest, RigidMotionGivesNoForce)
 {
   const SerialMesh mesh = box("1, 2, 1", "2, 3, 2", 0.2);
-  Body             linear(mesh, case_text(GetParam(), "linear"));
-  Body             corotational(mesh, case_text(GetParam(), "corotational"));
+  Body             linear(mesh, material_text(GetParam(), "linear"));
+  Body corotational(mesh, material_text(GetParam(), "corotational"));
   const std::vector<Tensor<1, 3>> axes{Tensor<1, 3>({1., 0., 0.}),
                                        Tensor<1, 3>({0.3, -1., 2.}),
                                        Tensor<1, 3>({-1., 1., 1.})};
@@ -98,7 +98,7 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
   for (const std::string mass : {"consistent", "diagonal scaling"})
     {
       Body body(box("1, 2, 1", "2, 3, 2", 0.2),
-                case_text(GetParam(), "corotational", mass));
+                material_text(GetParam(), "corotational", mass));
       body.state.u.copy_locally_owned_data_from(body.interpolate(bend));
       body.system.evaluate(body.state, 0., 1.);
       const std::vector<unsigned char> free(
@@ -128,7 +128,7 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
 TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
 {
   Body              body(box("1, 1, 1", "2, 2, 2"),
-            case_text(GetParam(), "linear") +
+            material_text(GetParam(), "linear") +
               "subsection Boundary conditions\n set Displacement = x-min: 0; "
                            "free; 0\nend\n");
   const auto       &motion = body.system.prescribed_motion();
@@ -151,7 +151,8 @@ TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
 // Linear elasticity: f = K u, the energy is u f / 2, and K is symmetric.
 TEST_P(ElasticityTest, LinearEnergy)
 {
-  Body body(box("1, 2, 1", "2, 3, 2", 0.2), case_text(GetParam(), "linear"));
+  Body         body(box("1, 2, 1", "2, 3, 2", 0.2),
+            material_text(GetParam(), "linear"));
   const Vector u = body.interpolate(bend);
   const Vector v = body.interpolate([](const Point<3> &x) { return 2. * x; });
   Vector       f(body.state.u), Ku(f), Kv(f);
@@ -170,7 +171,7 @@ TEST_P(ElasticityTest, LinearEnergy)
 // differences, with error O(h^2) and round-off 1e-16 / h.
 TEST(Elasticity, LinearElementsHaveAnEnergy)
 {
-  Body   body(box("1, 2, 1", "1, 2, 1", 0.), case_text(1, "corotational"));
+  Body   body(box("1, 2, 1", "1, 2, 1", 0.), material_text(1, "corotational"));
   Vector u = body.interpolate(bend);
   Vector f(body.state.u);
   body.state.u.copy_locally_owned_data_from(u);
@@ -199,7 +200,8 @@ TEST(Elasticity, LinearElementsHaveAnEnergy)
 // det F of a reflection is negative in every cell.
 TEST_P(ElasticityTest, InvertedCellsAreCounted)
 {
-  Body body(box("1, 1, 1", "1, 1, 1"), case_text(GetParam(), "corotational"));
+  Body         body(box("1, 1, 1", "1, 1, 1"),
+            material_text(GetParam(), "corotational"));
   const Vector u = body.interpolate(
     [](const Point<3> &x) { return Tensor<1, 3>({-2 * x[0], 0., 0.}); });
   const ElasticState state = body.system.elasticity().state(u);
@@ -210,7 +212,8 @@ TEST_P(ElasticityTest, InvertedCellsAreCounted)
 // A body pressed flat: every cell is collapsed to a plane.
 TEST_P(ElasticityTest, DegenerateCellsAreCounted)
 {
-  Body body(box("1, 1, 1", "1, 1, 1"), case_text(GetParam(), "corotational"));
+  Body body(box("1, 1, 1", "1, 1, 1"),
+            material_text(GetParam(), "corotational"));
   body.state.u.copy_locally_owned_data_from(body.interpolate(
     [](const Point<3> &x) { return Tensor<1, 3>({0., 0., -x[2]}); }));
   body.system.evaluate(body.state, 0., 1.);
@@ -224,9 +227,9 @@ TEST_P(ElasticityTest, DegenerateCellsAreCounted)
 TEST_P(ElasticityTest, ExplicitStep)
 {
   Body   body(box("1, 2, 1", "2, 3, 2", 0.2),
-            case_text(GetParam(),
-                      "corotational",
-                      GetParam() == 1 ? "row sum" : "diagonal scaling"));
+            material_text(GetParam(),
+                          "corotational",
+                          GetParam() == 1 ? "row sum" : "diagonal scaling"));
   Vector u(body.state.u), v(u), external(u), inverse_mass(u);
   u.copy_locally_owned_data_from(body.interpolate(bend));
   const double dt = 0.01;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "../refusal.h"
 
 using namespace corotet;
 using namespace corotet::tests;

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "../body.h"
+#include "../refusal.h"
 
 using namespace corotet;
 using namespace corotet::tests;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "../curved_mesh.h"
+#include "../refusal.h"
 
 using namespace corotet;
 using namespace corotet::tests;

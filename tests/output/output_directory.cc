@@ -36,7 +36,7 @@ namespace
   }
 
   std::string
-  refusal(const std::string &directory, const bool overwrite)
+  directory_refusal(const std::string &directory, const bool overwrite)
   {
     return message_of<InputError>(
       [&] { prepare_output_directory(directory, overwrite, MPI_COMM_WORLD); });
@@ -72,7 +72,7 @@ TEST(OutputDirectory, InUseIsRefused)
 {
   const ScratchFolder scratch;
   make_files(scratch.path, {"history.csv"});
-  EXPECT_EQ(refusal(scratch.path, false),
+  EXPECT_EQ(directory_refusal(scratch.path, false),
             "the output directory '" + scratch.path +
               "' is not empty; choose another one, or set Output/Overwrite = "
               "true to remove the results in it");
@@ -99,7 +99,7 @@ TEST(OutputDirectory, ForeignFilesAreNotOverwritten)
       const ScratchFolder scratch;
       make_files(scratch.path, results);
       make_files(scratch.path, {foreign});
-      const std::string message = refusal(scratch.path, true);
+      const std::string message = directory_refusal(scratch.path, true);
       EXPECT_NE(message.find("which is no result of corotet; only a directory "
                              "of results can be overwritten"),
                 std::string::npos)
@@ -117,7 +117,7 @@ TEST(OutputDirectory, UnmarkedFolderIsNotOverwritten)
     {
       const ScratchFolder scratch;
       make_files(scratch.path, {name});
-      EXPECT_EQ(refusal(scratch.path, true),
+      EXPECT_EQ(directory_refusal(scratch.path, true),
                 "the output directory '" + scratch.path +
                   "' is not empty and holds no results of corotet; only a "
                   "directory of results can be overwritten");
@@ -142,7 +142,7 @@ TEST(OutputDirectory, LinkIsNotOverwritten)
   if (on_rank_0())
     fs::create_directory_symlink(elsewhere.path, scratch.path + "/solution");
   wait_for_all();
-  EXPECT_NE(refusal(scratch.path, true), "no error");
+  EXPECT_NE(directory_refusal(scratch.path, true), "no error");
   EXPECT_TRUE(fs::exists(elsewhere.path + "/mesh.h5"));
 }
 
@@ -150,7 +150,7 @@ TEST(OutputDirectory, FileIsRefused)
 {
   const ScratchFolder scratch;
   make_files(scratch.path, {"file"});
-  EXPECT_EQ(refusal(scratch.path + "/file", true),
+  EXPECT_EQ(directory_refusal(scratch.path + "/file", true),
             "the output directory '" + scratch.path +
               "/file' is a file; a directory or a new name is allowed");
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "support.h"
 
 using corotet::InputError;
@@ -15,19 +16,11 @@ namespace
 {
   // The refusal of a value of entry Probes, with the entry it blames.
   std::string
-  refusal(const std::string &probes)
+  probes_refusal(const std::string &probes)
   {
     OutputParameters parameters;
     parameters.probes = probes;
-    try
-      {
-        parameters.probe_points();
-      }
-    catch (const InputError &error)
-      {
-        return error.entry + ": " + error.what();
-      }
-    return "no error";
+    return refusal([&] { parameters.probe_points(); });
   }
 } // namespace
 
@@ -62,28 +55,28 @@ TEST(OutputParameters, ProbesAreRead)
 
 TEST(OutputParameters, WrongProbesAreRefused)
 {
-  EXPECT_EQ(refusal("1 2 3"),
+  EXPECT_EQ(probes_refusal("1 2 3"),
             "Output/Probes: '1 2 3' is no probe; a list of NAME: X Y Z, "
             "separated by commas, is allowed");
-  EXPECT_EQ(refusal("tip: 0 0 0,"),
+  EXPECT_EQ(probes_refusal("tip: 0 0 0,"),
             "Output/Probes: '' is no probe; a list of NAME: X Y Z, separated "
             "by commas, is allowed");
-  EXPECT_EQ(refusal("2nd: 1 2 3"),
+  EXPECT_EQ(probes_refusal("2nd: 1 2 3"),
             "Output/Probes: '2nd' cannot be a probe's name; letters, digits "
             "and _ are allowed, no digit first");
-  EXPECT_EQ(refusal(": 1 2 3"),
+  EXPECT_EQ(probes_refusal(": 1 2 3"),
             "Output/Probes: '' cannot be a probe's name; letters, digits and "
             "_ are allowed, no digit first");
-  EXPECT_EQ(refusal("momentum: 1 2 3"),
+  EXPECT_EQ(probes_refusal("momentum: 1 2 3"),
             "Output/Probes: 'momentum' cannot be a probe's name; momentum, "
             "angular_momentum, reaction, internal_moment are columns of the "
             "history already");
-  EXPECT_EQ(refusal("a: 1 2 3, a: 3 2 1"),
+  EXPECT_EQ(probes_refusal("a: 1 2 3, a: 3 2 1"),
             "Output/Probes: two probes are called 'a'; each name must be used "
             "once");
   for (const std::string wrong :
        {"1 2", "1 2 3 4", "1 2 z", "1 2 inf", "1 2 3m"})
-    EXPECT_EQ(refusal("a: " + wrong),
+    EXPECT_EQ(probes_refusal("a: " + wrong),
               "Output/Probes: probe 'a' is at '" + wrong +
                 "'; its position must be three numbers (x y z, in m)");
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "complete_run.h"
 
 using namespace corotet;

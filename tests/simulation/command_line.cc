@@ -23,7 +23,7 @@ namespace
   }
 
   std::string
-  refusal(const std::vector<const char *> &arguments)
+  command_line_refusal(const std::vector<const char *> &arguments)
   {
     try
       {
@@ -116,20 +116,20 @@ TEST(CommandLine, VersionNamesProgramAndLibrary)
 
 TEST(CommandLine, RefusesAMissingFile)
 {
-  EXPECT_EQ(refusal({}),
+  EXPECT_EQ(command_line_refusal({}),
             "command line: a parameter file is needed: corotet [OPTIONS] "
             "FILE.prm (--help lists the options)");
 }
 
 TEST(CommandLine, RefusesUnknownOptions)
 {
-  EXPECT_EQ(refusal({"a.prm", "--valdate"}),
+  EXPECT_EQ(command_line_refusal({"a.prm", "--valdate"}),
             "command line: unknown option \"--valdate\"; did you mean "
             "\"--validate\"?");
-  EXPECT_EQ(refusal({"a.prm", "--outptu=x"}),
+  EXPECT_EQ(command_line_refusal({"a.prm", "--outptu=x"}),
             "command line: unknown option \"--outptu=x\"; did you mean "
             "\"--output\"?");
-  const std::string message = refusal({"a.prm", "-j8"});
+  const std::string message = command_line_refusal({"a.prm", "-j8"});
   EXPECT_EQ(message.rfind("command line: unknown option \"-j8\"; allowed are "
                           "--",
                           0),
@@ -139,21 +139,21 @@ TEST(CommandLine, RefusesUnknownOptions)
 
 TEST(CommandLine, RefusesASecondFile)
 {
-  EXPECT_EQ(refusal({"a.prm", "b.prm"}),
+  EXPECT_EQ(command_line_refusal({"a.prm", "b.prm"}),
             "command line: unexpected argument \"b.prm\"; one parameter file "
             "is allowed");
 }
 
 TEST(CommandLine, RefusesAnUnknownStyle)
 {
-  EXPECT_EQ(refusal({"--print-parameters", "xlm"}),
+  EXPECT_EQ(command_line_refusal({"--print-parameters", "xlm"}),
             "command line: \"xlm\" is no style of --print-parameters; allowed "
             "are prm, json, markdown");
 }
 
 TEST(CommandLine, RefusesAnOptionWithoutItsValue)
 {
-  const std::string message = refusal({"a.prm", "--output"});
+  const std::string message = command_line_refusal({"a.prm", "--output"});
   EXPECT_EQ(message.rfind("command line: --output", 0), 0) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }

@@ -50,15 +50,6 @@ namespace
     end
   )";
 
-  std::string
-  discretization(const unsigned int degree, const std::string &mass)
-  {
-    return fmt::format(
-      "subsection Discretization\n set Degree = {}\n set Mass = {}\nend\n",
-      degree,
-      mass);
-  }
-
   void
   vibrate(Body &body)
   {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "complete_run.h"
 
 using namespace corotet;
@@ -19,15 +20,6 @@ using dealii::Tensor;
 
 namespace
 {
-  std::string
-  discretization(const unsigned int degree, const std::string &mass)
-  {
-    return fmt::format(
-      "subsection Discretization\n set Degree = {}\n set Mass = {}\nend\n",
-      degree,
-      mass);
-  }
-
   // Largest angular frequency of the linear body, from the whole spectrum.
   double
   exact_frequency(Body &body)

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "../refusal.h"
 #include "../temporary_folder.h"
 #include "modal.h"
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "../temporary_folder.h"
 #include "complete_run.h"
 
@@ -25,17 +26,9 @@ namespace
   }
 
   std::string
-  refusal(const std::string &integration)
+  run_refusal(const std::string &integration)
   {
-    try
-      {
-        const CompleteRun run(cube(integration));
-      }
-    catch (const InputError &error)
-      {
-        return error.entry + ": " + error.what();
-      }
-    return "nothing was refused";
+    return refusal([&] { const CompleteRun run(cube(integration)); });
   }
 
   // The lines of the log that are warnings. Collective.
@@ -56,16 +49,16 @@ namespace
 
 TEST(NumberOfSteps, EqualSteps)
 {
-  EXPECT_EQ(refusal("set Time step = 1e-12"),
+  EXPECT_EQ(run_refusal("set Time step = 1e-12"),
             "Time integration/Time step: found 1e-12, which makes 1e+12 steps "
             "from t = 0 to 1; allowed: at most 4000000000 steps, so at least "
             "2.5e-10");
   EXPECT_EQ(
-    refusal("set Type = central difference\n set Time step = 1e-300"),
+    run_refusal("set Type = central difference\n set Time step = 1e-300"),
     "Time integration/Time step: found 1e-300, which makes 1e+300 steps "
     "from t = 0 to 1; allowed: at most 4000000000 steps, so at least "
     "2.5e-10");
-  EXPECT_EQ(refusal("set Time step = 2.5e-10"), "nothing was refused");
+  EXPECT_EQ(run_refusal("set Time step = 2.5e-10"), "nothing was refused");
 
   CompleteRun few(cube("set Time step = 1e-7"));
   CompleteRun many(cube("set Time step = 0.99e-7"));
@@ -80,11 +73,11 @@ TEST(NumberOfSteps, StableSteps)
 {
   const std::string type =
     "set Type = central difference\n set Time step = 0\n";
-  EXPECT_EQ(refusal(type + "set End time = 1e9")
+  EXPECT_EQ(run_refusal(type + "set End time = 1e9")
               .rfind("Time integration/Time step: found 0 and stable steps of",
                      0),
             0u);
-  EXPECT_EQ(refusal(type), "nothing was refused");
+  EXPECT_EQ(run_refusal(type), "nothing was refused");
   CompleteRun many(cube(type + "set End time = 1e5"));
   EXPECT_NE(warnings(many), "");
 }

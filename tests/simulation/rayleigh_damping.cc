@@ -14,6 +14,7 @@
 #include <complex>
 
 #include "../body.h"
+#include "../refusal.h"
 
 using namespace corotet;
 using namespace corotet::tests;

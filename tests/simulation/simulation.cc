@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "complete_run.h"
 
 using namespace corotet;

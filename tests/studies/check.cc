@@ -32,7 +32,7 @@ namespace
   }
 
   std::string
-  refusal(const std::string &text)
+  check_refusal(const std::string &text)
   {
     try
       {
@@ -100,34 +100,34 @@ TEST(Check, NotANumberFails)
 
 TEST(Check, Refusals)
 {
-  EXPECT_EQ(refusal("a: last tip_y > 1"),
+  EXPECT_EQ(check_refusal("a: last tip_y > 1"),
             "the results have no column \"tip_y\"; did you mean \"tip_x\"?");
   EXPECT_EQ(
-    refusal("a: last tip_x where lap == 1 > 1"),
+    check_refusal("a: last tip_x where lap == 1 > 1"),
     "the results have no column \"lap\"; they have step, tip_x, broken");
   EXPECT_EQ(
-    refusal("a: least tip_x > 1"),
+    check_refusal("a: least tip_x > 1"),
     "found 'least' as the statistic of check 'a'; allowed: first, last, "
     "min, max, mean, range");
-  EXPECT_EQ(refusal("a: last tip_x"),
+  EXPECT_EQ(check_refusal("a: last tip_x"),
             "found 'a: last tip_x'; allowed: 'NAME: STATISTIC FORMULA where "
             "CONDITION = REFERENCE +- TOLERANCE', or < or > REFERENCE");
   EXPECT_EQ(
-    refusal("a: last tip_x = 3"),
+    check_refusal("a: last tip_x = 3"),
     "found '= 3' in check 'a'; allowed: '= REFERENCE +- TOLERANCE', or a "
     "bound without tolerance");
-  EXPECT_EQ(refusal("a: last tip_x = 0 +- 1 %"),
+  EXPECT_EQ(check_refusal("a: last tip_x = 0 +- 1 %"),
             "found the tolerance '1 %' for 0 in check 'a'; allowed: a positive "
             "one, in % of what is not zero");
-  EXPECT_EQ(refusal("a: last tip_x = 1 +- 0"),
+  EXPECT_EQ(check_refusal("a: last tip_x = 1 +- 0"),
             "found the tolerance '0' for 1 in check 'a'; allowed: a positive "
             "one, in % of what is not zero");
-  EXPECT_EQ(refusal("a: last tip_x = t +- 1"),
+  EXPECT_EQ(check_refusal("a: last tip_x = t +- 1"),
             "'t' is not constant; allowed: numbers, pi and functions of them");
-  EXPECT_EQ(refusal("a, b: last tip_x > 1"),
+  EXPECT_EQ(check_refusal("a, b: last tip_x > 1"),
             "'a, b' cannot be a check's name; allowed: text without commas, "
             "quotes and bars");
-  EXPECT_NE(refusal("a: last sin(tip_x > 1").find("is no formula"),
+  EXPECT_NE(check_refusal("a: last sin(tip_x > 1").find("is no formula"),
             std::string::npos);
 }
 

@@ -83,6 +83,7 @@ namespace corotet
     precision() const;
 
   private:
+    struct Shares;
     class Factors;
     Precision                wanted;
     std::unique_ptr<Factors> factors;
