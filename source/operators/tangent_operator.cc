@@ -7,53 +7,59 @@ namespace corotet
 {
   TangentOperator::TangentOperator(const EffectiveOperator &A,
                                    Elasticity              &elasticity,
-                                   Loads                   &loads)
+                                   ForceTerms              &forces)
     : A(A)
     , elasticity(elasticity)
-    , loads(loads)
+    , forces(forces)
     , prescribed(marked_unknowns(A.is_prescribed()))
   {
     A.discretization().initialize_vector(source);
   }
 
   unsigned int
-  TangentOperator::update(const Vector &u,
+  TangentOperator::update(const Motion &motion,
                           const Tangent tangent,
-                          const double  time,
-                          const double  load_factor)
+                          const double  load_factor,
+                          const double  velocity_factor)
   {
-    this->tangent     = tangent;
-    this->load_factor = load_factor;
-    if (has_pressures(loads, tangent))
-      loads.linearize(time, u);
-    return elasticity.linearize(u, tangent);
+    this->tangent         = tangent;
+    this->load_factor     = load_factor;
+    this->velocity_factor = velocity_factor;
+    forces.linearize(motion, tangent);
+    return elasticity.is_by_cell(tangent) ?
+             0 :
+             elasticity.linearize(motion.u, tangent);
   }
 
   void
   TangentOperator::vmult(Vector &dst, const Vector &src) const
   {
-    const unsigned int n_owned        = src.locally_owned_size();
-    const bool         with_pressures = has_pressures(loads, tangent);
+    const unsigned int n_owned     = src.locally_owned_size();
+    const bool         with_forces = forces.has_linearization(tangent);
     source.copy_locally_owned_data_from(src);
     for (const unsigned int i : prescribed)
       if (i < n_owned)
         source.local_element(i) = 0;
-    if (with_pressures)
+    if (with_forces)
       source.update_ghost_values();
     const Mass &mass = A.mass();
-    elasticity.apply_linearization(dst,
-                                   source,
-                                   A.stiffness_factor(),
-                                   A.mass_factor(),
-                                   A.mass_factor() == 0 || mass.is_lumped() ?
-                                     nullptr :
-                                     mass.cell_masses().data(),
-                                   A.mass_factor() != 0 && mass.is_lumped() ?
-                                     &mass.diagonal() :
-                                     nullptr);
-    if (with_pressures)
+    if (elasticity.is_by_cell(tangent))
+      A.vmult(dst, src);
+    else
+      elasticity.apply_linearization(dst,
+                                     source,
+                                     A.stiffness_factor(),
+                                     A.mass_factor(),
+                                     A.mass_factor() == 0 || mass.is_lumped() ?
+                                       nullptr :
+                                       mass.cell_masses().data(),
+                                     A.mass_factor() != 0 && mass.is_lumped() ?
+                                       &mass.diagonal() :
+                                       nullptr);
+    if (with_forces)
       {
-        loads.add_linearized(dst, source, -load_factor);
+        forces.subtract_linearized(
+          dst, source, load_factor, velocity_factor, tangent);
         source.zero_out_ghost_values();
       }
     for (const unsigned int i : prescribed)

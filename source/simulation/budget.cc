@@ -29,7 +29,7 @@ namespace corotet
     for (Forces *forces : {&last, &now})
       {
         discretization.initialize_vector(forces->external);
-        if (system.has_damping())
+        if (system.force_terms().has_damping())
           discretization.initialize_vector(forces->damping);
         discretization.initialize_vector(forces->displacement);
         forces->carried.resize(n_prescribed);
@@ -48,7 +48,7 @@ namespace corotet
     forces.time                           = system.last_time();
     forces.external                       = terms.external;
     forces.displacement                   = state.u;
-    if (system.has_damping())
+    if (system.force_terms().has_damping())
       forces.damping = terms.damping;
     const auto &prescribed = system.prescribed_motion().unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
@@ -78,7 +78,7 @@ namespace corotet
     const unsigned int n = state.u.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
       sums[0] += middle(now.external, last.external, i) * du(i);
-    if (system.has_damping())
+    if (system.force_terms().has_damping())
       for (unsigned int i = 0; i < n; ++i)
         sums[1] += middle(now.damping, last.damping, i) * du(i);
     // What is prescribed moves with its own velocity.
@@ -87,7 +87,7 @@ namespace corotet
       {
         const double dv = 0.5 * dt * (now.velocity[k] + last.velocity[k]);
         sums[0] += (c * now.carried[k] + (1 - c) * last.carried[k]) * dv;
-        if (system.has_damping())
+        if (system.force_terms().has_damping())
           sums[1] += middle(now.damping, last.damping, prescribed[k]) *
                      (dv - du(prescribed[k]));
       }

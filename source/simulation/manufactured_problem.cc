@@ -3,6 +3,8 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/forces/body_force.h>
+#include <corotet/forces/traction.h>
 #include <corotet/mesh/triangulation.h>
 #include <corotet/simulation/manufactured_problem.h>
 
@@ -12,6 +14,9 @@
 
 namespace corotet
 {
+  using dealii::Point;
+  using dealii::Tensor;
+
   ManufacturedProblem::ManufacturedProblem(
     const SimulationParameters &parameters)
     : parameters(parameters)
@@ -31,22 +36,18 @@ namespace corotet
   {
     const BoundaryConditionParameters &conditions =
       parameters.boundary_conditions;
-    const std::string zero = LoadParameters().gravity;
-    const struct
-    {
-      std::string entry, value, allowed;
-    } data[] = {
+    const std::string                  zero = "0; 0; 0";
+    std::vector<ForceKind::GivenEntry> data{
       {"Boundary conditions/Fixed", conditions.fixed, ""},
       {"Boundary conditions/Displacement", conditions.displacement, ""},
       {"Boundary conditions/Traction", conditions.traction, ""},
       {"Boundary conditions/Pressure", conditions.pressure, ""},
-      {"Loads/Gravity", parameters.loads.gravity, zero},
-      {"Loads/Body force", parameters.loads.body_force, zero},
-      {"Loads/Point forces", parameters.loads.point_forces, ""},
       {"Initial conditions/Displacement",
        parameters.initial_displacement,
        zero},
       {"Initial conditions/Velocity", parameters.initial_velocity, zero}};
+    for (const ForceKind::GivenEntry &given : parameters.forces.given())
+      data.push_back(given);
     for (const auto &[entry, value, allowed] : data)
       if (dealii::Utilities::trim(value) != allowed)
         throw InputError(entry,
@@ -55,11 +56,6 @@ namespace corotet
                                      "Exact solution/Manufacture = false",
                                      value,
                                      allowed));
-    const RayleighDamping damping = parameters.damping.coefficients();
-    if (damping.mass > 0 || damping.stiffness > 0)
-      throw InputError("Damping",
-                       "found a damped body; data can be made from the exact "
-                       "solution of undamped ones only");
   }
 
   std::set<unsigned int>
@@ -105,8 +101,9 @@ namespace corotet
 
   void
   ManufacturedProblem::add_to(
-    Loads                                           &loads,
-    const MeshNames                                 &boundaries,
+    ForceTerms                                      &terms,
+    const Discretization                            &discretization,
+    const ReferenceElement                          &reference,
     const std::map<unsigned int, IsotropicMaterial> &materials) const
   {
     if (!manufacture)
@@ -118,17 +115,36 @@ namespace corotet
         throw InputError("Exact solution/Displacement",
                          "the regions have different materials; data can be "
                          "made for a body of one material only");
+    const MeshNames &boundaries = discretization.mesh().boundaries();
     const std::set<unsigned int> prescribed =
       displacement_boundaries(boundaries);
     std::vector<unsigned int> others{unnamed_boundary};
     for (const auto &[id, name] : boundaries.all())
       if (prescribed.count(id) == 0)
         others.push_back(id);
-    loads.add_manufactured(*exact,
-                           material,
-                           parameters.material.rotation_placement() ==
-                             Rotation::none,
-                           parameters.time_integrator.selected().is_dynamic(),
-                           others);
+    const ExactSolution &solution = *exact;
+    const bool           varies   = solution.depends_on_time();
+    const bool           with_inertia =
+      parameters.time_integrator.selected().is_dynamic();
+    const bool is_linear =
+      parameters.material.rotation_placement() == Rotation::none;
+    terms.add(std::make_unique<BodyForce>(
+      discretization,
+      reference,
+      [=, &solution](const Point<3> &x, const Tensor<1, 3> &, const double t) {
+        return solution.body_force(material, is_linear, with_inertia, x, t);
+      },
+      varies));
+    for (const unsigned int boundary : others)
+      terms.add(std::make_unique<Traction>(
+        discretization,
+        reference,
+        boundary,
+        [=, &solution](const Point<3>     &x,
+                       const Tensor<1, 3> &normal,
+                       const double        t) {
+          return solution.stress(material, is_linear, x, t) * normal;
+        },
+        varies));
   }
 } // namespace corotet

@@ -19,15 +19,6 @@ namespace corotet
   {
     using dealii::Tensor;
 
-    std::map<unsigned int, double>
-    densities(const std::map<unsigned int, IsotropicMaterial> &materials)
-    {
-      std::map<unsigned int, double> result;
-      for (const auto &[region, material] : materials)
-        result[region] = material.density;
-      return result;
-    }
-
     // Lower and upper corner, the same on any number of ranks.
     std::pair<dealii::Point<3>, dealii::Point<3>>
     bounding_box(const Discretization &disc)

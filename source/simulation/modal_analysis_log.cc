@@ -14,18 +14,16 @@ namespace corotet
   void
   ModalAnalysis::note_what_is_ignored() const
   {
-    const LoadParameters no_loads;
-    bool                 something = !conditions.tractions.empty() ||
+    bool something = !conditions.tractions.empty() ||
                      !conditions.pressures.empty() ||
-                     parameters.loads.gravity != no_loads.gravity ||
-                     parameters.loads.body_force != no_loads.body_force ||
-                     parameters.loads.point_forces != no_loads.point_forces;
+                     !parameters.forces.given().empty();
     for (const auto &condition : conditions.displacements)
       for (const auto &component : condition.components)
         something = something || (component && !component->is_zero());
     if (something)
-      log.line("Modes are those of the body at rest: loads are left out, and "
-               "prescribed displacements count as zero");
+      log.line(
+        "Modes are those of the body at rest, undamped: loads are left out, and "
+        "prescribed displacements count as zero");
   }
 
   void

@@ -86,8 +86,7 @@ namespace corotet
     section(prm, "Boundary conditions", [&] {
       boundary_conditions.declare_parameters(prm);
     });
-    section(prm, "Loads", [&] { loads.declare_parameters(prm); });
-    section(prm, "Damping", [&] { damping.declare_parameters(prm); });
+    forces.declare_parameters(prm);
     section(prm, "Initial conditions", [&] {
       prm.add_parameter("Displacement",
                         initial_displacement,

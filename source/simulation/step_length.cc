@@ -85,7 +85,7 @@ namespace corotet
     const StabilityControl &control = *integrator.stability();
     const double            stable =
       integrator.stable_step(system.largest_frequency(present),
-                             parameters.damping.coefficients().stiffness);
+                             system.force_terms().damping_shares().stiffness);
     if (n_steps == 0)
       {
         step_length = control.safety_factor * stable;

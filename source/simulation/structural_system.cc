@@ -17,15 +17,6 @@ namespace corotet
 {
   namespace
   {
-    std::map<unsigned int, double>
-    densities(const std::map<unsigned int, IsotropicMaterial> &materials)
-    {
-      std::map<unsigned int, double> result;
-      for (const auto &[region, material] : materials)
-        result[region] = material.density;
-      return result;
-    }
-
     // The time step; if the run chooses it, the time that a wave takes through
     // the smallest cell. Zero in statics.
     double
@@ -77,36 +68,31 @@ namespace corotet
               reference,
               parameters.material.materials(discretization.mesh().regions()),
               parameters.material.rotation_placement())
-    , loads(discretization,
-            reference,
-            mass_matrix,
-            conditions,
-            parameters.loads,
-            parameters.material.rotation_placement() != Rotation::none,
-            log,
-            tables)
+    , terms(parameters.forces.make({discretization,
+                                    reference,
+                                    mass_matrix,
+                                    elastic,
+                                    conditions,
+                                    tables,
+                                    log}))
     , motion(discretization,
              reference,
              conditions,
              time_scale(parameters, discretization))
     , mass_solver(discretization, mass_matrix, motion)
-    , damping(parameters.damping.coefficients())
     , wanted_tangent(parameters.newton.tangent == "consistent" ?
                        Tangent::consistent :
                        Tangent::frozen_rotation)
     , tangent(wanted_tangent)
   {
-    problem.add_to(loads,
-                   discretization.mesh().boundaries(),
+    problem.add_to(terms,
+                   discretization,
+                   reference,
                    parameters.material.materials(
                      discretization.mesh().regions()));
-    if (!elastic.is_by_cell(tangent))
+    if (TangentOperator::is_needed(elastic, terms, tangent))
       parameters.linear_solver.check_fit(
-        TangentOperator::is_symmetric(elastic, loads, tangent));
-    if (!parameters.damping.frequencies.empty())
-      log.line(fmt::format("Damping: alpha_M = {:.6g} 1/s, alpha_K = {:.6g} s",
-                           damping.mass,
-                           damping.stiffness));
+        TangentOperator::is_symmetric(elastic, terms, tangent));
     for (Vector *vector : {&forces.external,
                            &forces.internal,
                            &forces.damping,
@@ -172,17 +158,6 @@ namespace corotet
   }
 
   void
-  StructuralSystem::apply_stiffness(Vector       &f,
-                                    const Vector &v,
-                                    const Tangent tangent)
-  {
-    if (elastic.is_by_cell(tangent))
-      elastic.apply_tangent(f, v);
-    else
-      elastic.apply_linearization(f, v, 1., 0., nullptr, nullptr);
-  }
-
-  void
   StructuralSystem::evaluate_forces(const State &state,
                                     const double time,
                                     const double load_factor)
@@ -190,37 +165,21 @@ namespace corotet
     ScopedTimer timer(wall_times.assembly);
     forces_time = time;
     copy_with_ghosts(u_ghosted, state.u);
+    if (terms.depends_on_velocity())
+      copy_with_ghosts(v_ghosted, state.v);
     elastic.update_rotations_and_force(forces.internal, u_ghosted);
 
     if (load_factor != known_load_factor ||
-        (time != known_time && !loads.is_constant()) ||
-        loads.has_follower_pressure())
+        (time != known_time && !terms.is_constant()) || terms.follows_motion())
       {
-        loads.force(forces.external, time, u_ghosted);
-        forces.external *= load_factor;
+        terms.external_force(forces.external, last_motion(), load_factor);
         known_load_factor = load_factor;
         known_time        = time;
       }
 
     // Without damping it is zero for good.
-    if (!has_damping())
-      return;
-    copy_with_ghosts(v_ghosted, state.v);
-    if (damping.stiffness > 0)
-      {
-        // C turns with the rotations that the material has.
-        if (!elastic.is_by_cell(Tangent::frozen_rotation))
-          elastic.linearize(u_ghosted, Tangent::frozen_rotation);
-        apply_stiffness(forces.damping, v_ghosted, Tangent::frozen_rotation);
-        forces.damping *= damping.stiffness;
-      }
-    else
-      forces.damping = 0;
-    if (damping.mass > 0)
-      {
-        mass_matrix.apply(forces.inertia, v_ghosted);
-        forces.damping.add(damping.mass, forces.inertia);
-      }
+    if (terms.has_damping())
+      terms.damping_force(forces.damping, last_motion());
   }
 
   const StructuralSystem::Forces &
@@ -241,9 +200,9 @@ namespace corotet
     ScopedTimer timer(wall_times.assembly);
     effective_operator = std::make_unique<EffectiveOperator>(
       discretization, elastic, mass_matrix, motion.is_prescribed());
-    if (!elastic.is_by_cell(wanted_tangent))
+    if (TangentOperator::is_needed(elastic, terms, wanted_tangent))
       tangent_operator =
-        std::make_unique<TangentOperator>(*effective_operator, elastic, loads);
+        std::make_unique<TangentOperator>(*effective_operator, elastic, terms);
   }
 
   StageReport

@@ -20,7 +20,7 @@ namespace corotet
                                        const double velocity_factor)
   {
     // Of damping by mass, a part is in the velocity to come.
-    const double c = velocity_factor * damping.mass;
+    const double c = velocity_factor * terms.damping_shares().mass;
     StageReport  report;
     if (mass_matrix.is_lumped())
       {
@@ -83,8 +83,8 @@ namespace corotet
   bool
   StructuralSystem::can_leap() const
   {
-    return mass_matrix.is_lumped() && !has_damping() && loads.is_constant() &&
-           known_load_factor == 1 && motion.is_at_rest();
+    return mass_matrix.is_lumped() && !terms.has_damping() &&
+           terms.is_constant() && known_load_factor == 1 && motion.is_at_rest();
   }
 
   bool
@@ -115,7 +115,7 @@ namespace corotet
     const SymmetricPencil pencil{
       [&](Vector &f, const Vector &v) {
         copy_with_ghosts(a_ghosted, v);
-        apply_stiffness(f, a_ghosted, tangent);
+        elastic.apply_stiffness(f, a_ghosted, tangent);
         motion.set_zero(f);
       },
       [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },

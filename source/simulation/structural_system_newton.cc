@@ -44,9 +44,9 @@ namespace corotet
     // The solve before may have ended with the other one.
     use_definite_tangent(false);
     const TangentOperator *J = linearize();
-    // Without the derivative of follower pressures: it is a guess.
+    // Without the derivatives of forces: it is a guess.
     motion_of_supports.update_ghost_values();
-    apply_stiffness(f, motion_of_supports, tangent);
+    elastic.apply_stiffness(f, motion_of_supports, tangent);
     r -= f;
     motion.set_zero(r);
     unsigned int n_iterations = 0;
@@ -89,13 +89,9 @@ namespace corotet
   StructuralSystem::round_off() const
   {
     const ForceRoundOff &noise = effective_operator->force_round_off();
-    double               sum =
+    const double         sum =
       noise.of_force(u_ghosted) + 4 * machine_precision * force_scale;
-    if (damping.stiffness > 0)
-      sum += damping.stiffness * noise.of_product(v_ghosted);
-    if (loads.has_follower_pressure())
-      sum += loads.relative_round_off(u_ghosted) * norm(forces.external);
-    return sum;
+    return sum + terms.round_off(last_motion(), norm(forces.external), noise);
   }
 
   void
@@ -128,8 +124,9 @@ namespace corotet
   const TangentOperator *
   StructuralSystem::linearize()
   {
-    const double c_K = 1 + stage.velocity_factor * damping.stiffness;
-    const double c_M =
+    const MatrixShares damping = terms.damping_shares();
+    const double       c_K     = 1 + stage.velocity_factor * damping.stiffness;
+    const double       c_M =
       stage.acceleration_factor + stage.velocity_factor * damping.mass;
     if (elastic.rotation_placement() != Rotation::none || c_K != operator_c_K ||
         c_M != operator_c_M)
@@ -139,14 +136,14 @@ namespace corotet
         operator_c_K = c_K;
         operator_c_M = c_M;
       }
-    if (elastic.is_by_cell(tangent))
+    if (!TangentOperator::is_needed(elastic, terms, tangent))
       return nullptr;
     ScopedTimer timer(wall_times.assembly);
     clamped_cells = std::max(clamped_cells,
-                             tangent_operator->update(u_ghosted,
+                             tangent_operator->update(last_motion(),
                                                       tangent,
-                                                      stage.time,
-                                                      stage.load_factor));
+                                                      stage.load_factor,
+                                                      stage.velocity_factor));
     return tangent_operator.get();
   }
 
@@ -222,11 +219,7 @@ namespace corotet
   bool
   StructuralSystem::has_energy() const
   {
-    // Damping by a stiffness that turns with the body is not a gradient.
-    return elastic.is_symmetric(Tangent::consistent) &&
-           !loads.has_follower_pressure() &&
-           (damping.stiffness == 0 ||
-            elastic.rotation_placement() == Rotation::none);
+    return elastic.is_symmetric(Tangent::consistent) && terms.has_potential();
   }
 
   bool

@@ -50,23 +50,15 @@ namespace
                          method,
                          tolerance,
                          more))
-      , conditions(parameters.boundary_conditions, mesh.boundaries())
       , elasticity(discretization,
                    system.reference_element(),
                    parameters.material.materials(mesh.regions()),
                    parameters.material.rotation_placement())
-      , loads(discretization,
-              system.reference_element(),
-              system.mass(),
-              conditions,
-              parameters.loads,
-              true,
-              log)
       , A(discretization,
           elasticity,
           system.mass(),
           system.prescribed_motion().is_prescribed())
-      , J(A, elasticity, loads)
+      , J(A, elasticity, system.force_terms())
     {}
 
     ~Bar()
@@ -81,7 +73,7 @@ namespace
       const Vector u = interpolate(displacement);
       elasticity.update_rotations(u);
       A.update(1., 0.);
-      J.update(u, Tangent::consistent, 0., 1.);
+      J.update({0., u, u}, Tangent::consistent, 1., 0.);
     }
 
     // A right hand side that supports take no part in; if it is axial, it does
@@ -134,11 +126,9 @@ namespace
       return (v * Jv) / (norm(v) * norm(Jv));
     }
 
-    BoundaryConditions conditions;
-    Elasticity         elasticity;
-    Loads              loads;
-    EffectiveOperator  A;
-    TangentOperator    J;
+    Elasticity        elasticity;
+    EffectiveOperator A;
+    TangentOperator   J;
   };
 
   Tensor<1, 3>

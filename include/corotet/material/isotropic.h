@@ -6,6 +6,8 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <map>
+
 namespace corotet
 {
   /**
@@ -33,6 +35,16 @@ namespace corotet
     return {youngs_modulus * nu / ((1 + nu) * (1 - 2 * nu)),
             youngs_modulus / (2 * (1 + nu)),
             density};
+  }
+
+  /// Those of several regions [kg/m^3].
+  inline std::map<unsigned int, double>
+  densities(const std::map<unsigned int, IsotropicMaterial> &materials)
+  {
+    std::map<unsigned int, double> result;
+    for (const auto &[region, material] : materials)
+      result[region] = material.density;
+    return result;
   }
 
   /**

@@ -132,6 +132,17 @@ namespace corotet
                         const CellMasses<double> *masses,
                         const Vector             *lumped_mass) const;
 
+    /// f = K v with that tangent, which must be the last one prepared if it is
+    /// not by cell.
+    void
+    apply_stiffness(Vector &f, const Vector &v, const Tangent tangent) const
+    {
+      if (is_by_cell(tangent))
+        apply_tangent(f, v);
+      else
+        apply_linearization(f, v, 1., 0., nullptr, nullptr);
+    }
+
     ElasticState
     state(const Vector &u) const;
 

@@ -5,17 +5,16 @@
 #define corotet_operators_tangent_operator_h
 
 #include <corotet/operators/effective_operator.h>
-#include <corotet/operators/loads.h>
+#include <corotet/operators/force_terms.h>
 
 namespace corotet
 {
   /**
    * The derivative of the equation of motion by the displacement where the
    * effective operator is not it but close to it: with a rotation for each
-   * quadrature point, with derivatives of rotations, and with the derivative of
-   * follower pressures,
+   * quadrature point, with derivatives of rotations, and with those of forces,
    *
-   *   J = K_T - s d f_ext / du + (c_K - 1) K_frozen + c_M M.
+   *   J = K_T - sum (df/du + c_v df/dv) + (c_K - 1) K_frozen + c_M M.
    *
    * Rows and columns of prescribed unknowns are those of a diagonal matrix.
    * The arguments of the constructor must outlive this object.
@@ -26,54 +25,58 @@ namespace corotet
     /// @p A shares cells, mass and prescribed unknowns. Collective.
     TangentOperator(const EffectiveOperator &A,
                     Elasticity              &elasticity,
-                    Loads                   &loads);
+                    ForceTerms              &forces);
 
     /**
-     * Linearizes at the displacement @p u (ghosts up to date), where rotations
-     * and the effective operator are up to date. The pressures are those at
-     * @p time times @p load_factor. Returns in how many cells, over all ranks,
-     * the derivative of a rotation was clamped. Collective.
+     * Linearizes at that motion, where rotations and the effective operator are
+     * up to date, with loads times @p load_factor and the velocity's derivative
+     * by the displacement @p velocity_factor [1/s]. Returns in how many cells,
+     * over all ranks, the derivative of a rotation was clamped. Collective.
      */
     unsigned int
-    update(const Vector &u,
+    update(const Motion &motion,
            const Tangent tangent,
-           const double  time,
-           const double  load_factor);
+           const double  load_factor,
+           const double  velocity_factor);
 
     /// dst = J src. Collective.
     void
     vmult(Vector &dst, const Vector &src) const;
 
+    /// Whether an operator with that tangent is another than the effective one.
+    static bool
+    is_needed(const Elasticity &elasticity,
+              const ForceTerms &forces,
+              const Tangent     tangent)
+    {
+      return !elasticity.is_by_cell(tangent) ||
+             forces.has_linearization(tangent);
+    }
+
     /// Whether J is symmetric with that tangent; it need not be definite.
     static bool
     is_symmetric(const Elasticity &elasticity,
-                 const Loads      &loads,
+                 const ForceTerms &forces,
                  const Tangent     tangent)
     {
-      return elasticity.is_symmetric(tangent) && !has_pressures(loads, tangent);
+      return elasticity.is_symmetric(tangent) && forces.is_symmetric(tangent);
     }
 
     /// The same for that of the last update().
     bool
     is_symmetric() const
     {
-      return is_symmetric(elasticity, loads, tangent);
+      return is_symmetric(elasticity, forces, tangent);
     }
 
   private:
-    /// Whether the derivative of pressures is part of J.
-    static bool
-    has_pressures(const Loads &loads, const Tangent tangent)
-    {
-      return tangent == Tangent::consistent && loads.has_follower_pressure();
-    }
-
     const EffectiveOperator  &A;
     Elasticity               &elasticity;
-    Loads                    &loads;
+    ForceTerms               &forces;
     std::vector<unsigned int> prescribed;
-    Tangent                   tangent     = Tangent::consistent;
-    double                    load_factor = 1;
+    Tangent                   tangent         = Tangent::consistent;
+    double                    load_factor     = 1;
+    double                    velocity_factor = 0;
     /// The source without prescribed entries, with ghosts.
     mutable Vector source;
   };

@@ -4,7 +4,7 @@
 #ifndef corotet_simulation_manufactured_problem_h
 #define corotet_simulation_manufactured_problem_h
 
-#include <corotet/operators/loads.h>
+#include <corotet/operators/force_terms.h>
 #include <corotet/simulation/simulation_parameters.h>
 
 #include <memory>
@@ -42,12 +42,13 @@ namespace corotet
     std::string
     initial_velocity() const;
 
-    /// Adds what is made to @p loads, which must not outlive this object.
-    /// @p materials: of a body with exact solution they must be equal, or an
-    /// InputError is thrown.
+    /// Adds what is made to @p terms, which must not outlive this object and
+    /// the other arguments. @p materials: of a body with exact solution they
+    /// must be equal, or an InputError is thrown.
     void
-    add_to(Loads                                           &loads,
-           const MeshNames                                 &boundaries,
+    add_to(ForceTerms                                      &terms,
+           const Discretization                            &discretization,
+           const ReferenceElement                          &reference,
            const std::map<unsigned int, IsotropicMaterial> &materials) const;
 
   private:

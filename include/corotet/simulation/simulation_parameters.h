@@ -8,12 +8,11 @@
 #include <corotet/base/table_functions.h>
 #include <corotet/discretization/boundary_conditions.h>
 #include <corotet/discretization/element.h>
+#include <corotet/forces/force_kind.h>
 #include <corotet/material/exact_solution.h>
 #include <corotet/material/material_parameters.h>
 #include <corotet/mesh/mesh.h>
-#include <corotet/operators/loads.h>
 #include <corotet/simulation/adaptive_step.h>
-#include <corotet/simulation/rayleigh_damping.h>
 #include <corotet/solvers/linear_solver.h>
 #include <corotet/solvers/newton.h>
 #include <corotet/time_integration/time_integrator.h>
@@ -61,8 +60,7 @@ namespace corotet
     MaterialParameters          material;
     TableParameters             tables;
     BoundaryConditionParameters boundary_conditions;
-    LoadParameters              loads;
-    DampingParameters           damping;
+    ForceParameters             forces;
     /// Expressions of the state at the start time.
     std::string                initial_displacement = "0; 0; 0";
     std::string                initial_velocity     = "0; 0; 0";

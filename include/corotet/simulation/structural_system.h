@@ -8,7 +8,7 @@
 #include <corotet/discretization/prescribed_motion.h>
 #include <corotet/operators/effective_operator.h>
 #include <corotet/operators/elasticity.h>
-#include <corotet/operators/loads.h>
+#include <corotet/operators/force_terms.h>
 #include <corotet/operators/mass.h>
 #include <corotet/operators/tangent_operator.h>
 #include <corotet/simulation/manufactured_problem.h>
@@ -181,10 +181,17 @@ namespace corotet
       return mass_matrix;
     }
 
-    bool
-    has_damping() const
+    /// All forces but the internal one.
+    ForceTerms &
+    force_terms()
     {
-      return damping.mass > 0 || damping.stiffness > 0;
+      return terms;
+    }
+
+    const ForceTerms &
+    force_terms() const
+    {
+      return terms;
     }
 
     const PrescribedMotion &
@@ -236,9 +243,12 @@ namespace corotet
     evaluate_forces(const State &state,
                     const double time,
                     const double load_factor);
-    /// f = K v with that tangent, which the elasticity must have prepared.
-    void
-    apply_stiffness(Vector &f, const Vector &v, const Tangent tangent);
+    /// That of the last evaluation, with the velocity if a force needs it.
+    Motion
+    last_motion() const
+    {
+      return {forces_time, u_ghosted, v_ghosted};
+    }
 
     const Discretization &discretization;
     SimulationParameters &parameters;
@@ -251,10 +261,9 @@ namespace corotet
     const BoundaryConditions  conditions;
     const Mass                mass_matrix;
     Elasticity                elastic;
-    Loads                     loads;
+    ForceTerms                terms;
     const PrescribedMotion    motion;
     const MassSolver          mass_solver;
-    const RayleighDamping     damping;
     const Tangent             wanted_tangent;
     Tangent                   tangent;
 

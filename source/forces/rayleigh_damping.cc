@@ -2,7 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/simulation/rayleigh_damping.h>
+#include <corotet/forces/rayleigh_damping.h>
+#include <corotet/operators/force_round_off.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -53,7 +54,7 @@ namespace corotet
                       none_or_two);
   }
 
-  RayleighDamping
+  DampingCoefficients
   DampingParameters::coefficients() const
   {
     if (frequencies.empty() && ratios.empty())
@@ -99,5 +100,80 @@ namespace corotet
                     ratios[0] * frequencies[0] / frequencies[1],
                     ratios[0] * frequencies[1] / frequencies[0]));
     return {omega0 * omega1 * mass / divisor, stiffness / divisor};
+  }
+
+  RayleighDamping::RayleighDamping(const Discretization     &discretization,
+                                   const Mass               &mass,
+                                   Elasticity               &elasticity,
+                                   const DampingCoefficients coefficients)
+    : mass(mass)
+    , elasticity(elasticity)
+    , coefficients(coefficients)
+  {
+    discretization.initialize_vector(product);
+  }
+
+  void
+  RayleighDamping::add_force(Vector &f, const Motion &motion) const
+  {
+    const auto subtract = [&](const double factor) {
+      for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
+        f.local_element(i) -= factor * product.local_element(i);
+    };
+    if (coefficients.stiffness > 0)
+      {
+        if (!elasticity.is_by_cell(Tangent::frozen_rotation))
+          elasticity.linearize(motion.u, Tangent::frozen_rotation);
+        elasticity.apply_stiffness(product, motion.v, Tangent::frozen_rotation);
+        subtract(coefficients.stiffness);
+      }
+    if (coefficients.mass > 0)
+      {
+        mass.apply(product, motion.v);
+        subtract(coefficients.mass);
+      }
+  }
+
+  double
+  RayleighDamping::round_off(const Motion &motion,
+                             const double,
+                             const ForceRoundOff &noise) const
+  {
+    return coefficients.stiffness > 0 ?
+             coefficients.stiffness * noise.of_product(motion.v) :
+             0;
+  }
+
+  void
+  RayleighDampingKind::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Damping");
+    parameters.declare_parameters(prm);
+    prm.leave_subsection();
+  }
+
+  std::vector<ForceKind::GivenEntry>
+  RayleighDampingKind::given() const
+  {
+    const DampingCoefficients c = parameters.coefficients();
+    if (c.mass == 0 && c.stiffness == 0)
+      return {};
+    return {
+      {"Damping", fmt::format("{:g} 1/s, {:g} s", c.mass, c.stiffness), ""}};
+  }
+
+  void
+  RayleighDampingKind::add_to(ForceTerms         &terms,
+                              const ForceContext &context) const
+  {
+    const DampingCoefficients c = parameters.coefficients();
+    if (!parameters.frequencies.empty())
+      context.log.line(
+        fmt::format("Damping: alpha_M = {:.6g} 1/s, alpha_K = {:.6g} s",
+                    c.mass,
+                    c.stiffness));
+    if (c.mass > 0 || c.stiffness > 0)
+      terms.add(std::make_unique<RayleighDamping>(
+        context.discretization, context.mass, context.elasticity, c));
   }
 } // namespace corotet

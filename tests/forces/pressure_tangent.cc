@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "random_states.h"
+#include "../operators/random_states.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -14,40 +14,45 @@ using dealii::Tensor;
 
 namespace
 {
-  // The external loads of a 1 x 2 x 1 box, as the system makes them.
-  struct Loaded : public Body
+  // The force terms of a 1 x 2 x 1 box.
+  struct UnderPressure : public Body
   {
-    Loaded(const Element element, const std::string &text)
+    UnderPressure(const Element element, const std::string &text)
       : Body(box("1, 2, 1", "2, 3, 2", 0.2),
              element_text(element) + "subsection Boundary conditions\n" + text +
                "\nend\n")
-      , conditions(parameters.boundary_conditions, mesh.boundaries())
-      , loads(discretization,
-              system.reference_element(),
-              system.mass(),
-              conditions,
-              parameters.loads,
-              parameters.material.rotation_placement() != Rotation::none,
-              log)
     {}
 
+    void
+    linearize(const double time, const Vector &u)
+    {
+      system.force_terms().linearize({time, u, u}, Tangent::consistent);
+    }
+
     Vector
-    force(const double time, const Vector &u) const
+    force(const double time, const Vector &u)
     {
       Vector f(u);
       f.zero_out_ghost_values();
-      loads.force(f, time, u);
+      system.force_terms().external_force(f, {time, u, u}, 1.);
       return f;
     }
 
     Vector
-    derivative(const Vector &v, const double factor) const
+    derivative(const Vector &v, const double factor)
     {
       Vector f(v);
       f.zero_out_ghost_values();
       f = 0;
-      loads.add_linearized(f, v, factor);
+      subtract(f, v, -factor);
       return f;
+    }
+
+    void
+    subtract(Vector &f, const Vector &v, const double factor)
+    {
+      system.force_terms().subtract_linearized(
+        f, v, factor, 0., Tangent::consistent);
     }
 
     // A shape that bends, stretches and shears every side.
@@ -60,9 +65,6 @@ namespace
                              std::cos(2 * x[0]) * x[1]});
       });
     }
-
-    BoundaryConditions conditions;
-    Loads              loads;
   };
 } // namespace
 
@@ -74,16 +76,16 @@ class PressureTangent : public testing::TestWithParam<Element>
 // round-off, 1e-16 / 1e-2.
 TEST_P(PressureTangent, IsTheDerivative)
 {
-  Loaded       body(GetParam(),
-              "set Pressure = z-max: (1+x*y^2)*t, x-max: sin(3*y)+z, "
-                    "y-min: 2-x*z");
-  const Vector v = random_direction(body), u = body.shape();
-  const double t = 3, h = 1e-2, factor = -0.7;
-  EXPECT_TRUE(body.loads.has_follower_pressure());
+  UnderPressure body(GetParam(),
+                     "set Pressure = z-max: (1+x*y^2)*t, x-max: sin(3*y)+z, "
+                     "y-min: 2-x*z");
+  const Vector  v = random_direction(body), u = body.shape();
+  const double  t = 3, h = 1e-2, factor = -0.7;
+  EXPECT_TRUE(body.system.force_terms().follows_motion());
   Vector difference = body.force(t, moved(u, h, v));
   difference -= body.force(t, moved(u, -h, v));
   difference *= factor / (2 * h);
-  body.loads.linearize(t, u);
+  body.linearize(t, u);
   const Vector found = body.derivative(v, factor);
   const double error =
     largest_difference(found, difference) / difference.linfty_norm();
@@ -97,12 +99,12 @@ TEST_P(PressureTangent, IsTheDerivative)
 // It adds: what was in f stays.
 TEST_P(PressureTangent, Adds)
 {
-  Loaded       body(GetParam(), "set Pressure = z-max: 1+x");
-  const Vector v = random_direction(body);
-  body.loads.linearize(0., body.shape());
+  UnderPressure body(GetParam(), "set Pressure = z-max: 1+x");
+  const Vector  v = random_direction(body);
+  body.linearize(0., body.shape());
   const Vector once = body.derivative(v, 2.);
   Vector       twice(once);
-  body.loads.add_linearized(twice, v, 2.);
+  body.subtract(twice, v, -2.);
   twice.add(-2., once);
   EXPECT_LE(twice.linfty_norm(), 1e-14 * once.linfty_norm());
 }
@@ -113,12 +115,13 @@ TEST_P(PressureTangent, SymmetricOnAClosedSurface)
 {
   for (const bool closed : {true, false})
     {
-      Loaded       body(GetParam(),
-                  closed ? "set Pressure = x-min: 7, x-max: 7, y-min: 7, "
-                                 "y-max: 7, z-min: 7, z-max: 7" :
-                                 "set Pressure = x-max: 7");
-      const Vector v = random_direction(body), w = body.shape();
-      body.loads.linearize(0., body.shape());
+      UnderPressure body(GetParam(),
+                         closed ?
+                           "set Pressure = x-min: 7, x-max: 7, y-min: 7, "
+                           "y-max: 7, z-min: 7, z-max: 7" :
+                           "set Pressure = x-max: 7");
+      const Vector  v = random_direction(body), w = body.shape();
+      body.linearize(0., body.shape());
       const Vector Kv = body.derivative(v, 1.), Kw = body.derivative(w, 1.);
       const double asymmetry = std::abs(w * Kv - v * Kw) / (norm(w) * norm(Kv));
       if (closed)
@@ -131,10 +134,13 @@ TEST_P(PressureTangent, SymmetricOnAClosedSurface)
 // Linear elasticity has pressures on the surface at rest.
 TEST_P(PressureTangent, NoneInLinearElasticity)
 {
-  Loaded body(GetParam(),
-              "set Pressure = z-max: 1\nend\nsubsection Material\n set Type = "
-              "linear");
-  EXPECT_FALSE(body.loads.has_follower_pressure());
+  UnderPressure body(
+    GetParam(),
+    "set Pressure = z-max: 1\nend\nsubsection Material\n set Type = "
+    "linear");
+  EXPECT_FALSE(body.system.force_terms().follows_motion());
+  EXPECT_FALSE(
+    body.system.force_terms().has_linearization(Tangent::consistent));
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements,

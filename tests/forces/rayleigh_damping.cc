@@ -3,7 +3,7 @@
 
 // Rayleigh damping given by ratios at two frequencies.
 
-#include <corotet/simulation/rayleigh_damping.h>
+#include <corotet/forces/rayleigh_damping.h>
 #include <corotet/time_integration/newmark.h>
 
 #include <deal.II/base/numbers.h>
@@ -51,8 +51,8 @@ namespace
 // The coefficients have the ratios, by the definition of these.
 TEST(RayleighDamping, HasTheRatiosAsked)
 {
-  const RayleighDamping c     = damping("2, 5", "0.02, 0.03").coefficients();
-  const auto            ratio = [&](const double f) {
+  const DampingCoefficients c = damping("2, 5", "0.02, 0.03").coefficients();
+  const auto                ratio = [&](const double f) {
     return c.mass / (4 * PI * f) + c.stiffness * PI * f;
   };
   EXPECT_DOUBLE_EQ(ratio(2), 0.02);
@@ -65,7 +65,7 @@ TEST(RayleighDamping, HasTheRatiosAsked)
 // 0.1 and 0.3 have no exact binary representation.
 TEST(RayleighDamping, LimitsAreAllowed)
 {
-  RayleighDamping c = damping("0.1, 0.3", "0.01, 0.03").coefficients();
+  DampingCoefficients c = damping("0.1, 0.3", "0.01, 0.03").coefficients();
   EXPECT_EQ(c.mass, 0);
   EXPECT_DOUBLE_EQ(c.stiffness, 0.01 / (PI * 0.1));
   c = damping("0.1, 0.3", "0.03, 0.01").coefficients();

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_forces_dead_load_h
+#define corotet_forces_dead_load_h
+
+#include <corotet/base/expression.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/operators/force_term.h>
+
+#include <deal.II/base/point.h>
+
+#include <functional>
+
+namespace corotet
+{
+  /**
+   * A load that depends on the place at rest and on time, not on the motion:
+   * f_i = int N_i b or int N_i t [seed, 2.61]. If it is the same everywhere, it
+   * is integrated once.
+   */
+  class DeadLoad : public ForceTerm
+  {
+  public:
+    /// At a point at rest, on the surface with the outward normal there, at a
+    /// time.
+    using Value =
+      std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &,
+                                         const dealii::Tensor<1, 3> &,
+                                         const double)>;
+
+    bool
+    depends_on_time() const override
+    {
+      return varies_in_time;
+    }
+
+    void
+    add_force(Vector &f, const Motion &motion) const override;
+
+  protected:
+    /// The value at one time.
+    using Field =
+      std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &,
+                                         const dealii::Tensor<1, 3> &)>;
+
+    DeadLoad(const Discretization &discretization, const Expression &value);
+    DeadLoad(const Discretization &discretization,
+             const Value          &value,
+             const bool            depends_on_time);
+
+    /// f += the force of that field, in any local entries. Collective.
+    virtual void
+    integrate(Vector &f, const Field &field) const = 0;
+
+    const Discretization &discretization;
+
+  private:
+    Value value;
+    bool  varies_in_space;
+    bool  varies_in_time;
+    /// The force of a unit load in each direction, by the first add_force() if
+    /// the load is the same everywhere.
+    mutable Vector integral;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_forces_force_kind_h
+#define corotet_forces_force_kind_h
+
+#include <corotet/base/log.h>
+#include <corotet/base/table_functions.h>
+#include <corotet/discretization/boundary_conditions.h>
+#include <corotet/discretization/reference_element.h>
+#include <corotet/operators/force_terms.h>
+#include <corotet/operators/mass.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  class Elasticity;
+
+  /**
+   * What force terms may be made of. All must outlive the terms.
+   */
+  struct ForceContext
+  {
+    const Discretization     &discretization;
+    const ReferenceElement   &reference;
+    const Mass               &mass;
+    Elasticity               &elasticity;
+    const BoundaryConditions &conditions;
+    /// For expressions.
+    const TableFunctions &tables;
+    Log                  &log;
+  };
+
+  /**
+   * A kind of force: its parameters, and how terms are made of them.
+   */
+  class ForceKind
+  {
+  public:
+    /// An entry of the parameter file that gives a force.
+    struct GivenEntry
+    {
+      /// "Section/Name".
+      std::string entry;
+      std::string value;
+      /// What stands for no force.
+      std::string none;
+    };
+
+    virtual ~ForceKind() = default;
+
+    /// Declares its entries in their sections.
+    virtual void
+    declare_parameters(dealii::ParameterHandler &prm) = 0;
+
+    /// The entries that give a force. Throws InputError.
+    virtual std::vector<GivenEntry>
+    given() const = 0;
+
+    /// Adds the terms that the parameters ask for, none if there is no force.
+    /// Throws InputError. Collective.
+    virtual void
+    add_to(ForceTerms &terms, const ForceContext &context) const = 0;
+  };
+
+  /**
+   * The parameters of all registered kinds. Must not be moved after
+   * declare_parameters().
+   */
+  class ForceParameters
+  {
+  public:
+    ForceParameters();
+
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    /// Of all kinds. Throws InputError.
+    std::vector<ForceKind::GivenEntry>
+    given() const;
+
+    /// The terms of all kinds. Throws InputError. Collective.
+    ForceTerms
+    make(const ForceContext &context) const;
+
+  private:
+    std::vector<std::unique_ptr<ForceKind>> kinds;
+  };
+
+  /// The registry: how each kind is made. One line in force_kinds.cc for each.
+  const std::vector<std::function<std::unique_ptr<ForceKind>()>> &
+  force_kinds();
+} // namespace corotet
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_forces_point_forces_h
+#define corotet_forces_point_forces_h
+
+#include <corotet/forces/force_kind.h>
+
+#include <optional>
+
+namespace corotet
+{
+  /**
+   * Section Loads, entry Point forces: a force [N] at a node.
+   */
+  class PointForce : public ForceTerm
+  {
+  public:
+    /// At the node nearest to a point of the body at rest. @p text: "x y z: fx;
+    /// fy; fz". Throws InputError. Collective.
+    PointForce(const Discretization &discretization,
+               const std::string    &text,
+               const TableFunctions &tables,
+               Log                  &log);
+
+    bool
+    depends_on_time() const override
+    {
+      return value->depends_on_time();
+    }
+
+    void
+    add_force(Vector &f, const Motion &motion) const override;
+
+  private:
+    std::optional<Expression> value;
+    dealii::Point<3>          position;
+    /// Local number; used only where the node is owned.
+    unsigned int node = 0;
+    bool         is_owned;
+  };
+
+  class PointForcesKind : public ForceKind
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    std::vector<GivenEntry>
+    given() const override;
+
+    void
+    add_to(ForceTerms &terms, const ForceContext &context) const override;
+
+  private:
+    std::string forces;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_force_terms_h
+#define corotet_operators_force_terms_h
+
+#include <corotet/discretization/discretization.h>
+#include <corotet/operators/force_term.h>
+#include <corotet/operators/tangent_sweep.h>
+
+#include <memory>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The sum of force terms. Loads that depend on neither time nor motion are
+   * evaluated once. Members are collective.
+   */
+  class ForceTerms
+  {
+  public:
+    /// @p discretization must outlive this object.
+    explicit ForceTerms(const Discretization &discretization);
+
+    void
+    add(std::unique_ptr<ForceTerm> term);
+
+    /// f = load_factor times the loads, and the supports' forces.
+    void
+    external_force(Vector       &f,
+                   const Motion &motion,
+                   const double  load_factor) const;
+
+    /// Whether that depends on neither time nor motion.
+    bool
+    is_constant() const;
+
+    /// Whether that depends on the motion.
+    bool
+    follows_motion() const;
+
+    /// f = minus the forces of damping.
+    void
+    damping_force(Vector &f, const Motion &motion) const;
+
+    bool
+    has_damping() const;
+
+    /// Whether any term depends on the velocity.
+    bool
+    depends_on_velocity() const;
+
+    /// What the terms' - df/dv has of the body's matrices.
+    MatrixShares
+    damping_shares() const;
+
+    /// Whether there are derivatives, besides these shares, that belong to that
+    /// tangent.
+    bool
+    has_linearization(const Tangent tangent) const;
+
+    /// Prepares add_linearized() for that tangent. Not collective.
+    void
+    linearize(const Motion &motion, const Tangent tangent);
+
+    /// f -= (df/du + velocity_factor df/dv) w, loads times @p load_factor, as
+    /// linearize() has prepared it. w's ghosts are up to date, f's must not be
+    /// in use.
+    void
+    subtract_linearized(Vector       &f,
+                        const Vector &w,
+                        const double  load_factor,
+                        const double  velocity_factor,
+                        const Tangent tangent) const;
+
+    /// Whether the derivatives that belong to that tangent are symmetric.
+    bool
+    is_symmetric(const Tangent tangent) const;
+
+    bool
+    has_potential() const;
+
+    /// What round-off may make of the sum [N]; arguments as those of
+    /// ForceTerm::round_off().
+    double
+    round_off(const Motion        &motion,
+              const double         size,
+              const ForceRoundOff &noise) const;
+
+  private:
+    const Discretization                   &discretization;
+    std::vector<std::unique_ptr<ForceTerm>> terms;
+    /// Sum of the loads that depend on neither time nor motion.
+    Vector         constant_load;
+    mutable Vector scratch;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/forces/body_force.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace corotet
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  BodyForce::BodyForce(const Discretization   &discretization,
+                       const ReferenceElement &reference,
+                       const Expression       &value)
+    : DeadLoad(discretization, value)
+    , reference(reference)
+  {}
+
+  BodyForce::BodyForce(const Discretization   &discretization,
+                       const ReferenceElement &reference,
+                       const Value            &value,
+                       const bool              depends_on_time)
+    : DeadLoad(discretization, value, depends_on_time)
+    , reference(reference)
+  {}
+
+  void
+  BodyForce::integrate(Vector &f, const Field &force) const
+  {
+    const auto &rule = reference.load_rule;
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      {
+        const CellGeometry &geometry  = discretization.geometry(c);
+        const bool          is_curved = discretization.is_curved(c);
+        const auto          nodes     = discretization.cell_nodes(c);
+        const Point<3>      origin    = discretization.node_position(nodes[0]);
+        const Tensor<2, 3>  J         = invert(geometry.inverse_jacobian);
+        for (unsigned int q = 0; q < rule.weights.size(); ++q)
+          {
+            Point<3> x      = origin + J * rule.points[q];
+            double   volume = geometry.volume;
+            if (is_curved)
+              {
+                x = Point<3>();
+                for (unsigned int i = 0; i < reference.n_nodes; ++i)
+                  x +=
+                    rule.values[q][i] * discretization.node_position(nodes[i]);
+                volume = determinant(discretization.jacobian(c, rule, q)) / 6;
+              }
+            const Tensor<1, 3> b = force(x, {}) * (rule.weights[q] * volume);
+            for (unsigned int i = 0; i < reference.n_nodes; ++i)
+              for (unsigned int a = 0; a < 3; ++a)
+                f.local_element(3 * nodes[i] + a) += b[a] * rule.values[q][i];
+          }
+      }
+  }
+
+  void
+  BodyForceKind::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Loads");
+    prm.add_parameter("Body force",
+                      force,
+                      "Force per volume at rest [N/m^3]: 'x; y; z', "
+                      "expressions in x, y, z, t.");
+    prm.leave_subsection();
+  }
+
+  std::vector<ForceKind::GivenEntry>
+  BodyForceKind::given() const
+  {
+    if (dealii::Utilities::trim(force) == "0; 0; 0")
+      return {};
+    return {{"Loads/Body force", force, "0; 0; 0"}};
+  }
+
+  void
+  BodyForceKind::add_to(ForceTerms &terms, const ForceContext &context) const
+  {
+    const Expression value(force, 3, "Loads/Body force", context.tables);
+    if (!value.is_zero())
+      terms.add(std::make_unique<BodyForce>(context.discretization,
+                                            context.reference,
+                                            value));
+  }
+} // namespace corotet

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/forces/dead_load.h>
+
+namespace corotet
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  DeadLoad::DeadLoad(const Discretization &discretization,
+                     const Expression     &value)
+    : discretization(discretization)
+    , value([value](const Point<3> &x, const Tensor<1, 3> &, const double t) {
+      return value.vector_value(x, t);
+    })
+    , varies_in_space(value.depends_on_space())
+    , varies_in_time(value.depends_on_time())
+  {}
+
+  DeadLoad::DeadLoad(const Discretization &discretization,
+                     const Value          &value,
+                     const bool            depends_on_time)
+    : discretization(discretization)
+    , value(value)
+    , varies_in_space(true)
+    , varies_in_time(depends_on_time)
+  {}
+
+  void
+  DeadLoad::add_force(Vector &f, const Motion &motion) const
+  {
+    if (varies_in_space || !varies_in_time)
+      {
+        integrate(f, [&](const Point<3> &x, const Tensor<1, 3> &normal) {
+          return value(x, normal, motion.time);
+        });
+        return;
+      }
+    if (integral.size() == 0)
+      {
+        discretization.initialize_vector(integral);
+        integrate(integral, [](const Point<3> &, const Tensor<1, 3> &) {
+          return Tensor<1, 3>({1., 1., 1.});
+        });
+        integral.compress(dealii::VectorOperation::add);
+      }
+    const Tensor<1, 3> now = value({}, {}, motion.time);
+    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        f.local_element(3 * n + a) +=
+          now[a] * integral.local_element(3 * n + a);
+  }
+} // namespace corotet

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/forces/gravity.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace corotet
+{
+  using dealii::Tensor;
+
+  Gravity::Gravity(const Discretization &discretization,
+                   const Mass           &mass,
+                   const Expression     &acceleration)
+    : DeadLoad(discretization, acceleration)
+    , mass(mass)
+  {}
+
+  void
+  Gravity::integrate(Vector &f, const Field &acceleration) const
+  {
+    Vector a, force;
+    discretization.initialize_vector(a);
+    discretization.initialize_vector(force);
+    for (unsigned int n = 0; n < discretization.n_local_nodes(); ++n)
+      {
+        const Tensor<1, 3> g =
+          acceleration(discretization.node_position(n), {});
+        for (unsigned int i = 0; i < 3; ++i)
+          a.local_element(3 * n + i) = g[i];
+      }
+    mass.apply(force, a);
+    for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
+      f.local_element(i) += force.local_element(i);
+  }
+
+  void
+  GravityKind::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Loads");
+    prm.add_parameter("Gravity",
+                      acceleration,
+                      "Acceleration [m/s^2] of gravity: 'x; y; z', expressions "
+                      "in x, y, z, t.");
+    prm.leave_subsection();
+  }
+
+  std::vector<ForceKind::GivenEntry>
+  GravityKind::given() const
+  {
+    if (dealii::Utilities::trim(acceleration) == "0; 0; 0")
+      return {};
+    return {{"Loads/Gravity", acceleration, "0; 0; 0"}};
+  }
+
+  void
+  GravityKind::add_to(ForceTerms &terms, const ForceContext &context) const
+  {
+    const Expression value(acceleration, 3, "Loads/Gravity", context.tables);
+    if (!value.is_zero())
+      terms.add(
+        std::make_unique<Gravity>(context.discretization, context.mass, value));
+  }
+} // namespace corotet

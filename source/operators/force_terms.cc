@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/operators/force_terms.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  namespace
+  {
+    using Role = ForceTerm::Role;
+
+    bool
+    depends_on_motion(const ForceTerm &term)
+    {
+      return term.depends_on_displacement() || term.depends_on_velocity();
+    }
+
+    bool
+    is_constant_load(const ForceTerm &term)
+    {
+      return term.role() == Role::load && !term.depends_on_time() &&
+             !depends_on_motion(term);
+    }
+
+    // Derivatives that are not symmetric are left to the exact tangent.
+    bool
+    belongs_to(const Tangent tangent, const ForceTerm &term)
+    {
+      return term.has_linearization() &&
+             (tangent == Tangent::consistent || term.is_symmetric());
+    }
+
+    template <typename Choice>
+    bool
+    any_of(const std::vector<std::unique_ptr<ForceTerm>> &terms,
+           const Choice                                  &choice)
+    {
+      return std::any_of(terms.begin(), terms.end(), [&](const auto &term) {
+        return choice(*term);
+      });
+    }
+  } // namespace
+
+  ForceTerms::ForceTerms(const Discretization &discretization)
+    : discretization(discretization)
+  {
+    discretization.initialize_vector(constant_load);
+    discretization.initialize_vector(scratch);
+  }
+
+  void
+  ForceTerms::add(std::unique_ptr<ForceTerm> term)
+  {
+    if (is_constant_load(*term))
+      {
+        scratch = 0;
+        term->add_force(scratch, {0., constant_load, constant_load});
+        scratch.compress(dealii::VectorOperation::add);
+        constant_load += scratch;
+      }
+    terms.push_back(std::move(term));
+  }
+
+  void
+  ForceTerms::external_force(Vector       &f,
+                             const Motion &motion,
+                             const double  load_factor) const
+  {
+    f = 0;
+    for (const auto &term : terms)
+      if (term->role() == Role::load && !is_constant_load(*term))
+        term->add_force(f, motion);
+    f.compress(dealii::VectorOperation::add);
+    f += constant_load;
+    f *= load_factor;
+    if (!any_of(terms, [](const ForceTerm &term) {
+          return term.role() == Role::support;
+        }))
+      return;
+    scratch = 0;
+    for (const auto &term : terms)
+      if (term->role() == Role::support)
+        term->add_force(scratch, motion);
+    scratch.compress(dealii::VectorOperation::add);
+    f += scratch;
+  }
+
+  bool
+  ForceTerms::is_constant() const
+  {
+    return !follows_motion() && !any_of(terms, [](const ForceTerm &term) {
+      return term.role() != Role::damping && term.depends_on_time();
+    });
+  }
+
+  bool
+  ForceTerms::follows_motion() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      return term.role() != Role::damping && depends_on_motion(term);
+    });
+  }
+
+  void
+  ForceTerms::damping_force(Vector &f, const Motion &motion) const
+  {
+    f = 0;
+    for (const auto &term : terms)
+      if (term->role() == Role::damping)
+        term->add_force(f, motion);
+    f.compress(dealii::VectorOperation::add);
+    f *= -1.;
+  }
+
+  bool
+  ForceTerms::has_damping() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      return term.role() == Role::damping;
+    });
+  }
+
+  bool
+  ForceTerms::depends_on_velocity() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      return term.depends_on_velocity();
+    });
+  }
+
+  MatrixShares
+  ForceTerms::damping_shares() const
+  {
+    MatrixShares sum;
+    for (const auto &term : terms)
+      {
+        const MatrixShares shares = term->damping_shares();
+        sum.stiffness += shares.stiffness;
+        sum.mass += shares.mass;
+      }
+    return sum;
+  }
+
+  bool
+  ForceTerms::has_linearization(const Tangent tangent) const
+  {
+    return any_of(terms, [&](const ForceTerm &term) {
+      return belongs_to(tangent, term);
+    });
+  }
+
+  void
+  ForceTerms::linearize(const Motion &motion, const Tangent tangent)
+  {
+    for (const auto &term : terms)
+      if (belongs_to(tangent, *term))
+        term->linearize(motion);
+  }
+
+  void
+  ForceTerms::subtract_linearized(Vector       &f,
+                                  const Vector &w,
+                                  const double  load_factor,
+                                  const double  velocity_factor,
+                                  const Tangent tangent) const
+  {
+    for (const bool are_loads : {true, false})
+      {
+        const auto belongs = [&](const ForceTerm &term) {
+          return belongs_to(tangent, term) &&
+                 (term.role() == Role::load) == are_loads;
+        };
+        if (!any_of(terms, belongs))
+          continue;
+        scratch = 0;
+        for (const auto &term : terms)
+          if (belongs(*term))
+            term->add_linearized(scratch, w, velocity_factor);
+        scratch.compress(dealii::VectorOperation::add);
+        f.add(are_loads ? -load_factor : -1., scratch);
+      }
+  }
+
+  bool
+  ForceTerms::is_symmetric(const Tangent tangent) const
+  {
+    return !any_of(terms, [&](const ForceTerm &term) {
+      return belongs_to(tangent, term) && !term.is_symmetric();
+    });
+  }
+
+  bool
+  ForceTerms::has_potential() const
+  {
+    return !any_of(terms,
+                   [](const ForceTerm &term) { return !term.has_potential(); });
+  }
+
+  double
+  ForceTerms::round_off(const Motion        &motion,
+                        const double         size,
+                        const ForceRoundOff &noise) const
+  {
+    double sum = 0;
+    for (const auto &term : terms)
+      sum += term->round_off(motion, size, noise);
+    return sum;
+  }
+} // namespace corotet
