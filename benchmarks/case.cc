@@ -32,6 +32,7 @@ main(int argc, char **argv)
 
   CaseData data(which);
   add_operators(data);
+  add_deal_matrix_free(data);
   add_updates(data);
   add_solvers(data);
   add_dynamics(data);

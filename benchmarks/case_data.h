@@ -100,6 +100,10 @@ namespace corotet::benchmarks
   void
   add_operators(CaseData &data);
 
+  /// The same by deal.II's MatrixFree, of straight bodies.
+  void
+  add_deal_matrix_free(CaseData &data);
+
   /// Rotations, matrices, set-up and explicit steps of a deformed beam.
   void
   add_updates(CaseData &data);

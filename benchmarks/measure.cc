@@ -104,9 +104,18 @@ namespace corotet::benchmarks
     add(
       name,
       [=](benchmark::State &state) {
-        const Measured measured = prepare();
-        const double   once     = seconds(measured.action);
-        const int n = std::clamp(static_cast<int>(duration / once), 5, 1000);
+        Measured measured;
+        try
+          {
+            measured = prepare();
+          }
+        catch (const std::exception &error)
+          {
+            state.SkipWithError(error.what());
+            return;
+          }
+        const double once = seconds(measured.action);
+        const int    n = std::clamp(static_cast<int>(duration / once), 5, 1000);
         for (auto _ : state)
           {
             std::vector<double> times(n);

@@ -60,6 +60,8 @@ namespace corotet::benchmarks
    * Registers a benchmark of an action as a Krylov method sees it: before every
    * call @p between() is called, which is not timed and uses the vectors as
    * such a method does. The time of a repetition is the median over its calls.
+   * An exception of @p prepare, which all ranks must throw, is reported
+   * instead.
    */
   void
   add_interleaved(const std::string               &name,

@@ -5,9 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <cmath>
-
-#include "case_data.h"
+#include "application.h"
 #include "flops.h"
 #include "single_precision.h"
 
@@ -24,81 +22,6 @@ namespace corotet::benchmarks
                    const double unknowns)
     {
       return 8 * values + 4 * indices + 4 * rows + 16 * unknowns;
-    }
-
-    /// The same without a matrix: the cells, both vectors once. Indices are
-    /// those of nodes.
-    double
-    matrix_free_traffic(const Problem &problem, const double bytes_per_cell)
-    {
-      const auto &disc = problem.discretization;
-      return disc.n_global_cells() *
-               (bytes_per_cell + 4. * disc.n_nodes_per_cell()) +
-             16 * problem.n_unknowns();
-    }
-
-    /**
-     * Input and output of an application, and how far the output is from that
-     * of quadrature, which shares nothing with the others, relative to its
-     * largest entry. (Quadrature itself is compared with the factored kernel.)
-     */
-    struct Application
-    {
-      explicit Application(CaseData &data)
-        : x(data.problem().random_vector())
-        , y(x)
-        , expected(x)
-        , solution(x)
-        , residual(x)
-      {
-        data.problem().elasticity.apply_tangent_by_quadrature(expected, x);
-        data.problem().clamp(expected);
-      }
-
-      /// Where the beam is clamped, only some have the rows of a diagonal
-      /// matrix.
-      double
-      difference(const Problem &problem) const
-      {
-        Vector error(y);
-        error -= expected;
-        problem.clamp(error);
-        return error.linfty_norm() / expected.linfty_norm();
-      }
-
-      /// What conjugate gradients do with their vectors between applications.
-      void
-      update_vectors()
-      {
-        const double size = x * y;
-        solution.add(std::isfinite(size) ? 1e-9 : 1., x);
-        residual.add(-1e-9, y);
-        x.add(residual.l2_norm() > 0 ? 0. : 1., residual);
-      }
-
-      Vector x;
-      Vector y;
-      Vector expected;
-      Vector solution;
-      Vector residual;
-    };
-
-    /// One row of the table: @p make returns a function of an Application.
-    template <typename Make>
-    void
-    add_application(CaseData &data, const std::string &name, const Make &make)
-    {
-      add_interleaved(data.name(name), [&data, make] {
-        const auto     application = std::make_shared<Application>(data);
-        const Measured made        = make(*application);
-        made.action();
-        Counters counters      = made.counters;
-        counters["unknowns"]   = data.problem().n_unknowns();
-        counters["difference"] = application->difference(data.problem());
-        return Measured{[application, made] { made.action(); },
-                        counters,
-                        [application] { application->update_vectors(); }};
-      });
     }
 
     void
@@ -163,24 +86,16 @@ namespace corotet::benchmarks
       return result;
     }
 
-    Counters
-    matrix_free_counters(CaseData    &data,
-                         const double flops,
-                         const double bytes_per_cell)
-    {
-      const Problem &problem = data.problem();
-      return {{"flops", flops * problem.discretization.n_global_cells()},
-              {"bytes", matrix_free_traffic(problem, bytes_per_cell)}};
-    }
-
     void
     add_matrix_free(CaseData &data)
     {
       add_application(data, "matrix_free", [&data](Application &a) {
         const EffectiveOperator &A = data.effective();
-        return Measured{[&A, &a] { A.vmult(a.y, a.x); },
-                        matrix_free_counters(
-                          data, flops_per_cell(data.problem()).stiffness, 80)};
+        return Measured{
+          [&A, &a] { A.vmult(a.y, a.x); },
+          matrix_free_counters(data.problem(),
+                               flops_per_cell(data.problem()).stiffness,
+                               80)};
       });
       add_application(data, "matrix_free_mass", [&data](Application &a) {
         const Problem &p  = data.problem();
@@ -195,7 +110,7 @@ namespace corotet::benchmarks
         p.clamp(inertia);
         a.expected.add(4 / (dt * dt), inertia);
         return Measured{[A, &a] { A->vmult(a.y, a.x); },
-                        matrix_free_counters(data,
+                        matrix_free_counters(p,
                                              flops_per_cell(p).with_mass,
                                              88)};
       });
@@ -204,7 +119,7 @@ namespace corotet::benchmarks
         data.effective().vmult(a.expected, a.x);
         return Measured{
           [&p, &a] { p.elasticity.apply_tangent_by_quadrature(a.y, a.x); },
-          matrix_free_counters(data, flops_per_cell(p).quadrature, 168)};
+          matrix_free_counters(p, flops_per_cell(p).quadrature, 168)};
       });
     }
 
@@ -219,7 +134,7 @@ namespace corotet::benchmarks
         K->apply();
         a->y.copy_locally_owned_data_from(K->y);
         Counters counters =
-          matrix_free_counters(data,
+          matrix_free_counters(data.problem(),
                                flops_per_cell(data.problem()).stiffness,
                                40);
         counters["bytes"] -= 8 * data.problem().n_unknowns();

@@ -76,8 +76,8 @@ class Run:
     quick: bool = False
 
 
-APPLICATIONS = ["assembly", "epetra", "eigen", "block_csr", "matrix_free.*", "quadrature"]
-FREE_APPLICATIONS = ["matrix_free.*", "quadrature"]
+APPLICATIONS = ["assembly", "epetra", "eigen", "block_csr", "matrix_free.*", "quadrature", "deal_matrix_free"]
+FREE_APPLICATIONS = ["matrix_free.*", "quadrature", "deal_matrix_free"]
 UPDATES = ["rotations.*", "setup_after_rotation", "explicit_step", "(force|linearization|tangent)_.*"]
 COARSE = ["direct", "aggregation", "amg"]
 MULTIGRID = ["solve/p-multigrid", "solve/p-multigrid-.*"]
@@ -140,6 +140,8 @@ RATIOS = [
     Ratio("P3 matrix-free over Epetra SpMV", "P3/840k/epetra", "P3/840k/matrix_free", "38", at_least=25),
     Ratio("P2 matrix-free over Epetra SpMV", "P2/870k/epetra", "P2/870k/matrix_free", "19", at_least=12),
     Ratio("P3 factored over quadrature kernel", "P3/840k/quadrature", "P3/840k/matrix_free", "3.3", at_least=2.5),
+    *[Ratio(f"P{label[1]} deal.II's MatrixFree over matrix-free", f"{label}/deal_matrix_free", f"{label}/matrix_free", "-",
+            at_least=1) for label in ("P3/840k", "P2/870k", "P1/1000k")],
     Ratio("P3 840k static solve: CG + ML over p-multigrid", "P3/840k/solve/cg_ml", "P3/840k/solve/p-multigrid", "49 to 72",
           at_least=40),
     Ratio("P2 870k static solve: CG + ML over p-multigrid", "P2/870k/solve/cg_ml", "P2/870k/solve/p-multigrid", "14 to 18",

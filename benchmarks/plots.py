@@ -14,7 +14,8 @@ import tables  # noqa: E402
 COLOURS = {name: f"C{i}" for i, name in enumerate(tables.OPERATORS)}
 MARKERS = {1: "^", 2: "s", 3: "o"}
 TITLES = {"matrix_free": "matrix-free", "matrix_free_mass": "matrix-free with mass", "matrix_free_float": "matrix-free, float",
-          "quadrature": "quadrature", "block_csr": "3 x 3 block CSR", "eigen": "Eigen CSR", "epetra": "Trilinos Epetra CSR"}
+          "quadrature": "quadrature", "block_csr": "3 x 3 block CSR", "eigen": "Eigen CSR", "epetra": "Trilinos Epetra CSR",
+          "deal_matrix_free": "deal.II's MatrixFree"}
 
 SOLVERS = {"p-multigrid": "CG + p-multigrid", "cg_ml": "CG + ML, assembled", "jacobi": "CG + Jacobi, matrix-free",
            "cholmod": "CHOLMOD, assembled"}
