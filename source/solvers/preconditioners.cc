@@ -12,9 +12,10 @@ namespace corotet
   std::vector<Candidate<Preconditioner>>
   preconditioners()
   {
-    return {candidate<Preconditioner, PMultigrid>("p-multigrid"),
-            candidate<Preconditioner, AMG>("amg"),
-            candidate<Preconditioner, Jacobi>("jacobi"),
-            candidate<Preconditioner, Direct>("direct")};
+    return with_added<Preconditioner>(
+      {candidate<Preconditioner, PMultigrid>("p-multigrid"),
+       candidate<Preconditioner, AMG>("amg"),
+       candidate<Preconditioner, Jacobi>("jacobi"),
+       candidate<Preconditioner, Direct>("direct")});
   }
 } // namespace corotet

@@ -134,3 +134,95 @@ TEST(LinearSolver, FailureIsClear)
     }
   body.parameters.linear_solver.clear();
 }
+
+namespace
+{
+  // What the solver of a clamped beam needs and finds.
+  struct Solved
+  {
+    unsigned int        iterations = 0;
+    std::vector<double> x;
+  };
+
+  Solved
+  solve_beam(const std::string &cells,
+             const unsigned int degree,
+             const std::string &entries)
+  {
+    Body              body(box("4, 1, 1", cells, 0.1),
+              "subsection Discretization\n set Degree = " +
+                std::to_string(degree) +
+                "\nend\nsubsection Boundary conditions\n set Fixed = "
+                             "x-min\nend\nsubsection Linear solver\n" +
+                entries + "\nend\n");
+    EffectiveOperator A(body.discretization,
+                        body.system.elasticity(),
+                        body.system.mass(),
+                        body.system.prescribed_motion().is_prescribed());
+    A.update(1., 0.);
+    Vector x(body.state.u), b(x);
+    b = 1.;
+    body.system.prescribed_motion().set_zero(b);
+    Solved result;
+    result.iterations = body.parameters.linear_solver.solve(
+      A, x, b, body.discretization.node_positions());
+    body.parameters.linear_solver.clear();
+    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+      result.x.push_back(x.local_element(i));
+    return result;
+  }
+
+  // A preconditioner of another program: a multiple of the identity.
+  class Multiple : public Preconditioner
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      prm.add_parameter("Factor", factor);
+    }
+
+    void
+    build(const EffectiveOperator &, const Vector &) override
+    {
+      ++n_builds;
+    }
+
+    void
+    clear() override
+    {}
+
+    void
+    vmult(Vector &dst, const Vector &src) const override
+    {
+      dst.equ(factor, src);
+    }
+
+    static inline unsigned int n_builds = 0;
+
+  private:
+    double factor = 1;
+  };
+} // namespace
+
+// A preconditioner that a program adds to the library's is selected like these.
+// Conjugate gradients do not see its factor, a power of two, at all.
+TEST(LinearSolver, PreconditionerOfAnotherProgram)
+{
+  const AddedCandidate<Preconditioner> multiple(
+    candidate<Preconditioner, Multiple>("multiple"));
+  const auto solve = [](const std::string &factor) {
+    return solve_beam(
+      "4, 1, 1",
+      1,
+      "set Type = multiple\n subsection multiple\n set Factor = " + factor +
+        "\n end");
+  };
+  Multiple::n_builds = 0;
+  const Solved one = solve("1"), four = solve("4");
+  EXPECT_EQ(Multiple::n_builds, 2u);
+  EXPECT_GT(one.iterations,
+            solve_beam("4, 1, 1", 1, "set Type = direct").iterations);
+  EXPECT_EQ(one.iterations, four.iterations);
+  EXPECT_EQ(one.x, four.x);
+}
