@@ -65,7 +65,8 @@ namespace corotet
                       coarse_type,
                       "For degree 1: 'direct', a sparse factorisation; "
                       "'aggregation', one cycle of smoothed aggregation with "
-                      "two levels; 'amg', one cycle of Trilinos ML; "
+                      "two levels; 'amg', one cycle of Trilinos ML, with the "
+                      "parameters of 'Linear solver/amg'; "
                       "'automatic', the direct one up to the limit below, then "
                       "aggregation.",
                       dealii::Patterns::Selection(

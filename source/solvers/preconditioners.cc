@@ -12,9 +12,10 @@ namespace corotet
   std::vector<Candidate<Preconditioner>>
   preconditioners()
   {
+    const auto amg = std::make_shared<AMGParameters>();
     return with_added<Preconditioner>(
-      {candidate<Preconditioner, PMultigrid>("p-multigrid"),
-       candidate<Preconditioner, AMG>("amg"),
+      {candidate<Preconditioner, PMultigrid>("p-multigrid", amg),
+       candidate<Preconditioner, AMG>("amg", amg),
        candidate<Preconditioner, Jacobi>("jacobi"),
        candidate<Preconditioner, Direct>("direct")});
   }

@@ -226,3 +226,40 @@ TEST(LinearSolver, PreconditionerOfAnotherProgram)
   EXPECT_EQ(one.iterations, four.iterations);
   EXPECT_EQ(one.x, four.x);
 }
+
+// The coarse solver "amg" of p-multigrid has the parameters of section amg. At
+// degree 1 it is all of p-multigrid, so the solution is that of "Type = amg" to
+// the last bit, for every parameter; more sweeps save iterations, and do so
+// below degree 2, too.
+TEST(LinearSolver, CoarseAMGHasItsParameters)
+{
+  const std::string within =
+    "set Type = p-multigrid\n subsection p-multigrid\n set Coarse solver = "
+    "amg\n end\n";
+  const auto amg = [](const std::string &sweeps, const std::string &threshold) {
+    return "subsection amg\n set Smoother sweeps = " + sweeps +
+           "\n set Aggregation threshold = " + threshold + "\n end\n";
+  };
+  // More unknowns than the coarsest level may have.
+  const std::string cells = "20, 6, 6";
+  for (const std::string sweeps : {"1", "2", "8"})
+    for (const std::string threshold : {"1e-4", "0.05"})
+      {
+        const Solved by_itself =
+          solve_beam(cells, 1, "set Type = amg\n" + amg(sweeps, threshold));
+        const Solved coarse =
+          solve_beam(cells, 1, within + amg(sweeps, threshold));
+        EXPECT_EQ(coarse.iterations, by_itself.iterations);
+        EXPECT_EQ(coarse.x, by_itself.x) << sweeps << ' ' << threshold;
+      }
+  for (const unsigned int degree : {1u, 2u})
+    {
+      const unsigned int few =
+        solve_beam(cells, degree, within + amg("1", "1e-4")).iterations;
+      const unsigned int many =
+        solve_beam(cells, degree, within + amg("8", "1e-4")).iterations;
+      report("iterations with 1 sweep", few);
+      report("iterations with 8 sweeps", many);
+      EXPECT_GT(few, many) << degree;
+    }
+}

@@ -34,6 +34,12 @@ namespace corotet
   class PMultigrid : public Preconditioner
   {
   public:
+    /// @p amg: parameters of the coarse solver "amg", which others declare.
+    explicit PMultigrid(const std::shared_ptr<AMGParameters> &amg =
+                          std::make_shared<AMGParameters>())
+      : amg(amg)
+    {}
+
     void
     declare_parameters(dealii::ParameterHandler &prm) override;
 
