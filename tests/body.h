@@ -92,15 +92,12 @@ namespace corotet::tests
    */
   struct Body
   {
-    Body(const SerialMesh &serial_mesh, const std::string &text)
-      : log(MPI_COMM_WORLD, true)
+    Body(const SerialMesh  &serial_mesh,
+         const std::string &text,
+         const MPI_Comm     comm = MPI_COMM_WORLD)
+      : log(comm, true)
       , parameters(text)
-      , mesh(serial_mesh,
-             0,
-             1.,
-             MPI_COMM_WORLD,
-             log,
-             parameters.element().degree())
+      , mesh(serial_mesh, 0, 1., comm, log, parameters.element().degree())
       , discretization(mesh, parameters.element())
       , system(discretization, parameters, tables, wall_times, log)
     {

@@ -11,33 +11,22 @@
 
 namespace corotet
 {
-  namespace
-  {
-    template <typename Kind>
-    std::unique_ptr<ForceKind>
-    make()
-    {
-      return std::make_unique<Kind>();
-    }
-  } // namespace
-
-  const std::vector<std::function<std::unique_ptr<ForceKind>()>> &
+  std::vector<Candidate<ForceKind>>
   force_kinds()
   {
-    static const std::vector<std::function<std::unique_ptr<ForceKind>()>> kinds{
-      make<GravityKind>,
-      make<BodyForceKind>,
-      make<PointForcesKind>,
-      make<TractionKind>,
-      make<PressureKind>,
-      make<RayleighDampingKind>};
-    return kinds;
+    return with_added<ForceKind>(
+      {candidate<ForceKind, GravityKind>("gravity"),
+       candidate<ForceKind, BodyForceKind>("body force"),
+       candidate<ForceKind, PointForcesKind>("point forces"),
+       candidate<ForceKind, TractionKind>("traction"),
+       candidate<ForceKind, PressureKind>("pressure"),
+       candidate<ForceKind, RayleighDampingKind>("Rayleigh damping")});
   }
 
   ForceParameters::ForceParameters()
   {
-    for (const auto &make_kind : force_kinds())
-      kinds.push_back(make_kind());
+    for (const Candidate<ForceKind> &kind : force_kinds())
+      kinds.push_back(kind.make());
   }
 
   void

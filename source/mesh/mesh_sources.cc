@@ -10,7 +10,7 @@ namespace corotet
   std::vector<Candidate<MeshSource>>
   mesh_sources()
   {
-    return {candidate<MeshSource, BoxMesh>("box"),
-            candidate<MeshSource, GmshMesh>("gmsh")};
+    return with_added<MeshSource>({candidate<MeshSource, BoxMesh>("box"),
+                                   candidate<MeshSource, GmshMesh>("gmsh")});
   }
 } // namespace corotet

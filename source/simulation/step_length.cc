@@ -25,17 +25,26 @@ namespace corotet
                        "found true; allowed with Time integration/Type = "
                        "static: false, as nothing would correct the error of "
                        "a load step");
+    const auto has_stable_step = [](const TimeIntegrator &method) {
+      return method.stability() != nullptr;
+    };
     if (parameters.time_step == 0 && integrator.is_dynamic() &&
-        !integrator.stability())
-      throw InputError(section + "Time step",
-                       "found 0; allowed: a positive number (0, the program's "
-                       "choice, with Type = central difference)");
+        !has_stable_step(integrator))
+      throw InputError(
+        section + "Time step",
+        fmt::format("found 0; allowed: a positive number (0, the program's "
+                    "choice, with Type = {})",
+                    parameters.time_integrator.names_of(has_stable_step)));
     parameters.adaptive_step.check();
-    if (parameters.adaptive_step.enabled && integrator.error_constant() == 0)
-      throw InputError(section + "Adaptive step/Enabled",
-                       "found true; allowed with Type = Newmark (beta other "
-                       "than 1/6), HHT-alpha and generalized-alpha, which "
-                       "estimate their error");
+    const auto estimates_error = [](const TimeIntegrator &method) {
+      return method.error_constant() > 0 && !method.is_explicit();
+    };
+    if (parameters.adaptive_step.enabled && !estimates_error(integrator))
+      throw InputError(
+        section + "Adaptive step/Enabled",
+        fmt::format("found true; allowed with Type = {}, which estimate their "
+                    "error (Newmark not with beta = 1/6)",
+                    parameters.time_integrator.names_of(estimates_error)));
   }
 
   void

@@ -87,12 +87,13 @@ namespace corotet
   {
     recording               = wanted;
     const double start_time = parameters.start_time;
+    integrator.reset();
     if (integrator.is_dynamic())
       {
         system.prescribe(present, start_time, 1.);
         const StageReport report =
           system.solve_acceleration(present, start_time);
-        if (integrator.stability() && !system.mass().is_lumped())
+        if (integrator.is_explicit() && !system.mass().is_lumped())
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
                                "gradients a step",
                                report.linear_iterations));
@@ -135,7 +136,7 @@ namespace corotet
         from                   = done;
         try
           {
-            if (integrator.stability())
+            if (integrator.is_explicit())
               advance_explicitly(next);
             else if (adaptive)
               advance_adaptively(next);
@@ -144,10 +145,12 @@ namespace corotet
                       end_of_step(next.step),
                       parameters.max_halvings,
                       next);
+            if (is_stable_step_due(next.step))
+              follow_stable_step();
           }
         catch (const ComputationError &)
           {
-            if (integrator.stability())
+            if (integrator.is_explicit())
               {
                 present = good_state;
                 done    = good_done;
@@ -179,12 +182,10 @@ namespace corotet
   {
     // If the work of many steps is as easy to tell as that of one: all steps up
     // to one that is recorded or that an estimate follows.
-    const unsigned int interval =
-      integrator.stability()->steps_between_estimates;
     unsigned int n  = 1;
     double       to = end_of_step(record.step);
     while (system.can_leap() && !is_recorded(record.step, from, to) &&
-           record.step % interval != 0)
+           !is_stable_step_due(record.step))
       {
         ++record.step;
         ++n;
@@ -200,8 +201,6 @@ namespace corotet
         good_state = present;
         good_done  = done;
       }
-    if (record.step % interval == 0)
-      follow_stable_step();
   }
 
   void

@@ -9,7 +9,7 @@
 namespace corotet
 {
   void
-  AMG::declare_parameters(dealii::ParameterHandler &prm)
+  AMGParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Aggregation threshold",
                       aggregation_threshold,
@@ -52,10 +52,10 @@ namespace corotet
     ML_Epetra::SetDefaults("SA", list);
     list.set("ML output", 0);
     list.set("aggregation: type", "Uncoupled");
-    list.set("aggregation: threshold", aggregation_threshold);
+    list.set("aggregation: threshold", parameters->aggregation_threshold);
     list.set("PDE equations", 3);
     list.set("smoother: type", "Chebyshev");
-    list.set("smoother: sweeps", static_cast<int>(smoother_sweeps));
+    list.set("smoother: sweeps", static_cast<int>(parameters->smoother_sweeps));
     list.set("smoother: pre or post", "both");
     list.set("coarse: type", "Amesos-KLU");
     list.set("coarse: max size", 2000);

@@ -32,7 +32,7 @@ namespace corotet
   }
 
   void
-  Chebyshev::estimate_eigenvalues()
+  Chebyshev::estimate_eigenvalues(const FloatVector &start)
   {
     // The Lanczos method for D^{-1} A in the inner product of D.
     constexpr unsigned int n_steps = 12;
@@ -40,13 +40,10 @@ namespace corotet
     constexpr double   safety = 1.1;
     const unsigned int n      = inverse_diagonal.locally_owned_size();
     FloatVector        v(inverse_diagonal), previous(v), w(v);
-    const auto         first = A.nodes().partitioner()->local_range().first;
     for (unsigned int i = 0; i < n; ++i)
       {
-        // A start without pattern, the same in every run.
-        const double s = std::sin(12.9898 * (first + i) + 78.233) * 43758.5453;
-        v.local_element(i) = (s - std::floor(s) - 0.5) *
-                             std::sqrt(inverse_diagonal.local_element(i));
+        v.local_element(i) =
+          start.local_element(i) * std::sqrt(inverse_diagonal.local_element(i));
         previous.local_element(i) = 0;
       }
     const auto norm = [&](const FloatVector &x) {

@@ -373,7 +373,8 @@ namespace corotet
                 const Vector  &prototype,
                 NewtonReport  &report) const
   {
-    if (r.size() != prototype.size())
+    // Of another problem vectors may have the same size on other ranks.
+    if (r.get_partitioner() != prototype.get_partitioner())
       for (Vector *vector : {&r, &dx, &best_dx})
         vector->reinit(prototype);
     Search(*this, problem, report).run();

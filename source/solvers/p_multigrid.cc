@@ -3,8 +3,13 @@
 
 #include <corotet/solvers/p_multigrid.h>
 
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
@@ -32,6 +37,43 @@ namespace corotet
       const auto *const  from = source.begin();
       for (unsigned int i = 0; i < n; ++i)
         to[i] = factor * from[i];
+    }
+
+    // Values in [-1, 1] without pattern, by the places of the nodes in the body
+    // alone: the same on any number of ranks, and in any units. They are smooth
+    // functions of the place, so that round-off of positions, which others than
+    // vertices have, grows to 1e7 roundings of doubles: none of floats.
+    void
+    fill_by_place(dealii::LinearAlgebra::distributed::Vector<float> &values,
+                  const Discretization &discretization)
+    {
+      const unsigned int    n = discretization.n_owned_nodes();
+      std::array<double, 6> ends;
+      ends.fill(std::numeric_limits<double>::lowest());
+      for (unsigned int node = 0; node < n; ++node)
+        for (unsigned int a = 0; a < 3; ++a)
+          {
+            const double x = discretization.node_position(node)[a];
+            ends[a]        = std::max(ends[a], x);
+            ends[3 + a]    = std::max(ends[3 + a], -x);
+          }
+      dealii::Utilities::MPI::max(dealii::ArrayView<const double>(ends.data(),
+                                                                  6),
+                                  discretization.communicator(),
+                                  dealii::ArrayView<double>(ends.data(), 6));
+      const double size =
+        std::max({ends[0] + ends[3], ends[1] + ends[4], ends[2] + ends[5]});
+      constexpr double waves[3] = {12.9898, 78.233, 37.719};
+      for (unsigned int node = 0; node < n; ++node)
+        {
+          double phase = 0;
+          for (unsigned int a = 0; a < 3; ++a)
+            phase += waves[a] / size *
+                     (discretization.node_position(node)[a] + ends[3 + a]);
+          for (unsigned int a = 0; a < 3; ++a)
+            values.local_element(3 * node + a) =
+              std::sin(43758.5453 * std::sin(phase + a));
+        }
     }
   } // namespace
 
@@ -65,7 +107,8 @@ namespace corotet
                       coarse_type,
                       "For degree 1: 'direct', a sparse factorisation; "
                       "'aggregation', one cycle of smoothed aggregation with "
-                      "two levels; 'amg', one cycle of Trilinos ML; "
+                      "two levels; 'amg', one cycle of Trilinos ML, with the "
+                      "parameters of 'Linear solver/amg'; "
                       "'automatic', the direct one up to the limit below, then "
                       "aggregation.",
                       dealii::Patterns::Selection(
@@ -146,9 +189,33 @@ namespace corotet
         choose_units(A);
       }
     update(A);
-    for (const auto &level : levels)
-      level->smoother.estimate_eigenvalues();
+    estimate_eigenvalues(A.discretization());
     build_coarse_solver(A, positions);
+  }
+
+  void
+  PMultigrid::estimate_eigenvalues(const Discretization &discretization)
+  {
+    // Nodes of coarser levels have no places of their own on all ranks alike:
+    // their start is what they see of the finer one.
+    for (unsigned int l = 0; l < levels.size(); ++l)
+      {
+        FloatVector &start = levels[l]->b;
+        if (l == 0)
+          fill_by_place(start, discretization);
+        else
+          levels[l - 1]->coarser.restrict_to(start, levels[l - 1]->b);
+        levels[l]->smoother.estimate_eigenvalues(start);
+      }
+  }
+
+  std::vector<double>
+  PMultigrid::largest_eigenvalues() const
+  {
+    std::vector<double> result;
+    for (const auto &level : levels)
+      result.push_back(level->smoother.largest_eigenvalue());
+    return result;
   }
 
   void

@@ -12,9 +12,11 @@ namespace corotet
   std::vector<Candidate<Preconditioner>>
   preconditioners()
   {
-    return {candidate<Preconditioner, PMultigrid>("p-multigrid"),
-            candidate<Preconditioner, AMG>("amg"),
-            candidate<Preconditioner, Jacobi>("jacobi"),
-            candidate<Preconditioner, Direct>("direct")};
+    const auto amg = std::make_shared<AMGParameters>();
+    return with_added<Preconditioner>(
+      {candidate<Preconditioner, PMultigrid>("p-multigrid", amg),
+       candidate<Preconditioner, AMG>("amg", amg),
+       candidate<Preconditioner, Jacobi>("jacobi"),
+       candidate<Preconditioner, Direct>("direct")});
   }
 } // namespace corotet

@@ -10,9 +10,8 @@ namespace corotet
   void
   BDF2::remember(const double time, const State &state)
   {
-    if (time < present.time)
-      // Another run.
-      present = before = {};
+    Assert(!(time < present.time),
+           dealii::ExcMessage("reset() starts another run"));
     if (time > present.time)
       std::swap(present, before);
     // Else the same step is tried again.

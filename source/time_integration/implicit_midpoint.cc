@@ -11,13 +11,10 @@ namespace corotet
                          State             &state)
   {
     const double dt = step.dt;
-    if (middle.u.size() != state.u.size())
-      middle = state;
 
     // Guess: a_m is that of the step before.
-    middle.u = state.u;
+    middle = state;
     middle.u.add(dt, state.v, 0.5 * dt * dt, state.a);
-    middle.v = state.v;
     middle.v.add(dt, state.a);
     system.prescribe(middle, step.end, 1.);
 

@@ -7,6 +7,30 @@
 
 namespace corotet
 {
+  unsigned int
+  NewmarkFamily::order() const
+  {
+    const Coefficients c = coefficients();
+    // But for round-off in coefficients.
+    return std::abs(c.gamma - (0.5 - c.alpha_m + c.alpha_f)) <= 1e-12 ? 2 : 1;
+  }
+
+  bool
+  NewmarkFamily::balances_at_end() const
+  {
+    const Coefficients c = coefficients();
+    return c.alpha_m == 0 && c.alpha_f == 0;
+  }
+
+  bool
+  NewmarkFamily::keeps_energy() const
+  {
+    // The trapezoidal rule: if the equation holds at the start and, with the
+    // same weights for all terms, in between, it holds at the end.
+    const Coefficients c = coefficients();
+    return c.beta == 0.25 && c.gamma == 0.5 && c.alpha_m == c.alpha_f;
+  }
+
   double
   NewmarkFamily::error_constant() const
   {
@@ -22,8 +46,6 @@ namespace corotet
     const auto [beta, gamma, alpha_m, alpha_f] = coefficients();
 
     const double dt = step.dt;
-    if (stage.u.size() != state.u.size())
-      stage = state;
 
     // Guess: a_1 = a_0, and what follows for u_1 and v_1.
     stage.u = state.u;

@@ -16,13 +16,14 @@ namespace corotet
   std::vector<Candidate<TimeIntegrator>>
   time_integrators()
   {
-    return {candidate<TimeIntegrator, LoadStepping>("static"),
-            candidate<TimeIntegrator, BackwardEuler>("backward Euler"),
-            candidate<TimeIntegrator, BDF2>("BDF2"),
-            candidate<TimeIntegrator, ImplicitMidpoint>("implicit midpoint"),
-            candidate<TimeIntegrator, Newmark>("Newmark"),
-            candidate<TimeIntegrator, HHTAlpha>("HHT-alpha"),
-            candidate<TimeIntegrator, GeneralizedAlpha>("generalized-alpha"),
-            candidate<TimeIntegrator, CentralDifference>("central difference")};
+    return with_added<TimeIntegrator>(
+      {candidate<TimeIntegrator, LoadStepping>("static"),
+       candidate<TimeIntegrator, BackwardEuler>("backward Euler"),
+       candidate<TimeIntegrator, BDF2>("BDF2"),
+       candidate<TimeIntegrator, ImplicitMidpoint>("implicit midpoint"),
+       candidate<TimeIntegrator, Newmark>("Newmark"),
+       candidate<TimeIntegrator, HHTAlpha>("HHT-alpha"),
+       candidate<TimeIntegrator, GeneralizedAlpha>("generalized-alpha"),
+       candidate<TimeIntegrator, CentralDifference>("central difference")});
   }
 } // namespace corotet

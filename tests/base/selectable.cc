@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The named run-time choice: an entry `Type` and a subsection per candidate.
-// Expected values are what the parameter texts say.
+// The named run-time choice: an entry `Type` and a subsection per candidate,
+// those that programs add included. Expected values are what the texts say.
 
 #include <corotet/base/selectable.h>
 
@@ -57,11 +57,33 @@ namespace
     }
   };
 
+  // Of a given area.
+  class Blob : public Shape
+  {
+  public:
+    explicit Blob(const double size)
+      : size(size)
+    {}
+
+    void
+    declare_parameters(dealii::ParameterHandler &) override
+    {}
+
+    double
+    area() const override
+    {
+      return size;
+    }
+
+  private:
+    double size;
+  };
+
   std::vector<Candidate<Shape>>
   shapes()
   {
-    return {candidate<Shape, Square>("square"),
-            candidate<Shape, Nothing>("nothing")};
+    return with_added<Shape>({candidate<Shape, Square>("square"),
+                              candidate<Shape, Nothing>("nothing")});
   }
 } // namespace
 
@@ -97,4 +119,39 @@ TEST(Selectable, RefusesUnknownNames)
   shape.declare_parameters(prm, "Which shape.");
   EXPECT_THROW(prm.set("Type", "circle"),
                dealii::ParameterHandler::ExcValueDoesNotMatchPattern);
+}
+
+TEST(Selectable, NamesThoseWithAProperty)
+{
+  const Selectable<Shape> shape(shapes(), "square");
+  EXPECT_EQ(shape.names_of([](const Shape &s) { return s.area() > 0; }),
+            "square");
+  EXPECT_EQ(shape.names_of([](const Shape &s) { return s.area() < 9; }),
+            "square, nothing");
+  EXPECT_EQ(shape.names_of([](const Shape &s) { return s.area() > 9; }), "");
+}
+
+// What a program adds is chosen like the others, after them, as long as the
+// addition lives; a choice that was made in that time keeps it.
+TEST(Selectable, HasAddedCandidates)
+{
+  std::unique_ptr<Selectable<Shape>> shape;
+  dealii::ParameterHandler           prm;
+  {
+    const AddedCandidate<Shape> blob(candidate<Shape, Blob>("blob", 7.));
+    shape = std::make_unique<Selectable<Shape>>(shapes(), "square");
+    EXPECT_EQ(shapes().size(), 3u);
+    EXPECT_EQ(shapes().back().name, "blob");
+  }
+  EXPECT_EQ(shapes().size(), 2u);
+  shape->declare_parameters(prm, "Which shape.");
+  EXPECT_EQ(shape->selected().area(), 4);
+  prm.parse_input_from_string("set Type = blob\nsubsection blob\nend\n");
+  EXPECT_EQ(shape->selected().area(), 7);
+}
+
+TEST(Selectable, RefusesAddedCandidatesWithTheSameName)
+{
+  const AddedCandidate<Shape> square(candidate<Shape, Blob>("square", 1.));
+  EXPECT_THROW(shapes(), dealii::ExceptionBase);
 }

@@ -291,3 +291,44 @@ TEST(MeshNames, Lookup)
             "Material/Region: no such region: found 'a'; the mesh has no "
             "regions");
 }
+
+namespace
+{
+  // The box above, stretched to a given height.
+  class Stretched : public MeshSource
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      prm.add_parameter("Height", height);
+    }
+
+    SerialMesh
+    create(const std::string &, const unsigned int) const override
+    {
+      SerialMesh mesh = box("4, 1, 2");
+      for (auto &vertex : mesh.vertices)
+        vertex[2] *= height;
+      return mesh;
+    }
+
+  private:
+    double height = 1;
+  };
+} // namespace
+
+// A source that a program adds to the library's is selected like these.
+TEST(Mesh, FromASourceOfAnotherProgram)
+{
+  const AddedCandidate<MeshSource> stretched(
+    candidate<MeshSource, Stretched>("stretched"));
+  MeshParameters           parameters;
+  dealii::ParameterHandler prm;
+  parameters.declare_parameters(prm);
+  prm.parse_input_from_string(
+    "set Type = stretched\nsubsection stretched\nset Height = 3\nend\n");
+  Log        log(comm, true);
+  const Mesh mesh(parameters, "", comm, log);
+  EXPECT_NEAR(volume(mesh, 0), 2 * 0.5 * 3, 1e-13);
+}

@@ -24,6 +24,7 @@ namespace
   StepRecord
   run(Body &body, TimeIntegrator &integrator, const double end, unsigned int n)
   {
+    integrator.reset();
     body.system.prescribe(body.state, 0., 1.);
     body.system.solve_acceleration(body.state, 0.);
     Budget     budget(body.system, body.discretization, body.state, 0., 1.);

@@ -134,3 +134,132 @@ TEST(LinearSolver, FailureIsClear)
     }
   body.parameters.linear_solver.clear();
 }
+
+namespace
+{
+  // What the solver of a clamped beam needs and finds.
+  struct Solved
+  {
+    unsigned int        iterations = 0;
+    std::vector<double> x;
+  };
+
+  Solved
+  solve_beam(const std::string &cells,
+             const unsigned int degree,
+             const std::string &entries)
+  {
+    Body              body(box("4, 1, 1", cells, 0.1),
+              "subsection Discretization\n set Degree = " +
+                std::to_string(degree) +
+                "\nend\nsubsection Boundary conditions\n set Fixed = "
+                             "x-min\nend\nsubsection Linear solver\n" +
+                entries + "\nend\n");
+    EffectiveOperator A(body.discretization,
+                        body.system.elasticity(),
+                        body.system.mass(),
+                        body.system.prescribed_motion().is_prescribed());
+    A.update(1., 0.);
+    Vector x(body.state.u), b(x);
+    b = 1.;
+    body.system.prescribed_motion().set_zero(b);
+    Solved result;
+    result.iterations = body.parameters.linear_solver.solve(
+      A, x, b, body.discretization.node_positions());
+    body.parameters.linear_solver.clear();
+    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+      result.x.push_back(x.local_element(i));
+    return result;
+  }
+
+  // A preconditioner of another program: a multiple of the identity.
+  class Multiple : public Preconditioner
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      prm.add_parameter("Factor", factor);
+    }
+
+    void
+    build(const EffectiveOperator &, const Vector &) override
+    {
+      ++n_builds;
+    }
+
+    void
+    clear() override
+    {}
+
+    void
+    vmult(Vector &dst, const Vector &src) const override
+    {
+      dst.equ(factor, src);
+    }
+
+    static inline unsigned int n_builds = 0;
+
+  private:
+    double factor = 1;
+  };
+} // namespace
+
+// A preconditioner that a program adds to the library's is selected like these.
+// Conjugate gradients do not see its factor, a power of two, at all.
+TEST(LinearSolver, PreconditionerOfAnotherProgram)
+{
+  const AddedCandidate<Preconditioner> multiple(
+    candidate<Preconditioner, Multiple>("multiple"));
+  const auto solve = [](const std::string &factor) {
+    return solve_beam(
+      "4, 1, 1",
+      1,
+      "set Type = multiple\n subsection multiple\n set Factor = " + factor +
+        "\n end");
+  };
+  Multiple::n_builds = 0;
+  const Solved one = solve("1"), four = solve("4");
+  EXPECT_EQ(Multiple::n_builds, 2u);
+  EXPECT_GT(one.iterations,
+            solve_beam("4, 1, 1", 1, "set Type = direct").iterations);
+  EXPECT_EQ(one.iterations, four.iterations);
+  EXPECT_EQ(one.x, four.x);
+}
+
+// The coarse solver "amg" of p-multigrid has the parameters of section amg. At
+// degree 1 it is all of p-multigrid, so the solution is that of "Type = amg" to
+// the last bit, for every parameter; more sweeps save iterations, and do so
+// below degree 2, too.
+TEST(LinearSolver, CoarseAMGHasItsParameters)
+{
+  const std::string within =
+    "set Type = p-multigrid\n subsection p-multigrid\n set Coarse solver = "
+    "amg\n end\n";
+  const auto amg = [](const std::string &sweeps, const std::string &threshold) {
+    return "subsection amg\n set Smoother sweeps = " + sweeps +
+           "\n set Aggregation threshold = " + threshold + "\n end\n";
+  };
+  // More unknowns than the coarsest level may have.
+  const std::string cells = "20, 6, 6";
+  for (const std::string sweeps : {"1", "2", "8"})
+    for (const std::string threshold : {"1e-4", "0.05"})
+      {
+        const Solved by_itself =
+          solve_beam(cells, 1, "set Type = amg\n" + amg(sweeps, threshold));
+        const Solved coarse =
+          solve_beam(cells, 1, within + amg(sweeps, threshold));
+        EXPECT_EQ(coarse.iterations, by_itself.iterations);
+        EXPECT_EQ(coarse.x, by_itself.x) << sweeps << ' ' << threshold;
+      }
+  for (const unsigned int degree : {1u, 2u})
+    {
+      const unsigned int few =
+        solve_beam(cells, degree, within + amg("1", "1e-4")).iterations;
+      const unsigned int many =
+        solve_beam(cells, degree, within + amg("8", "1e-4")).iterations;
+      report("iterations with 1 sweep", few);
+      report("iterations with 8 sweeps", many);
+      EXPECT_GT(few, many) << degree;
+    }
+}

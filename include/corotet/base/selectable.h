@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -25,14 +26,82 @@ namespace corotet
   };
 
   /**
-   * The candidate called @p name of class @p Derived: one line in a layer's
-   * list registers it.
+   * The candidate called @p name of class @p Derived, made with @p arguments:
+   * one line in a layer's list registers it.
    */
-  template <typename Base, typename Derived>
+  template <typename Base, typename Derived, typename... Arguments>
   Candidate<Base>
-  candidate(const std::string &name)
+  candidate(const std::string &name, const Arguments &...arguments)
   {
-    return {name, [] { return std::make_unique<Derived>(); }};
+    return {name,
+            [arguments...] { return std::make_unique<Derived>(arguments...); }};
+  }
+
+  /**
+   * Candidates that programs have added to the list of @p Base: what
+   * AddedCandidate keeps.
+   */
+  template <typename Base>
+  std::vector<Candidate<Base>> &
+  added_candidates()
+  {
+    static std::vector<Candidate<Base>> candidates;
+    return candidates;
+  }
+
+  /**
+   * Adds a candidate to a layer's list, without a change of the library, for as
+   * long as this object lives: the choices that are made in that time have it,
+   * by its name, with its parameters. As a global variable, or at the start of
+   * main(), of a program that uses the library:
+   *
+   *   const AddedCandidate<TimeIntegrator> added(
+   *     candidate<TimeIntegrator, MyIntegrator>("my integrator"));
+   *
+   * All ranks must add the same. The name must not be that of another
+   * candidate.
+   */
+  template <typename Base>
+  class AddedCandidate
+  {
+  public:
+    explicit AddedCandidate(const Candidate<Base> &added)
+      : name(added.name)
+    {
+      added_candidates<Base>().push_back(added);
+    }
+
+    AddedCandidate(const AddedCandidate &) = delete;
+    AddedCandidate &
+    operator=(const AddedCandidate &) = delete;
+
+    ~AddedCandidate()
+    {
+      std::erase_if(added_candidates<Base>(),
+                    [&](const Candidate<Base> &c) { return c.name == name; });
+    }
+
+  private:
+    const std::string name;
+  };
+
+  /**
+   * A layer's own candidates, and those that programs have added. Throws if two
+   * have the same name.
+   */
+  template <typename Base>
+  std::vector<Candidate<Base>>
+  with_added(std::vector<Candidate<Base>> candidates)
+  {
+    for (const Candidate<Base> &added : added_candidates<Base>())
+      {
+        for (const Candidate<Base> &other : candidates)
+          AssertThrow(other.name != added.name,
+                      dealii::ExcMessage("Two candidates are called " +
+                                         added.name));
+        candidates.push_back(added);
+      }
+    return candidates;
   }
 
   /**
@@ -82,6 +151,18 @@ namespace corotet
     name() const
     {
       return selected_name;
+    }
+
+    /// Names of the candidates, with their present parameters, that have a
+    /// property: "a, b, c".
+    std::string
+    names_of(const std::function<bool(const Base &)> &property) const
+    {
+      std::string names;
+      for (const auto &[name, object] : objects)
+        if (property(*object))
+          names += (names.empty() ? "" : ", ") + name;
+      return names;
     }
 
     Base &

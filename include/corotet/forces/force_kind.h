@@ -5,6 +5,7 @@
 #define corotet_forces_force_kind_h
 
 #include <corotet/base/log.h>
+#include <corotet/base/selectable.h>
 #include <corotet/base/table_functions.h>
 #include <corotet/discretization/boundary_conditions.h>
 #include <corotet/discretization/reference_element.h>
@@ -13,7 +14,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -93,8 +93,8 @@ namespace corotet
     std::vector<std::unique_ptr<ForceKind>> kinds;
   };
 
-  /// The registry: how each kind is made. One line in force_kinds.cc for each.
-  const std::vector<std::function<std::unique_ptr<ForceKind>()>> &
+  /// All kinds of forces, and those that programs have added.
+  std::vector<Candidate<ForceKind>>
   force_kinds();
 } // namespace corotet
 

@@ -10,7 +10,8 @@
 namespace corotet
 {
   /**
-   * All mesh sources, by the names that a parameter file selects them by.
+   * All mesh sources, by the names that a parameter file selects them by:
+   * the library's, and what programs have added (AddedCandidate).
    */
   std::vector<Candidate<MeshSource>>
   mesh_sources();

@@ -93,6 +93,13 @@ namespace corotet
     /// Throws ComputationError.
     void
     follow_stable_step();
+    /// Whether that is to be done again after step @p step.
+    bool
+    is_stable_step_due(const unsigned int step) const
+    {
+      const StabilityControl *control = integrator.stability();
+      return control && step % control->steps_between_estimates == 0;
+    }
     /// Warns, once, if a run of that many steps [-] of that length [s] takes
     /// very long.
     void

@@ -8,10 +8,23 @@
 
 #include <deal.II/lac/trilinos_precondition.h>
 
+#include <memory>
 #include <vector>
 
 namespace corotet
 {
+  /**
+   * The parameters of AMG, also where it is the coarse solver of p-multigrid.
+   */
+  struct AMGParameters
+  {
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    double       aggregation_threshold = 1e-4;
+    unsigned int smoother_sweeps       = 2;
+  };
+
   /**
    * One V-cycle of smoothed aggregation (Trilinos ML) on the assembled matrix,
    * with the six rigid body modes of the current configuration as near null
@@ -20,8 +33,16 @@ namespace corotet
   class AMG : public Preconditioner
   {
   public:
+    explicit AMG(const std::shared_ptr<AMGParameters> &parameters =
+                   std::make_shared<AMGParameters>())
+      : parameters(parameters)
+    {}
+
     void
-    declare_parameters(dealii::ParameterHandler &prm) override;
+    declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      parameters->declare_parameters(prm);
+    }
 
     void
     build(const EffectiveOperator &A, const Vector &positions) override;
@@ -39,8 +60,7 @@ namespace corotet
     vmult(Vector &dst, const Vector &src) const override;
 
   private:
-    double       aggregation_threshold = 1e-4;
-    unsigned int smoother_sweeps       = 2;
+    const std::shared_ptr<AMGParameters> parameters;
 
     dealii::TrilinosWrappers::PreconditionAMG amg;
     /// Six vectors over the owned unknowns, one after another; ML refers to it.

@@ -30,10 +30,17 @@ namespace corotet
     void
     update_diagonal(const FloatVector &diagonal);
 
-    /// Estimates the largest eigenvalue of D^{-1} A by some Lanczos steps.
-    /// Collective.
+    /// Estimates the largest eigenvalue of D^{-1} A by some Lanczos steps from
+    /// D^{-1/2} times @p start, which must have no pattern. Collective.
     void
-    estimate_eigenvalues();
+    estimate_eigenvalues(const FloatVector &start);
+
+    /// The last estimate, some percent above.
+    double
+    largest_eigenvalue() const
+    {
+      return max_eigenvalue;
+    }
 
     /// Smooths A x = b from x = 0; collective.
     void

@@ -34,6 +34,12 @@ namespace corotet
   class PMultigrid : public Preconditioner
   {
   public:
+    /// @p amg: parameters of the coarse solver "amg", which others declare.
+    explicit PMultigrid(const std::shared_ptr<AMGParameters> &amg =
+                          std::make_shared<AMGParameters>())
+      : amg(amg)
+    {}
+
     void
     declare_parameters(dealii::ParameterHandler &prm) override;
 
@@ -48,6 +54,11 @@ namespace corotet
 
     void
     vmult(Vector &dst, const Vector &src) const override;
+
+    /// What the smoothers of all levels, the finest first, take for the largest
+    /// eigenvalue of D^{-1} A since the last build().
+    std::vector<double>
+    largest_eigenvalues() const;
 
   private:
     using FloatVector = Chebyshev::FloatVector;
@@ -74,6 +85,8 @@ namespace corotet
     make_levels(const EffectiveOperator &A);
     void
     choose_units(const EffectiveOperator &A);
+    void
+    estimate_eigenvalues(const Discretization &discretization);
     void
     build_coarse_solver(const EffectiveOperator &A, const Vector &positions);
     /// Vector is that of double or float.

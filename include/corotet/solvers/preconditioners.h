@@ -10,7 +10,8 @@
 namespace corotet
 {
   /**
-   * All preconditioners, by the names that a parameter file selects them by.
+   * All preconditioners, by the names that a parameter file selects them by:
+   * the library's, and what programs have added (AddedCandidate).
    */
   std::vector<Candidate<Preconditioner>>
   preconditioners();

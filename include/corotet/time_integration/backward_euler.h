@@ -20,6 +20,18 @@ namespace corotet
     step(SecondOrderSystem &system,
          const TimeStep    &step,
          State             &state) override;
+
+    unsigned int
+    order() const override
+    {
+      return 1;
+    }
+
+    bool
+    balances_at_end() const override
+    {
+      return true;
+    }
   };
 } // namespace corotet
 

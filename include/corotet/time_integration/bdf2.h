@@ -24,15 +24,48 @@ namespace corotet
   class BDF2 : public TimeIntegrator
   {
   public:
+    void
+    reset() override
+    {
+      present.clear();
+      before.clear();
+    }
+
     StageReport
     step(SecondOrderSystem &system,
          const TimeStep    &step,
          State             &state) override;
 
+    unsigned int
+    order() const override
+    {
+      return 2;
+    }
+
+    unsigned int
+    n_earlier_steps() const override
+    {
+      return 1;
+    }
+
+    bool
+    balances_at_end() const override
+    {
+      return true;
+    }
+
   private:
-    /// Displacement and velocity at a time.
+    /// Displacement and velocity at a time; at none at first.
     struct Past
     {
+      void
+      clear()
+      {
+        time = -std::numeric_limits<double>::infinity();
+        u.reinit(0);
+        v.reinit(0);
+      }
+
       double time = -std::numeric_limits<double>::infinity();
       Vector u;
       Vector v;

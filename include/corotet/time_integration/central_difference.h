@@ -36,6 +36,30 @@ namespace corotet
           const unsigned int n,
           State             &state) override;
 
+    unsigned int
+    order() const override
+    {
+      return 2;
+    }
+
+    bool
+    is_explicit() const override
+    {
+      return true;
+    }
+
+    bool
+    balances_at_end() const override
+    {
+      return true;
+    }
+
+    bool
+    keeps_energy() const override
+    {
+      return true;
+    }
+
     const StabilityControl *
     stability() const override
     {

@@ -18,10 +18,34 @@ namespace corotet
   class ImplicitMidpoint : public TimeIntegrator
   {
   public:
+    void
+    reset() override
+    {
+      middle.clear();
+    }
+
     StageReport
     step(SecondOrderSystem &system,
          const TimeStep    &step,
          State             &state) override;
+
+    unsigned int
+    order() const override
+    {
+      return 2;
+    }
+
+    bool
+    keeps_energy() const override
+    {
+      return true;
+    }
+
+    bool
+    closes_budget() const override
+    {
+      return true;
+    }
 
   private:
     /// The state at the middle.

@@ -24,6 +24,12 @@ namespace corotet
          const TimeStep    &step,
          State             &state) override;
 
+    unsigned int
+    order() const override
+    {
+      return 0;
+    }
+
     bool
     is_dynamic() const override
     {

@@ -25,10 +25,26 @@ namespace corotet
   class NewmarkFamily : public TimeIntegrator
   {
   public:
+    void
+    reset() override
+    {
+      stage.clear();
+      end_acceleration.reinit(0);
+    }
+
     StageReport
     step(SecondOrderSystem &system,
          const TimeStep    &step,
          State             &state) override;
+
+    unsigned int
+    order() const override;
+
+    bool
+    balances_at_end() const override;
+
+    bool
+    keeps_energy() const override;
 
     /// C in the local error C dt^2 |a_1 - a_0| of the displacement: a_n is the
     /// acceleration at t_n + (alpha_m - alpha_f) dt [Zienkiewicz and Xie, A

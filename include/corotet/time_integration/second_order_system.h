@@ -19,6 +19,14 @@ namespace corotet
     Vector u;
     Vector v;
     Vector a;
+
+    /// Makes them empty, of no nodes.
+    void
+    clear()
+    {
+      for (Vector *vector : {&u, &v, &a})
+        vector->reinit(0);
+    }
   };
 
   /**

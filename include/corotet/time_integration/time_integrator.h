@@ -42,6 +42,12 @@ namespace corotet
 
   /**
    * A method that advances a SecondOrderSystem step by step.
+   *
+   * Beside its steps a method says what it is: its order, whether it is
+   * explicit and so on, with the parameters that it has. The program relies on
+   * that, and tests that loop over time_integrators() check it; nothing asks
+   * for a name. The defaults are those of an implicit method that claims
+   * nothing else.
    */
   class TimeIntegrator
   {
@@ -50,6 +56,14 @@ namespace corotet
 
     virtual void
     declare_parameters(dealii::ParameterHandler & /*prm*/)
+    {}
+
+    /// Forgets all earlier steps. To be called before the first step of a run
+    /// (not before a step that is tried again, from the same time): vectors
+    /// that the method keeps must not be recognised as those of another run by
+    /// their sizes or times.
+    virtual void
+    reset()
     {}
 
     /// Advances @p state by one step; prescribed entries come out as the system
@@ -64,6 +78,53 @@ namespace corotet
           const TimeStep    &first,
           const unsigned int n,
           State             &state);
+
+    /// Order of convergence of displacement and velocity, in motion without
+    /// stiffness-proportional damping; 0 in statics, where time is no more than
+    /// a parameter.
+    virtual unsigned int
+    order() const = 0;
+
+    /// Whether steps solve no equation but for the mass: they are many and
+    /// cheap, are not halved if they fail, and several of them may be made at
+    /// once.
+    virtual bool
+    is_explicit() const
+    {
+      return false;
+    }
+
+    /// Steps before the present one that a step uses beside the state at its
+    /// start: 0 for one-step methods. As many first ones are made otherwise.
+    virtual unsigned int
+    n_earlier_steps() const
+    {
+      return 0;
+    }
+
+    /// Whether the equation of motion holds for the state at the end of each
+    /// step, so that reactions are those of that time.
+    virtual bool
+    balances_at_end() const
+    {
+      return false;
+    }
+
+    /// Whether the energy of linear bodies without loads and damping stays as
+    /// it is, with the velocities of is_staggered().
+    virtual bool
+    keeps_energy() const
+    {
+      return false;
+    }
+
+    /// Whether the energy of linear bodies changes by just the work of loads,
+    /// damping and supports that move: their budget closes to round-off.
+    virtual bool
+    closes_budget() const
+    {
+      return false;
+    }
 
     /// Whether masses and velocities matter, so that the state needs an initial
     /// acceleration.
@@ -82,7 +143,7 @@ namespace corotet
     }
 
     /// Null if the method is stable for steps of any length, on linear
-    /// problems.
+    /// problems. If not, a step of 0 in the parameters is the program's choice.
     virtual const StabilityControl *
     stability() const
     {
@@ -106,7 +167,8 @@ namespace corotet
     }
 
     /// C in the local error C dt^2 |a_1 - a_0| of the displacement; 0 if the
-    /// method has no such estimate.
+    /// method has no such estimate. Steps that follow their error are for
+    /// methods that are not explicit.
     virtual double
     error_constant() const
     {

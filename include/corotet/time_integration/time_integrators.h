@@ -10,7 +10,8 @@
 namespace corotet
 {
   /**
-   * All time integrators, by the names that a parameter file selects them by.
+   * All time integrators, by the names that a parameter file selects them by:
+   * the library's, and what programs have added (AddedCandidate).
    */
   std::vector<Candidate<TimeIntegrator>>
   time_integrators();
