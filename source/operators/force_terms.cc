@@ -55,6 +55,7 @@ namespace corotet
   {
     if (is_constant_load(*term))
       {
+        // It looks at no motion: any vector will do.
         scratch = 0;
         term->add_force(scratch, {0., constant_load, constant_load});
         scratch.compress(dealii::VectorOperation::add);
