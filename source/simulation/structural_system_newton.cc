@@ -163,8 +163,15 @@ namespace corotet
     positions += stage_state->u;
     try
       {
+        // One solve is all that a linear problem needs if it is as good as
+        // Newton's method wants it; a tenth is for the round-off between this
+        // residual and that of the forces.
+        const double       limit        = is_linear() ?
+                                            0.9 * parameters.newton.residual_tolerance *
+                                 std::max(stage_scale, force_scale) :
+                                            std::numeric_limits<double>::infinity();
         const unsigned int n_iterations = parameters.linear_solver.solve(
-          *effective_operator, dx, r, positions, J);
+          *effective_operator, dx, r, positions, J, limit);
         advise_direct_solver(n_iterations);
         return n_iterations;
       }

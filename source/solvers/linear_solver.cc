@@ -122,7 +122,8 @@ namespace corotet
   LinearSolver::minimal_residuals(const Matrix      &A,
                                   const unsigned int limit,
                                   Vector            &x,
-                                  const Vector      &b) const
+                                  const Vector      &b,
+                                  const double       wanted) const
   {
     // MINRES measures residuals in the norm of the preconditioner, and a
     // preconditioner in single precision blurs them: it starts again from the
@@ -133,7 +134,7 @@ namespace corotet
       {
         A.vmult(r, x);
         r.sadd(-1., 1., b);
-        const double missing = tolerance * norm(b) / norm(r);
+        const double missing = wanted / norm(r);
         if (!(missing < 1) || iterations >= limit)
           break;
         dx = 0;
@@ -149,7 +150,7 @@ namespace corotet
       }
     A.vmult(r, x);
     r.sadd(-1., 1., b);
-    if (!(norm(r) <= tolerance * norm(b)))
+    if (!(norm(r) <= wanted))
       throw dealii::SolverControl::NoConvergence(iterations, norm(r));
     return iterations;
   }
@@ -159,14 +160,15 @@ namespace corotet
   LinearSolver::iterate(const Matrix &A,
                         const bool    symmetric,
                         Vector       &x,
-                        const Vector &b) const
+                        const Vector &b,
+                        const double  wanted) const
   {
     // Far from a solution exact tangents may be next to singular: Newton's
     // method has others.
     const unsigned int    limit = std::is_same_v<Matrix, TangentOperator> ?
                                     std::min(max_iterations, 1000u) :
                                     max_iterations;
-    dealii::SolverControl control(limit, tolerance * norm(b));
+    dealii::SolverControl control(limit, wanted);
     if (method == "gmres" || !symmetric)
       {
         unsigned int done = 0;
@@ -188,7 +190,7 @@ namespace corotet
         return done + left.last_step();
       }
     if (method == "minres")
-      return minimal_residuals(A, limit, x, b);
+      return minimal_residuals(A, limit, x, b, wanted);
     dealii::SolverCG<Vector> cg(control);
     if (method == "conjugate gradients" ||
         !std::is_same_v<Matrix, TangentOperator>)
@@ -204,7 +206,7 @@ namespace corotet
     catch (const NegativeCurvature &)
       {
         const unsigned int done = control.last_step();
-        return done + minimal_residuals(A, limit - done, x, b);
+        return done + minimal_residuals(A, limit - done, x, b, wanted);
       }
   }
 
@@ -212,13 +214,14 @@ namespace corotet
   LinearSolver::solve_with(const EffectiveOperator &A,
                            const TangentOperator   *J,
                            Vector                  &x,
-                           const Vector            &b) const
+                           const Vector            &b,
+                           const double             wanted) const
   {
     if (J != nullptr)
-      return iterate(*J, J->is_symmetric(), x, b);
+      return iterate(*J, J->is_symmetric(), x, b, wanted);
     if (operator_type == "matrix-free")
-      return iterate(A, true, x, b);
-    return iterate(A.matrix(), true, x, b);
+      return iterate(A, true, x, b, wanted);
+    return iterate(A.matrix(), true, x, b, wanted);
   }
 
   bool
@@ -241,9 +244,11 @@ namespace corotet
                       Vector                  &x,
                       const Vector            &b,
                       const Vector            &positions,
-                      const TangentOperator   *J)
+                      const TangentOperator   *J,
+                      const double             limit)
   {
     const double b_norm = norm(b);
+    const double wanted = std::min(tolerance * b_norm, limit);
     x                   = 0;
     if (b_norm == 0)
       return 0;
@@ -264,7 +269,7 @@ namespace corotet
     unsigned int iterations = 0;
     try
       {
-        iterations = solve_with(A, J, x, b);
+        iterations = solve_with(A, J, x, b, wanted);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
@@ -273,13 +278,13 @@ namespace corotet
         is_built = false;
         if (!first_solve)
           // Perhaps only the preconditioner was outdated.
-          return solve(A, x, b, positions, J);
+          return solve(A, x, b, positions, J, limit);
         throw ComputationError(fmt::format(
           "the linear solver stopped after {} iterations at a relative "
           "residual of {:.3g}; required is {:.3g} within {} iterations",
           failure.last_step,
           failure.last_residual / b_norm,
-          tolerance,
+          wanted / b_norm,
           max_iterations));
       }
 

@@ -11,6 +11,7 @@
 #include <deal.II/lac/solver_control.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 namespace corotet
@@ -45,10 +46,10 @@ namespace corotet
 
     /**
      * Solves J x = b, or A x = b if J is null, from x = 0 until the residual is
-     * below the tolerance times |b|, or, if it gets no further, what round-off
-     * makes of J x. @p positions: current positions of the
-     * nodes [m]. Returns the number of iterations. Throws ComputationError if
-     * it does not get there.
+     * below the tolerance times |b| and below @p limit, or, if it gets no
+     * further, what round-off makes of J x. @p positions: current positions of
+     * the nodes [m]. Returns the number of iterations. Throws ComputationError
+     * if it does not get there.
      * @p A must live until clear(). Collective.
      */
     unsigned int
@@ -56,7 +57,8 @@ namespace corotet
           Vector                  &x,
           const Vector            &b,
           const Vector            &positions,
-          const TangentOperator   *J = nullptr);
+          const TangentOperator   *J = nullptr,
+          const double limit         = std::numeric_limits<double>::infinity());
 
     /// Name of the preconditioner, as the parameter has it.
     const std::string &
@@ -90,24 +92,28 @@ namespace corotet
                  const TangentOperator   *J,
                  const Vector            &x,
                  const Vector            &b) const;
-    /// Both return the number of iterations.
+    /// These solve to a residual of @p wanted and return the number of
+    /// iterations.
     unsigned int
     solve_with(const EffectiveOperator &A,
                const TangentOperator   *J,
                Vector                  &x,
-               const Vector            &b) const;
+               const Vector            &b,
+               const double             wanted) const;
     template <typename Matrix>
     unsigned int
     iterate(const Matrix &A,
             const bool    symmetric,
             Vector       &x,
-            const Vector &b) const;
+            const Vector &b,
+            const double  wanted) const;
     template <typename Matrix>
     unsigned int
     minimal_residuals(const Matrix      &A,
                       const unsigned int limit,
                       Vector            &x,
-                      const Vector      &b) const;
+                      const Vector      &b,
+                      const double       wanted) const;
 
     Selectable<Preconditioner> preconditioner;
     std::string                method         = "automatic";
