@@ -3,8 +3,6 @@
 
 #include <corotet/forces/body_force.h>
 
-#include <deal.II/base/utilities.h>
-
 namespace corotet
 {
   using dealii::Point;
@@ -56,32 +54,16 @@ namespace corotet
       }
   }
 
-  void
-  BodyForceKind::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Loads");
-    prm.add_parameter("Body force",
-                      force,
-                      "Force per volume at rest [N/m^3]: 'x; y; z', "
-                      "expressions in x, y, z, t.");
-    prm.leave_subsection();
-  }
+  BodyForceKind::BodyForceKind()
+    : VectorFieldKind("Body force", "Force per volume at rest [N/m^3]")
+  {}
 
-  std::vector<ForceKind::GivenEntry>
-  BodyForceKind::given() const
+  std::unique_ptr<ForceTerm>
+  BodyForceKind::make(const Expression   &value,
+                      const ForceContext &context) const
   {
-    if (dealii::Utilities::trim(force) == "0; 0; 0")
-      return {};
-    return {{"Loads/Body force", force, "0; 0; 0"}};
-  }
-
-  void
-  BodyForceKind::add_to(ForceTerms &terms, const ForceContext &context) const
-  {
-    const Expression value(force, 3, "Loads/Body force", context.tables);
-    if (!value.is_zero())
-      terms.add(std::make_unique<BodyForce>(context.discretization,
-                                            context.reference,
-                                            value));
+    return std::make_unique<BodyForce>(context.discretization,
+                                       context.reference,
+                                       value);
   }
 } // namespace corotet

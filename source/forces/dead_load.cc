@@ -3,6 +3,8 @@
 
 #include <corotet/forces/dead_load.h>
 
+#include <deal.II/base/utilities.h>
+
 namespace corotet
 {
   using dealii::Point;
@@ -50,5 +52,38 @@ namespace corotet
       for (unsigned int a = 0; a < 3; ++a)
         f.local_element(3 * n + a) +=
           now[a] * integral.local_element(3 * n + a);
+  }
+
+  VectorFieldKind::VectorFieldKind(const std::string &entry,
+                                   const std::string &quantity)
+    : entry(entry)
+    , quantity(quantity)
+  {}
+
+  void
+  VectorFieldKind::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Loads");
+    prm.add_parameter(entry,
+                      text,
+                      quantity + ": 'x; y; z', expressions in x, y, z, t.");
+    prm.leave_subsection();
+  }
+
+  std::vector<ForceKind::GivenEntry>
+  VectorFieldKind::given() const
+  {
+    const std::string none = "0; 0; 0";
+    if (dealii::Utilities::trim(text) == none)
+      return {};
+    return {{"Loads/" + entry, text, none}};
+  }
+
+  void
+  VectorFieldKind::add_to(ForceTerms &terms, const ForceContext &context) const
+  {
+    const Expression value(text, 3, "Loads/" + entry, context.tables);
+    if (!value.is_zero())
+      terms.add(make(value, context));
   }
 } // namespace corotet

@@ -3,8 +3,6 @@
 
 #include <corotet/forces/gravity.h>
 
-#include <deal.II/base/utilities.h>
-
 namespace corotet
 {
   using dealii::Tensor;
@@ -34,31 +32,15 @@ namespace corotet
       f.local_element(i) += force.local_element(i);
   }
 
-  void
-  GravityKind::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Loads");
-    prm.add_parameter("Gravity",
-                      acceleration,
-                      "Acceleration [m/s^2] of gravity: 'x; y; z', expressions "
-                      "in x, y, z, t.");
-    prm.leave_subsection();
-  }
+  GravityKind::GravityKind()
+    : VectorFieldKind("Gravity", "Acceleration [m/s^2] of gravity")
+  {}
 
-  std::vector<ForceKind::GivenEntry>
-  GravityKind::given() const
+  std::unique_ptr<ForceTerm>
+  GravityKind::make(const Expression &value, const ForceContext &context) const
   {
-    if (dealii::Utilities::trim(acceleration) == "0; 0; 0")
-      return {};
-    return {{"Loads/Gravity", acceleration, "0; 0; 0"}};
-  }
-
-  void
-  GravityKind::add_to(ForceTerms &terms, const ForceContext &context) const
-  {
-    const Expression value(acceleration, 3, "Loads/Gravity", context.tables);
-    if (!value.is_zero())
-      terms.add(
-        std::make_unique<Gravity>(context.discretization, context.mass, value));
+    return std::make_unique<Gravity>(context.discretization,
+                                     context.mass,
+                                     value);
   }
 } // namespace corotet

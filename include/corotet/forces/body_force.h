@@ -5,7 +5,6 @@
 #define corotet_forces_body_force_h
 
 #include <corotet/forces/dead_load.h>
-#include <corotet/forces/force_kind.h>
 
 namespace corotet
 {
@@ -32,20 +31,14 @@ namespace corotet
     const ReferenceElement &reference;
   };
 
-  class BodyForceKind : public ForceKind
+  class BodyForceKind : public VectorFieldKind
   {
   public:
-    void
-    declare_parameters(dealii::ParameterHandler &prm) override;
+    BodyForceKind();
 
-    std::vector<GivenEntry>
-    given() const override;
-
-    void
-    add_to(ForceTerms &terms, const ForceContext &context) const override;
-
-  private:
-    std::string force = "0; 0; 0";
+  protected:
+    std::unique_ptr<ForceTerm>
+    make(const Expression &value, const ForceContext &context) const override;
   };
 } // namespace corotet
 

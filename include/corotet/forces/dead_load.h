@@ -6,7 +6,7 @@
 
 #include <corotet/base/expression.h>
 #include <corotet/discretization/discretization.h>
-#include <corotet/operators/force_term.h>
+#include <corotet/forces/force_kind.h>
 
 #include <deal.II/base/point.h>
 
@@ -62,6 +62,34 @@ namespace corotet
     /// The force of a unit load in each direction, by the first add_force() if
     /// the load is the same everywhere.
     mutable Vector integral;
+  };
+
+  /**
+   * A load on the whole body, given by an entry of section Loads: three
+   * expressions in x, y, z, t.
+   */
+  class VectorFieldKind : public ForceKind
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    std::vector<GivenEntry>
+    given() const override;
+
+    void
+    add_to(ForceTerms &terms, const ForceContext &context) const override;
+
+  protected:
+    /// @p entry: its name. @p quantity: what it is, with its unit.
+    VectorFieldKind(const std::string &entry, const std::string &quantity);
+
+    virtual std::unique_ptr<ForceTerm>
+    make(const Expression &value, const ForceContext &context) const = 0;
+
+  private:
+    const std::string entry, quantity;
+    std::string       text = "0; 0; 0";
   };
 } // namespace corotet
 

@@ -57,11 +57,15 @@ namespace corotet
 
     /// Declares its entries in their sections.
     virtual void
-    declare_parameters(dealii::ParameterHandler &prm) = 0;
+    declare_parameters(dealii::ParameterHandler & /*prm*/)
+    {}
 
-    /// The entries that give a force. Throws InputError.
+    /// Those of its entries that give a force. Throws InputError.
     virtual std::vector<GivenEntry>
-    given() const = 0;
+    given() const
+    {
+      return {};
+    }
 
     /// Adds the terms that the parameters ask for, none if there is no force.
     /// Throws InputError. Collective.

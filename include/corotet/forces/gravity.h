@@ -5,7 +5,6 @@
 #define corotet_forces_gravity_h
 
 #include <corotet/forces/dead_load.h>
-#include <corotet/forces/force_kind.h>
 
 namespace corotet
 {
@@ -30,20 +29,14 @@ namespace corotet
     const Mass &mass;
   };
 
-  class GravityKind : public ForceKind
+  class GravityKind : public VectorFieldKind
   {
   public:
-    void
-    declare_parameters(dealii::ParameterHandler &prm) override;
+    GravityKind();
 
-    std::vector<GivenEntry>
-    given() const override;
-
-    void
-    add_to(ForceTerms &terms, const ForceContext &context) const override;
-
-  private:
-    std::string acceleration = "0; 0; 0";
+  protected:
+    std::unique_ptr<ForceTerm>
+    make(const Expression &value, const ForceContext &context) const override;
   };
 } // namespace corotet
 

@@ -43,16 +43,6 @@ namespace corotet
   {
   public:
     void
-    declare_parameters(dealii::ParameterHandler &) override
-    {}
-
-    std::vector<GivenEntry>
-    given() const override
-    {
-      return {};
-    }
-
-    void
     add_to(ForceTerms &terms, const ForceContext &context) const override;
   };
 } // namespace corotet
