@@ -3,6 +3,7 @@
 
 #include "problem.h"
 
+#include <corotet/laws/corotational.h>
 #include <corotet/mesh/box_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
 
@@ -150,7 +151,10 @@ namespace corotet::benchmarks
            reference,
            {{0, density}, {1, density}},
            MassType::consistent)
-    , elasticity(discretization, reference, materials, Rotation::cell_centre)
+    , elasticity(discretization,
+                 reference,
+                 materials,
+                 corotational_law(Rotation::cell_centre))
     , is_prescribed(3 * discretization.n_local_nodes(), 0)
     , state(bent(c.bend))
   {
@@ -162,12 +166,12 @@ namespace corotet::benchmarks
   }
 
   std::unique_ptr<Elasticity>
-  Problem::elasticity_with(const Rotation rotation) const
+  Problem::elasticity_with(const std::shared_ptr<const MaterialLaw> &law) const
   {
     return std::make_unique<Elasticity>(discretization,
                                         reference,
                                         materials,
-                                        rotation);
+                                        law);
   }
 
   Vector

@@ -102,7 +102,7 @@ namespace corotet::benchmarks
 
     /// The same body with rotations taken elsewhere.
     std::unique_ptr<Elasticity>
-    elasticity_with(const Rotation rotation) const;
+    elasticity_with(const std::shared_ptr<const MaterialLaw> &law) const;
 
     double
     n_unknowns() const

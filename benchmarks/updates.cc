@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/laws/corotational.h>
+#include <corotet/laws/neo_hookean.h>
+#include <corotet/laws/saint_venant_kirchhoff.h>
+
 #include "case_data.h"
 #include "svd_rotation.h"
 
@@ -162,18 +166,17 @@ namespace corotet::benchmarks
               counters};
     }
 
-    /// The force, its linearization and the exact tangent with rotations taken
-    /// as @p rotation says.
+    /// The force, its linearization and the exact tangent of a law.
     void
-    add_placement(CaseData          &data,
-                  const std::string &name,
-                  const Rotation     rotation)
+    add_law(CaseData                                 &data,
+            const std::string                        &name,
+            const std::shared_ptr<const MaterialLaw> &law)
     {
       struct Deformed : DeformedBeam
       {
-        Deformed(CaseData &data, const Rotation rotation)
+        Deformed(CaseData &data, const std::shared_ptr<const MaterialLaw> &law)
           : DeformedBeam(data)
-          , elasticity(data.problem().elasticity_with(rotation))
+          , elasticity(data.problem().elasticity_with(law))
         {
           elasticity->update_rotations_and_force(f, u);
           elasticity->linearize(u, Tangent::consistent);
@@ -181,8 +184,8 @@ namespace corotet::benchmarks
 
         std::unique_ptr<Elasticity> elasticity;
       };
-      const auto make = [&data, rotation] {
-        return std::make_shared<Deformed>(data, rotation);
+      const auto make = [&data, law] {
+        return std::make_shared<Deformed>(data, law);
       };
       add_short(data.name("force_" + name), [&data, make] {
         const auto beam = make();
@@ -237,8 +240,14 @@ namespace corotet::benchmarks
               [&data] { return make_setup_after_rotation(data); });
     add_short(data.name("explicit_step"),
               [&data] { return make_explicit_step(data); });
-    add_placement(data, "cell_centre", Rotation::cell_centre);
-    add_placement(data, "variational", Rotation::cell_centre_variational);
-    add_placement(data, "quadrature_points", Rotation::quadrature_points);
+    add_law(data, "cell_centre", corotational_law(Rotation::cell_centre));
+    add_law(data,
+            "variational",
+            corotational_law(Rotation::cell_centre_variational));
+    add_law(data,
+            "quadrature_points",
+            corotational_law(Rotation::quadrature_points));
+    add_law(data, "saint_venant_kirchhoff", saint_venant_kirchhoff_law());
+    add_law(data, "neo_hookean", neo_hookean_law());
   }
 } // namespace corotet::benchmarks

@@ -126,8 +126,7 @@ namespace corotet
   void
   PressureKind::add_to(ForceTerms &terms, const ForceContext &context) const
   {
-    const bool follow =
-      context.elasticity.rotation_placement() != Rotation::none;
+    const bool follow = !context.elasticity.law().is_linear();
     for (const auto &load : context.conditions.pressures)
       terms.add(std::make_unique<Pressure>(
         context.discretization, context.reference, load, follow));

@@ -4,7 +4,6 @@
 #include <corotet/base/differentiation.h>
 #include <corotet/base/text.h>
 #include <corotet/material/exact_solution.h>
-#include <corotet/material/polar_decomposition.h>
 
 #include <cmath>
 
@@ -16,36 +15,6 @@ namespace corotet
   namespace
   {
     const std::string entry = "Exact solution/Displacement";
-
-    // Derivative of the stress P(F) of the corotational law in the direction
-    // dF, with the derivative of the rotation: from R^T dF = W S + dS with skew
-    // W = R^T dR and symmetric dS.
-    Tensor<2, 3>
-    stress_derivative(const IsotropicMaterial &material,
-                      const Tensor<2, 3>      &R,
-                      const Tensor<2, 3>      &S,
-                      const Tensor<2, 3>      &dF)
-    {
-      const Tensor<2, 3> A = transpose(R) * dF;
-      Tensor<2, 3>       M = -1. * S;
-      for (unsigned int a = 0; a < 3; ++a)
-        M[a][a] += trace(S);
-      const Tensor<1, 3> w =
-        invert(M) *
-        Tensor<1, 3>({A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1]});
-      Tensor<2, 3> W;
-      W[2][1]             = w[0];
-      W[1][2]             = -w[0];
-      W[0][2]             = w[1];
-      W[2][0]             = -w[1];
-      W[1][0]             = w[2];
-      W[0][1]             = -w[2];
-      Tensor<2, 3> strain = S;
-      for (unsigned int a = 0; a < 3; ++a)
-        strain[a][a] -= 1;
-      return R * (W * Tensor<2, 3>(stress(material, symmetrize(strain))) +
-                  Tensor<2, 3>(stress(material, symmetrize(A - W * S))));
-    }
   } // namespace
 
   void
@@ -116,22 +85,16 @@ namespace corotet
 
   Tensor<2, 3>
   ExactSolution::stress(const IsotropicMaterial &material,
-                        const bool               is_linear,
+                        const MaterialLaw       &law,
                         const Point<3>          &x,
                         const double             t) const
   {
-    const Tensor<2, 3> grad_u = gradient(x, t);
-    Tensor<2, 3>       R;
-    for (unsigned int a = 0; a < 3; ++a)
-      R[a][a] = 1;
-    if (!is_linear)
-      R = polar_decomposition(R + grad_u).rotation;
-    return corotational_stress(material, grad_u, R);
+    return law.stress(material, gradient(x, t));
   }
 
   Tensor<1, 3>
   ExactSolution::body_force(const IsotropicMaterial &material,
-                            const bool               is_linear,
+                            const MaterialLaw       &law,
                             const bool               with_inertia,
                             const Point<3>          &x,
                             const double             t) const
@@ -140,15 +103,7 @@ namespace corotet
     if (with_inertia)
       b = material.density * acceleration.vector_value(x, t);
 
-    Tensor<2, 3> R, S;
-    for (unsigned int a = 0; a < 3; ++a)
-      R[a][a] = S[a][a] = 1;
-    if (!is_linear)
-      {
-        const Tensor<2, 3> F = R + gradient(x, t);
-        R                    = polar_decomposition(F).rotation;
-        S                    = transpose(R) * F;
-      }
+    const Tensor<2, 3> H = gradient(x, t);
     // Of the pair of directions (c, d), c <= d or not.
     const auto pair = [](const unsigned int c, const unsigned int d) {
       return c == d ? c : 6 - c - d;
@@ -163,9 +118,7 @@ namespace corotet
         for (unsigned int d = 0; d < 3; ++d)
           for (unsigned int a = 0; a < 3; ++a)
             dF[a][d] = derivative[pair(c, d)][a];
-        const Tensor<2, 3> dP = is_linear ?
-                                  corotational_tangent(material, dF, R) :
-                                  stress_derivative(material, R, S, dF);
+        const Tensor<2, 3> dP = law.stress_derivative(material, H, dF);
         for (unsigned int a = 0; a < 3; ++a)
           b[a] -= dP[a][c];
       }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/operators/batch_sweep.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/quadrature_kernel.h>
 #include <corotet/operators/sweep.h>
-#include <corotet/operators/with_kernel.h>
 
 namespace corotet
 {
@@ -77,9 +77,9 @@ namespace corotet
                  const typename Kernel::NodalValues &u,
                  typename Kernel::NodalValues       &f)
     {
-      using Quadrature         = QuadratureKernel<Kernel::n_nodes>;
-      const CellShapes  &cells = data.shapes[batch];
-      const Simd<double> mu = lanes(cells.mu), lambda = lanes(cells.lambda);
+      using Quadrature        = QuadratureKernel<Kernel::n_nodes>;
+      const CellShapes &cells = data.shapes[batch];
+      const auto [lambda, mu] = lame(cells);
       typename Quadrature::Geometry g;
       Quadrature::load(cells, g);
       static_for<3 * Kernel::n_nodes>(
@@ -94,111 +94,161 @@ namespace corotet
                             [&](const unsigned int,
                                 const Simd<double>(&grad_u)[3][3],
                                 Simd<double>(&P)[3][3]) {
-                              // The strain sym(R^T grad u) + (sym(R) - I).
-                              Simd<double> A[3][3], sigma[3][3];
-                              transposed_times(R, grad_u, A);
-                              static_for<9>([&](auto ab) {
-                                constexpr int a = ab / 3, b = ab % 3;
-                                A[a][b] += R[b][a] - (a == b ? 1. : 0.);
-                              });
-                              isotropic_stress(lambda, mu, A, sigma);
+                              Simd<double> e[3][3], sigma[3][3];
+                              corotational_strain(R, grad_u, e);
+                              isotropic_stress(lambda, mu, e, sigma);
                               times(R, sigma, P);
                             });
     }
 
-    template <typename Kernel, bool rotate, bool with_force, typename IsCurved>
-    __attribute__((flatten)) void
-    run_elastic(const IsCurved,
-                ElasticData       &data,
-                const unsigned int first,
-                const unsigned int end,
-                const double      *source,
-                double            *sums)
+    // New rotations of the cells, the internal force, or both.
+    template <typename CellKernel, bool rotate>
+    struct Rotations
     {
-      for (unsigned int batch = first; batch < end; ++batch)
-        {
-          const CellShapes            &shapes = data.shapes[batch];
-          typename Kernel::NodalValues u, v;
-          gather_differences<Kernel::n_nodes>(data.batches, batch, source, u);
-          Simd<double> R[3][3];
-          if constexpr (rotate)
-            {
-              Simd<double> F[3][3];
-              deformation_gradient<Kernel>(shapes, u, F);
-              const PolarLanes lanes = polar_decomposition(F, R);
-              data.counts.add(lanes, shapes);
-              store_rotated(R, shapes, data.new_coefficients[batch]);
-            }
-          else
-            rotations_of(data, batch, R);
-          if constexpr (with_force && IsCurved::value)
-            {
-              curved_force<Kernel>(data, batch, R, u, v);
-              scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
-            }
-          else if constexpr (with_force)
-            {
-              typename Kernel::Strain offset;
-              strain_offset<Kernel>(R, shapes, offset);
-              Kernel::template apply<true, false, true>(
-                &data.coefficients[batch], Simd<double>{}, &offset, u, v);
-              scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
-            }
-        }
-    }
+      using Data   = ElasticData;
+      using Number = double;
 
-    template <typename Kernel, bool rotate, bool with_force>
-    void
-    sweep_elastic(ElasticData       &data,
-                  const unsigned int first,
-                  const unsigned int end,
-                  const double      *source,
-                  double            *sums)
-    {
-      // Rotations are those of the centres, where a curved cell is like others.
-      if constexpr (!with_force)
-        run_elastic<Kernel, rotate, with_force>(
-          std::false_type(), data, first, end, source, sums);
-      else
-        for_each_kind(data.batches,
-                      first,
-                      end,
-                      [&](const auto begin,
-                          const auto stop,
-                          const auto curved) {
-                        run_elastic<Kernel, rotate, with_force>(
-                          curved, data, begin, stop, source, sums);
-                      });
-    }
+      static constexpr unsigned int n_batches = 1;
 
-    template <bool rotate, bool with_force>
-    ElasticSweep
-    elastic_sweep(const Element element)
+      /// The rotations of a batch, from the displacement or as they are.
+      static COROTET_ALWAYS_INLINE void
+      get(ElasticData                            &data,
+          const unsigned int                      batch,
+          const typename CellKernel::NodalValues &u,
+          Tensor2Lanes                           &R)
+      {
+        if constexpr (rotate)
+          {
+            const CellShapes &shapes = data.shapes[batch];
+            Tensor2Lanes      F;
+            deformation_gradient<CellKernel>(shapes, u, F);
+            const PolarLanes found = polar_decomposition(F, R);
+            data.counts.add(found, shapes);
+            store_rotated(R, shapes, data.new_coefficients[batch]);
+          }
+        else
+          rotations_of(data, batch, R);
+      }
+    };
+
+    // Rotations are those of the centres, where a curved cell is like others.
+    template <typename CellKernel>
+    struct RotationOnly : Rotations<CellKernel, true>
     {
-      ElasticSweep result = nullptr;
-      with_kernel<double>(element, [&](const auto kernel) {
-        using Kernel = typename decltype(kernel)::type;
-        result       = sweep_elastic<Kernel, rotate, with_force>;
-      });
-      return result;
-    }
+      static constexpr bool ignores_curvature = true;
+
+      static COROTET_ALWAYS_INLINE void
+      apply(const std::false_type,
+            ElasticData       &data,
+            const unsigned int batch,
+            const double      *source,
+            double *)
+      {
+        typename CellKernel::NodalValues u;
+        Tensor2Lanes                     R;
+        gather_differences<CellKernel::n_nodes>(data.batches, batch, source, u);
+        RotationOnly::get(data, batch, u, R);
+      }
+    };
+
+    template <typename CellKernel, bool rotate>
+    struct CellForce : Rotations<CellKernel, rotate>
+    {
+      template <typename IsCurved>
+      static COROTET_ALWAYS_INLINE void
+      apply(const IsCurved,
+            ElasticData       &data,
+            const unsigned int batch,
+            const double      *source,
+            double            *sums)
+      {
+        typename CellKernel::NodalValues u, f;
+        Tensor2Lanes                     R;
+        gather_differences<CellKernel::n_nodes>(data.batches, batch, source, u);
+        CellForce::get(data, batch, u, R);
+        if constexpr (IsCurved::value)
+          curved_force<CellKernel>(data, batch, R, u, f);
+        else
+          {
+            typename CellKernel::Strain offset;
+            strain_offset<CellKernel>(R, data.shapes[batch], offset);
+            CellKernel::template apply<true, false, true>(
+              &data.coefficients[batch], Simd<double>{}, &offset, u, f);
+          }
+        scatter_add<CellKernel::n_nodes>(f, data.batches.nodes(batch), sums);
+      }
+    };
+
+    template <typename CellKernel>
+    struct TangentByQuadrature
+    {
+      using Data   = ElasticData;
+      using Number = double;
+
+      static constexpr unsigned int n_batches = 1;
+
+      template <typename IsCurved>
+      static COROTET_ALWAYS_INLINE void
+      apply(const IsCurved     is_curved,
+            ElasticData       &data,
+            const unsigned int batch,
+            const double      *source,
+            double            *sums)
+      {
+        using Kernel = QuadratureKernel<CellKernel::n_nodes>;
+        const CellShapes            &shapes = data.shapes[batch];
+        typename Kernel::NodalValues u, f{};
+        typename Kernel::Geometry    g;
+        gather_batch<Kernel::n_nodes>(data.batches, batch, source, u);
+        Kernel::load(shapes, g);
+        Tensor2Lanes R;
+        rotations_of(data, batch, R);
+        const auto [lambda, mu] = lame(shapes);
+        const auto stress =
+          [&](const unsigned int, const Tensor2Lanes &grad_u, Tensor2Lanes &P) {
+            corotational_tangent(R, lambda, mu, grad_u, P);
+          };
+        const auto &rule =
+          cell_rule(is_curved, data.reference, data.batches, batch);
+        Kernel::integrate(rule, g, lanes(shapes.volume), u, f, stress);
+        scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+      }
+    };
   } // namespace
 
   ElasticSweep
   rotation_sweep(const Element element)
   {
-    return elastic_sweep<true, false>(element);
+    return sweep_of_element<double>(
+      element, []<typename Kernel>(const std::type_identity<Kernel>) {
+        return BatchSweep<RotationOnly<Kernel>>::run;
+      });
   }
 
   ElasticSweep
   force_sweep(const Element element)
   {
-    return elastic_sweep<false, true>(element);
+    return sweep_of_element<double>(
+      element, []<typename Kernel>(const std::type_identity<Kernel>) {
+        return BatchSweep<CellForce<Kernel, false>>::run;
+      });
   }
 
   ElasticSweep
   rotation_and_force_sweep(const Element element)
   {
-    return elastic_sweep<true, true>(element);
+    return sweep_of_element<double>(
+      element, []<typename Kernel>(const std::type_identity<Kernel>) {
+        return BatchSweep<CellForce<Kernel, true>>::run;
+      });
+  }
+
+  ElasticSweep
+  tangent_by_quadrature_sweep(const Element element)
+  {
+    return sweep_of_element<double>(
+      element, []<typename Kernel>(const std::type_identity<Kernel>) {
+        return BatchSweep<TangentByQuadrature<Kernel>>::run;
+      });
   }
 } // namespace corotet

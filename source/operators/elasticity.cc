@@ -4,7 +4,6 @@
 #include <corotet/material/corotational.h>
 #include <corotet/material/polar_decomposition.h>
 #include <corotet/operators/elasticity.h>
-#include <corotet/operators/quadrature_sweep.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -18,10 +17,11 @@ namespace corotet
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
     const std::map<unsigned int, IsotropicMaterial> &materials,
-    const Rotation                                   rotation)
+    const std::shared_ptr<const MaterialLaw>        &law)
     : discretization(discretization)
     , reference(reference)
-    , placement(rotation)
+    , material_law(law)
+    , sweeps(law->sweeps(discretization.element()))
     , cell_loop(discretization)
     , shapes(discretization.batches().n_batches())
     , cell_coefficients(discretization.batches().n_batches())
@@ -67,9 +67,11 @@ namespace corotet
   Elasticity::elastic_data() const
   {
     return {discretization.batches(),
+            reference,
             shapes.data(),
             cell_coefficients.data(),
-            placement};
+            !material_law->is_linear(),
+            sweeps.law};
   }
 
   ElasticData
@@ -83,7 +85,7 @@ namespace corotet
   Tensor<2, 3>
   Elasticity::rotation(const unsigned int cell) const
   {
-    if (placement == Rotation::none)
+    if (material_law->is_linear())
       return Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
     const auto [batch, lane] = discretization.batches().place(cell);
     // Rows: R grad xi_k.
@@ -97,34 +99,30 @@ namespace corotet
   }
 
   void
-  Elasticity::rotate(ElasticData       &data,
-                     const unsigned int first,
-                     const unsigned int end,
-                     const Vector      &u) const
-  {
-    rotation_sweep(
-      discretization.element())(data, first, end, u.begin(), nullptr);
-  }
-
-  void
   Elasticity::update_rotations(const Vector &u)
   {
-    if (placement == Rotation::none)
+    if (material_law->is_linear())
       return;
     const CellBatches &batches = discretization.batches();
+    const ElasticSweep rotate  = rotation_sweep(discretization.element());
     ElasticData        data    = elastic_data();
-    rotate(data, 0, batches.n_owned_batches(), u);
+    rotate(data, 0, batches.n_owned_batches(), u.begin(), nullptr);
     counts = data.counts;
-    rotate(data, batches.n_owned_batches(), batches.n_batches(), u);
+    rotate(
+      data, batches.n_owned_batches(), batches.n_batches(), u.begin(), nullptr);
   }
 
-  template <typename Sweep, typename Data>
+  template <typename Data>
   void
   Elasticity::cell_sweep(Vector       &f,
                          const Vector &u,
-                         const Sweep  &sweep,
-                         Data         &data,
-                         const double  scale) const
+                         void (*sweep)(Data &,
+                                       const unsigned int,
+                                       const unsigned int,
+                                       const double *,
+                                       double *),
+                         Data        &data,
+                         const double scale) const
   {
     cell_loop.run(
       u,
@@ -135,28 +133,6 @@ namespace corotet
       [&](const unsigned int i, const auto y) {
         store_to(y * scale, f.begin() + i);
       });
-  }
-
-  Elasticity::Force
-  Elasticity::moving_force() const
-  {
-    const Element element = discretization.element();
-    if (placement == Rotation::quadrature_points ||
-        placement == Rotation::cell_centre_variational)
-      {
-        const PointForceSweep sweep = point_force_sweep(element, placement);
-        return {[this, sweep](ElasticData       &data,
-                              const unsigned int first,
-                              const unsigned int end,
-                              const double      *source,
-                              double            *sums) {
-                  sweep(reference, data, first, end, source, sums);
-                },
-                1.};
-      }
-    return {placement == Rotation::none ? force_sweep(element) :
-                                          rotation_and_force_sweep(element),
-            stiffness_scale(element)};
   }
 
   void
@@ -170,19 +146,21 @@ namespace corotet
   void
   Elasticity::update_rotations_and_force(Vector &f, const Vector &u)
   {
-    const CellBatches &batches = discretization.batches();
-    const Force        force   = moving_force();
-    ElasticData        data    = elastic_data();
-    cell_sweep(f, u, force.sweep, data, force.scale);
+    ElasticData data = elastic_data();
+    cell_sweep(f, u, sweeps.force, data, sweeps.force_scale);
     counts = data.counts;
+    if (material_law->is_linear())
+      return;
     // Where rotations are not unique, round-off chooses: those of owned and of
     // ghost cells must come from one function.
-    const bool by_cell = placement == Rotation::cell_centre;
-    if (placement != Rotation::none)
-      rotate(data,
-             by_cell ? batches.n_owned_batches() : 0,
-             batches.n_batches(),
-             u);
+    const CellBatches &batches = discretization.batches();
+    rotation_sweep(discretization.element())(data,
+                                             sweeps.force_rotates ?
+                                               batches.n_owned_batches() :
+                                               0,
+                                             batches.n_batches(),
+                                             u.begin(),
+                                             nullptr);
   }
 
   void
@@ -192,21 +170,20 @@ namespace corotet
                             const Vector &inverse_mass,
                             const double  dt)
   {
-    const Force force = moving_force();
-    ElasticData data  = elastic_data();
+    ElasticData data = elastic_data();
     cell_loop.run(
       u,
       [&](const auto    first,
           const auto    end,
           const double *source,
-          double       *sums) { force.sweep(data, first, end, source, sums); },
+          double       *sums) { sweeps.force(data, first, end, source, sums); },
       // No cell of this rank will need these nodes again in this sweep.
       [&](const unsigned int i, const auto y) {
         using V = decltype(y + y);
         const V velocity =
           load_as<V>(v.begin() + i) +
           dt * load_as<V>(inverse_mass.begin() + i) *
-            (load_as<V>(external.begin() + i) - force.scale * y);
+            (load_as<V>(external.begin() + i) - sweeps.force_scale * y);
         store_to(velocity, v.begin() + i);
         store_to(load_as<V>(u.begin() + i) + dt * velocity, u.begin() + i);
       });
@@ -231,17 +208,9 @@ namespace corotet
   void
   Elasticity::apply_tangent_by_quadrature(Vector &f, const Vector &v) const
   {
-    const ElasticData     data = elastic_data();
-    const QuadratureSweep sweep =
-      tangent_by_quadrature_sweep(discretization.element());
-    const auto by_quadrature = [&](const ElasticData &data,
-                                   const unsigned int first,
-                                   const unsigned int end,
-                                   const double      *source,
-                                   double            *sums) {
-      sweep(reference, data, first, end, source, sums);
-    };
-    cell_sweep(f, v, by_quadrature, data, 1.);
+    ElasticData data = elastic_data();
+    cell_sweep(
+      f, v, tangent_by_quadrature_sweep(discretization.element()), data, 1.);
   }
 
   unsigned int
@@ -249,21 +218,15 @@ namespace corotet
   {
     if (is_by_cell(tangent))
       return 0;
-    const unsigned int n_batches = discretization.batches().n_owned_batches();
-    linearized_tangent           = tangent;
-    linearization.resize_fast(linearization_size(
-      reference, discretization.batches(), placement, tangent));
-    unsigned int n_clamped = 0;
-    linearization_sweep(discretization.element(),
-                        placement,
-                        tangent)(reference,
-                                 elastic_data(),
-                                 0,
-                                 n_batches,
-                                 u.begin(),
-                                 linearization.data(),
-                                 n_clamped);
-    return dealii::Utilities::MPI::sum(n_clamped,
+    const TangentSweeps &work = sweeps.tangent(tangent);
+    linearized_tangent        = tangent;
+    linearization.resize_fast(
+      work.size.of_batches(reference, discretization.batches()));
+    ElasticData data       = elastic_data();
+    data.new_linearization = linearization.data();
+    work.linearize(
+      data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
+    return dealii::Utilities::MPI::sum(data.n_clamped,
                                        discretization.communicator());
   }
 
@@ -275,12 +238,13 @@ namespace corotet
                                   const CellMasses<double> *masses,
                                   const Vector             *lumped_mass) const
   {
-    const ElasticData elastic = elastic_data();
-    const TangentData data{
-      reference, elastic, linearization.data(), frozen_factor, masses, c_M};
     Assert(!linearization.empty(), dealii::ExcNotInitialized());
-    const TangentSweep sweep =
-      tangent_sweep(discretization.element(), placement, linearized_tangent);
+    ElasticData data         = elastic_data();
+    data.linearization       = linearization.data();
+    data.frozen_factor       = frozen_factor;
+    data.masses              = masses;
+    data.mass_factor         = c_M;
+    const ElasticSweep sweep = sweeps.tangent(linearized_tangent).apply;
     cell_loop.run(
       v,
       [&](const auto    first,
@@ -300,14 +264,10 @@ namespace corotet
   ElasticState
   Elasticity::state(const Vector &u) const
   {
-    PointResults local;
-    state_sweep(discretization.element(),
-                placement)(reference,
-                           elastic_data(),
-                           0,
-                           discretization.batches().n_owned_batches(),
-                           u.begin(),
-                           local);
+    ElasticData data = elastic_data();
+    sweeps.state(
+      data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
+    const PointResults &local = data.results;
     using namespace dealii::Utilities::MPI;
     const MPI_Comm comm = discretization.communicator();
     ElasticState   result;
@@ -335,10 +295,14 @@ namespace corotet
         // Also linear elasticity shows how far its cells rotate: that is what
         // it neglects.
         result.rotation_angle[c] = rotation_angle(
-          placement != Rotation::none ? R : polar_decomposition(F).rotation);
+          material_law->is_linear() ? polar_decomposition(F).rotation : R);
         result.det_F[c] = determinant(F);
-        result.von_mises[c] =
-          von_mises(stress(material(c), corotational_strain(grad_u, R)));
+        dealii::SymmetricTensor<2, 3> sigma;
+        material_law->spatial_stresses(material(c),
+                                       grad_u,
+                                       {&grad_u, 1},
+                                       &sigma);
+        result.von_mises[c] = von_mises(sigma);
       }
     return result;
   }

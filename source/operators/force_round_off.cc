@@ -24,7 +24,7 @@ namespace corotet
 
   ForceRoundOff::ForceRoundOff(const Discretization &discretization,
                                const Elasticity     &elasticity)
-    : corotational(elasticity.rotation_placement() != Rotation::none)
+    : has_rotations(!elasticity.law().is_linear())
     , by_strain(discretization.n_owned_nodes())
     , by_displacement(discretization.n_owned_nodes())
   {
@@ -70,7 +70,7 @@ namespace corotet
   double
   ForceRoundOff::of_force(const Vector &u) const
   {
-    return estimate(u, corotational ? corotational_noise : 0.);
+    return estimate(u, has_rotations ? corotational_noise : 0.);
   }
 
   double

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/material/polar_decomposition.h>
 #include <corotet/operators/point_stress.h>
 
 namespace corotet
@@ -33,24 +32,16 @@ namespace corotet
       return by_xi *
              point_geometry(discretization, rule, cell, q).inverse_jacobian;
     }
-
-    Tensor<2, 3>
-    rotation_of(const Tensor<2, 3> &grad_u)
-    {
-      return polar_decomposition(
-               grad_u + Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()))
-        .rotation;
-    }
   } // namespace
 
   PointStress::PointStress(
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
     const std::map<unsigned int, IsotropicMaterial> &materials,
-    const Rotation                                   rotation)
+    const std::shared_ptr<const MaterialLaw>        &law)
     : discretization(discretization)
     , centre(reference.centre)
-    , rotation(rotation)
+    , law(law)
   {
     for (const auto &[region, material] : materials)
       {
@@ -71,23 +62,16 @@ namespace corotet
                         const ReferenceElement::PointValues &rule,
                         SymmetricTensor<2, 3>               *stresses) const
   {
-    const IsotropicMaterial &law = materials[material_index(cell)];
-    Tensor<2, 3>             R(dealii::unit_symmetric_tensor<3>());
-    if (rotation == Rotation::cell_centre ||
-        rotation == Rotation::cell_centre_variational)
-      R =
-        rotation_of(displacement_gradient(discretization, u, cell, centre, 0));
-    for (unsigned int q = 0; q < rule.weights.size(); ++q)
-      {
-        const Tensor<2, 3> grad_u =
-          displacement_gradient(discretization, u, cell, rule, q);
-        if (rotation == Rotation::quadrature_points)
-          R = rotation_of(grad_u);
-        const SymmetricTensor<2, 3> sigma =
-          stress(law, corotational_strain(grad_u, R));
-        stresses[q] = rotation == Rotation::none ?
-                        sigma :
-                        symmetrize(R * Tensor<2, 3>(sigma) * transpose(R));
-      }
+    std::vector<Tensor<2, 3>> gradients(rule.weights.size());
+    for (unsigned int q = 0; q < gradients.size(); ++q)
+      gradients[q] = displacement_gradient(discretization, u, cell, rule, q);
+    const Tensor<2, 3> at_centre =
+      law->has_cell_rotation() ?
+        displacement_gradient(discretization, u, cell, centre, 0) :
+        Tensor<2, 3>();
+    law->spatial_stresses(materials[material_index(cell)],
+                          at_centre,
+                          gradients,
+                          stresses);
   }
 } // namespace corotet

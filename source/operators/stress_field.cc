@@ -24,10 +24,10 @@ namespace corotet
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
     const std::map<unsigned int, IsotropicMaterial> &materials,
-    const Rotation                                   rotation)
+    const std::shared_ptr<const MaterialLaw>        &law)
     : discretization(discretization)
     , reference(reference)
-    , point_stress(discretization, reference, materials, rotation)
+    , point_stress(discretization, reference, materials, law)
   {}
 
   void

@@ -126,13 +126,12 @@ namespace corotet
     const bool           varies   = solution.depends_on_time();
     const bool           with_inertia =
       parameters.time_integrator.selected().is_dynamic();
-    const bool is_linear =
-      parameters.material.rotation_placement() == Rotation::none;
+    const std::shared_ptr<const MaterialLaw> law = parameters.material.law();
     terms.add(std::make_unique<BodyForce>(
       discretization,
       reference,
       [=, &solution](const Point<3> &x, const Tensor<1, 3> &, const double t) {
-        return solution.body_force(material, is_linear, with_inertia, x, t);
+        return solution.body_force(material, *law, with_inertia, x, t);
       },
       varies));
     for (const unsigned int boundary : others)
@@ -143,7 +142,7 @@ namespace corotet
         [=, &solution](const Point<3>     &x,
                        const Tensor<1, 3> &normal,
                        const double        t) {
-          return solution.stress(material, is_linear, x, t) * normal;
+          return solution.stress(material, *law, x, t) * normal;
         },
         varies));
   }

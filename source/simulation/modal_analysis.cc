@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/laws/linear.h>
 #include <corotet/simulation/modal_analysis.h>
 
 #include <deal.II/base/mpi.h>
@@ -89,7 +90,7 @@ namespace corotet
     , elastic(disc,
               reference,
               parameters.material.materials(mesh.regions()),
-              Rotation::none)
+              linear_law())
     , motion(disc, reference, conditions, 0.)
     , rigid_motions(disc, motion)
     , A(disc, elastic, mass, motion.is_prescribed())

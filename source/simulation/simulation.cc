@@ -165,12 +165,11 @@ namespace corotet
   Simulation::present_stress()
   {
     if (!stress)
-      stress =
-        std::make_unique<StressField>(disc,
-                                      system.reference_element(),
-                                      parameters.material.materials(
-                                        mesh.regions()),
-                                      parameters.material.rotation_placement());
+      stress = std::make_unique<StressField>(disc,
+                                             system.reference_element(),
+                                             parameters.material.materials(
+                                               mesh.regions()),
+                                             parameters.material.law());
     if (!stress_is_present)
       stress->set_displacement(system.displacement());
     stress_is_present = true;
@@ -242,9 +241,7 @@ namespace corotet
   std::optional<double>
   Simulation::rotation_difference()
   {
-    const Rotation placement = system.elasticity().rotation_placement();
-    if (disc.degree() == 1 || (placement != Rotation::cell_centre &&
-                               placement != Rotation::cell_centre_variational))
+    if (disc.degree() == 1 || !system.elasticity().law().has_cell_rotation())
       return {};
     const double      angle = largest_rotation_difference(disc,
                                                      system.reference_element(),

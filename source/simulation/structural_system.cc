@@ -67,7 +67,7 @@ namespace corotet
     , elastic(discretization,
               reference,
               parameters.material.materials(discretization.mesh().regions()),
-              parameters.material.rotation_placement())
+              parameters.material.law())
     , terms(parameters.forces.make({discretization,
                                     reference,
                                     mass_matrix,

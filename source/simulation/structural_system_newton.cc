@@ -118,7 +118,7 @@ namespace corotet
   bool
   StructuralSystem::is_linear() const
   {
-    return elastic.rotation_placement() == Rotation::none;
+    return elastic.law().is_linear();
   }
 
   const TangentOperator *
@@ -128,7 +128,7 @@ namespace corotet
     const double       c_K     = 1 + stage.velocity_factor * damping.stiffness;
     const double       c_M =
       stage.acceleration_factor + stage.velocity_factor * damping.mass;
-    if (elastic.rotation_placement() != Rotation::none || c_K != operator_c_K ||
+    if (!elastic.law().is_linear() || c_K != operator_c_K ||
         c_M != operator_c_M)
       {
         ScopedTimer timer(wall_times.assembly);
@@ -234,6 +234,6 @@ namespace corotet
   {
     tangent = use ? Tangent::frozen_rotation : wanted_tangent;
     return wanted_tangent != Tangent::frozen_rotation &&
-           elastic.rotation_placement() != Rotation::none;
+           !elastic.law().is_linear();
   }
 } // namespace corotet

@@ -4,8 +4,8 @@
 // Isotropic elasticity against textbook relations, and what section Material
 // refuses.
 
+#include <corotet/laws/material_parameters.h>
 #include <corotet/material/corotational.h>
-#include <corotet/material/material_parameters.h>
 
 #include <gtest/gtest.h>
 

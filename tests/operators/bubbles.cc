@@ -6,6 +6,7 @@
 // eigenvalues.
 
 #include <corotet/discretization/finite_element.h>
+#include <corotet/laws/linear.h>
 #include <corotet/operators/bubbles.h>
 #include <corotet/operators/effective_operator.h>
 #include <corotet/operators/surface.h>
@@ -30,28 +31,17 @@ namespace
   const std::string with_bubbles =
     "subsection Discretization\n set Mass = nodal quadrature\nend\n";
 
-  Elasticity
-  elasticity_of(const Body &body, const Rotation placement)
-  {
-    return Elasticity(body.discretization,
-                      body.system.reference_element(),
-                      body.parameters.material.materials(body.mesh.regions()),
-                      placement);
-  }
-
   // Weights of central differences of fourth order.
   const std::vector<std::pair<double, double>> differences{{-2, 1. / 12},
                                                            {-1, -2. / 3},
                                                            {1, 2. / 3},
                                                            {2, -1. / 12}};
 
-  class BubblesRotation : public testing::TestWithParam<unsigned int>
+  class BubblesNonlinear : public testing::TestWithParam<unsigned int>
   {
   protected:
-    std::string name      = placements[GetParam()].first;
-    Rotation    placement = placements[GetParam()].second;
-    Body        body{box("1, 2, 1", "2, 2, 2", 0.2),
-              case_text(2, name) + with_bubbles};
+    NamedLaw law = nonlinear_laws()[GetParam()];
+    Body body{box("1, 2, 1", "2, 2, 2", 0.2), case_text(2, law) + with_bubbles};
   };
 } // namespace
 
@@ -135,10 +125,10 @@ TEST(Bubbles, PatchTest)
 
 // Rigid motions strain nothing: forces as small as round-off of F, compared
 // with those of linear elasticity, which takes the rotation for strain.
-TEST_P(BubblesRotation, RigidMotionGivesNoForce)
+TEST_P(BubblesNonlinear, RigidMotionGivesNoForce)
 {
-  Elasticity elasticity = elasticity_of(body, placement);
-  Elasticity linear     = elasticity_of(body, Rotation::none);
+  Elasticity elasticity = elasticity_of(body, law.law);
+  Elasticity linear     = elasticity_of(body, linear_law());
   for (const double angle : {0.1, 1., 2.5, dealii::numbers::PI, 6.})
     {
       const Tensor<2, 3> R =
@@ -158,16 +148,18 @@ TEST_P(BubblesRotation, RigidMotionGivesNoForce)
 }
 
 // As in rotations.cc for the other elements.
-TEST_P(BubblesRotation, ForceIsTheGradientOfTheEnergy)
+TEST_P(BubblesNonlinear, ForceIsTheGradientOfTheEnergy)
 {
-  Elasticity   elasticity = elasticity_of(body, placement);
+  Elasticity   elasticity = elasticity_of(body, law.law);
   const Vector v          = random_direction(body);
   double       largest    = 0;
   for (const RandomState &state : states)
     {
-      const Vector x     = displacement(body, state, 2., 3);
-      const double h     = 2e-4;
-      double       slope = 0;
+      const Vector x = displacement(body, state, 2., 3);
+      const double h = 2e-4;
+      if (!has_state(elasticity, x))
+        continue;
+      double slope = 0;
       for (const auto &[step, weight] : differences)
         {
           const Vector u = moved(x, step * h, v);
@@ -178,20 +170,22 @@ TEST_P(BubblesRotation, ForceIsTheGradientOfTheEnergy)
       largest = std::max(largest, std::abs(power - slope) / std::abs(slope));
     }
   report("largest relative difference", largest);
-  if (placement == Rotation::cell_centre)
+  if (!law.law->has_energy(2))
     EXPECT_GE(largest, 1e-4) << "a law without an energy is expected here";
   else
     EXPECT_LE(largest, 1e-8);
 }
 
-TEST_P(BubblesRotation, ConsistentTangentIsTheDerivative)
+TEST_P(BubblesNonlinear, ConsistentTangentIsTheDerivative)
 {
-  Elasticity   elasticity = elasticity_of(body, placement);
+  Elasticity   elasticity = elasticity_of(body, law.law);
   const Vector v          = random_direction(body);
   double       largest    = 0;
   for (const RandomState &state : states)
     {
       const Vector x = displacement(body, state, 1.5, 7);
+      if (!has_state(elasticity, x))
+        continue;
       const double h = 2e-4;
       Vector       difference(body.state.u);
       for (const auto &[step, weight] : differences)
@@ -210,11 +204,12 @@ TEST_P(BubblesRotation, ConsistentTangentIsTheDerivative)
 
 // The sweep of explicit dynamics does what its parts do one after another, to
 // the round-off of sums in another order.
-TEST_P(BubblesRotation, ExplicitStep)
+TEST_P(BubblesNonlinear, ExplicitStep)
 {
-  Elasticity elasticity = elasticity_of(body, placement);
+  Elasticity elasticity = elasticity_of(body, law.law);
   Vector     u(body.state.u), v(u), external(u), inverse_mass(u);
-  u.copy_locally_owned_data_from(displacement(body, states[1], 1., 3));
+  // Cells of all laws are far from inside out there.
+  u.copy_locally_owned_data_from(displacement(body, states[0], 1., 3));
   for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
     {
       v.local_element(i)        = std::sin(i);
@@ -240,15 +235,16 @@ TEST_P(BubblesRotation, ExplicitStep)
 }
 
 INSTANTIATE_TEST_SUITE_P(Placements,
-                         BubblesRotation,
-                         testing::Values(0u, 1u, 2u));
+                         BubblesNonlinear,
+                         testing::Range<unsigned int>(0,
+                                                      nonlinear_laws().size()));
 
 // The volume of the displaced body by its surface is the integral of det F,
 // whatever the bubbles do: det F has degree 9, as has the rule.
 TEST(Bubbles, DisplacedVolume)
 {
   Body         body(box("1, 2, 1", "2, 2, 2", 0.2),
-            case_text(2, "cell centre") + with_bubbles);
+            case_text(2, nonlinear_laws()[0]) + with_bubbles);
   const Vector u = displacement(body, states[0], 2., 5);
   const dealii::QWitherdenVincentSimplex<3> rule(5);
   const auto fe     = make_finite_element(body.discretization.element());

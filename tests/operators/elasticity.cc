@@ -4,6 +4,7 @@
 // Internal force, tangent and assembled matrix of linear and corotational
 // elasticity: rigid motions, consistency with one another, energy.
 
+#include <corotet/laws/corotational.h>
 #include <corotet/material/polar_decomposition.h>
 #include <corotet/operators/effective_operator.h>
 
@@ -254,7 +255,7 @@ TEST_P(ElasticityTest, ExplicitStep)
   Elasticity elasticity(body.discretization,
                         body.system.reference_element(),
                         body.parameters.material.materials(body.mesh.regions()),
-                        Rotation::cell_centre);
+                        corotational_law(Rotation::cell_centre));
   elasticity.explicit_step(u, v, external, inverse_mass, dt);
   EXPECT_LE(largest_difference(v, expected_v),
             1e-13 * expected_v.linfty_norm());

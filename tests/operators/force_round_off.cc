@@ -40,7 +40,7 @@ namespace
     Elasticity elastic(body.discretization,
                        body.system.reference_element(),
                        body.parameters.material.materials(body.mesh.regions()),
-                       body.parameters.material.rotation_placement());
+                       body.parameters.material.law());
     const auto displacement = [](const Point<3> &x) {
       return Tensor<1, 3>({1e-3 * std::sin(2 * x[0] + x[1]),
                            2e-3 * x[0] * x[0],

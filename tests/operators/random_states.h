@@ -8,22 +8,27 @@
 
 #include <random>
 
+#include "../all_laws.h"
 #include "../body.h"
 
 namespace corotet::tests
 {
-  inline const std::vector<std::pair<std::string, Rotation>> placements{
-    {"cell centre", Rotation::cell_centre},
-    {"quadrature points", Rotation::quadrature_points},
-    {"cell centre, variational", Rotation::cell_centre_variational}};
-
   inline std::string
-  case_text(const unsigned int degree, const std::string &rotation)
+  case_text(const unsigned int degree, const NamedLaw &law)
   {
     return "subsection Discretization\n set Degree = " +
-           std::to_string(degree) +
-           "\nend\nsubsection Material\n set Rotation = " + rotation +
-           "\n set Young's modulus = 1e3\n set Poisson's ratio = 0.4\nend\n";
+           std::to_string(degree) + "\nend\nsubsection Material\n" + law.text +
+           " set Young's modulus = 1e3\n set Poisson's ratio = 0.4\nend\n";
+  }
+
+  // The body's elasticity with that law.
+  inline Elasticity
+  elasticity_of(const Body &body, const std::shared_ptr<const MaterialLaw> &law)
+  {
+    return {body.discretization,
+            body.system.reference_element(),
+            body.parameters.material.materials(body.mesh.regions()),
+            law};
   }
 
   // A state of the body: a rotation with any angle up to a half turn after a
@@ -81,6 +86,19 @@ namespace corotet::tests
           noise[3 * body.discretization.global_node(n) + a];
     u.update_ghost_values();
     return u;
+  }
+
+  // Whether the law has an energy in that state and all near it: some have none
+  // where cells are inside out, and are as steep as one likes before.
+  inline bool
+  has_state(Elasticity &elasticity, const Vector &u)
+  {
+    dealii::Tensor<2, 3> flat;
+    flat[2][2] = -1;
+    elasticity.update_rotations(u);
+    return std::isfinite(
+             elasticity.law().energy_density(elasticity.material(0), flat)) ||
+           elasticity.state(u).min_det_F > 0.5;
   }
 
   inline Vector

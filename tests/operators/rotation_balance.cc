@@ -38,15 +38,9 @@ namespace
 
   struct Cell : public Body
   {
-    Cell(const unsigned int degree,
-         const std::string &rotation,
-         const Rotation     placement,
-         const double       h = 1)
-      : Body(one_cell(h), case_text(degree, rotation))
-      , elasticity(discretization,
-                   system.reference_element(),
-                   parameters.material.materials(mesh.regions()),
-                   placement)
+    Cell(const unsigned int degree, const NamedLaw &law, const double h = 1)
+      : Body(one_cell(h), case_text(degree, law))
+      , elasticity(elasticity_of(*this, law.law))
     {}
 
     // f = (K + (frozen_factor - 1) K_frozen + c_M M) v at the last
@@ -162,27 +156,29 @@ protected:
       GTEST_SKIP() << "each rank needs a cell, and this mesh has one";
   }
 
-  unsigned int degree    = std::get<0>(GetParam());
-  std::string  name      = placements[std::get<1>(GetParam())].first;
-  Rotation     placement = placements[std::get<1>(GetParam())].second;
+  unsigned int degree = std::get<0>(GetParam());
+  NamedLaw     law    = nonlinear_laws()[std::get<1>(GetParam())];
+  std::string  name   = law.name;
   // One rotation per cell, and more than a constant gradient.
-  bool has_no_energy = placement == Rotation::cell_centre && degree > 1;
+  bool has_no_energy = !law.law->has_energy(degree);
 };
 
 // To round-off: strains are 1e-2 and more, and sums of some ten terms of 1e-16
 // are made of terms of that size.
 TEST_P(RotationBalance, ForceAndTorqueOfACell)
 {
-  Cell   cell(degree, name, placement);
+  Cell   cell(degree, law);
   double largest_force = 0, largest_torque = 0;
   for (const RandomState &state : states)
     for (const double angle : {0.3, 1.5, 3., dealii::numbers::PI})
       for (unsigned int seed = 1; seed <= 5; ++seed)
         {
-          const Balance found =
-            balance(cell, displacement(cell, state, angle, seed));
-          largest_force  = std::max(largest_force, found.force);
-          largest_torque = std::max(largest_torque, found.torque);
+          const Vector u = displacement(cell, state, angle, seed);
+          if (!has_state(cell.elasticity, u))
+            continue;
+          const Balance found = balance(cell, u);
+          largest_force       = std::max(largest_force, found.force);
+          largest_torque      = std::max(largest_torque, found.torque);
         }
   report(fmt::format("net force of a cell, P{}, {}", degree, name),
          largest_force);
@@ -203,7 +199,7 @@ TEST_P(RotationBalance, TorqueOfASmoothDeformation)
   double last = 0;
   for (const double h : {1., 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64})
     {
-      Cell         cell(degree, name, placement, h);
+      Cell         cell(degree, law, h);
       const double torque = balance(cell, cell.interpolate(bending)).torque;
       report(fmt::format("torque of a cell, P{}, {}, h = {}", degree, name, h),
              torque);
@@ -226,7 +222,7 @@ TEST_P(RotationBalance, TorqueOfASmoothDeformation)
 // The derivative of a gradient is symmetric.
 TEST_P(RotationBalance, SymmetryOfTheConsistentTangent)
 {
-  Cell         cell(degree, name, placement);
+  Cell         cell(degree, law);
   const Vector w         = cell.interpolate([](const Point<3> &x) {
     return Tensor<1, 3>({std::cos(5 * x[1] + x[2]),
                          std::sin(4 * x[0]) - x[2],
@@ -238,6 +234,8 @@ TEST_P(RotationBalance, SymmetryOfTheConsistentTangent)
     for (const double angle : {0.3, 1.5, 3., dealii::numbers::PI})
       {
         const Vector u = displacement(cell, state, angle, 11);
+        if (!has_state(cell.elasticity, u))
+          continue;
         force(cell.elasticity, u);
         cell.elasticity.linearize(u, Tangent::consistent);
         const Vector Kv = cell.product(v), Kw = cell.product(w);
@@ -257,7 +255,7 @@ TEST_P(RotationBalance, SymmetryOfTheConsistentTangent)
 // have the same.
 TEST_P(RotationBalance, FrozenTangentIsPositive)
 {
-  Cell               cell(degree, name, placement);
+  Cell               cell(degree, law);
   const unsigned int n        = 3 * cell.discretization.n_global_nodes();
   double             smallest = 1, asymmetry = 0;
   const double       shift = 1e-12;
@@ -312,7 +310,7 @@ TEST_P(RotationBalance, FrozenTangentIsPositive)
 // K_T + (c - 1) K_frozen + c_M M, term by term, each placement and tangent.
 TEST_P(RotationBalance, TermsOfTheTangent)
 {
-  Cell         cell(degree, name, placement);
+  Cell         cell(degree, law);
   const Vector v = random_direction(cell);
   const Vector u = displacement(cell, states[2], 2., 5);
   force(cell.elasticity, u);
@@ -344,7 +342,8 @@ TEST_P(RotationBalance, TermsOfTheTangent)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
-                         RotationBalance,
-                         testing::Combine(testing::Values(1u, 2u, 3u),
-                                          testing::Values(0u, 1u, 2u)));
+INSTANTIATE_TEST_SUITE_P(
+  All,
+  RotationBalance,
+  testing::Combine(testing::Values(1u, 2u, 3u),
+                   testing::Range<unsigned int>(0, nonlinear_laws().size())));

@@ -5,6 +5,7 @@
 // exact, what rotations must not change, orders of convergence, and that ranks
 // make no difference.
 
+#include <corotet/laws/linear.h>
 #include <corotet/material/stress_measures.h>
 #include <corotet/operators/stress_field.h>
 #include <corotet/time_integration/load_stepping.h>
@@ -14,6 +15,7 @@
 
 #include <cstdlib>
 
+#include "../all_laws.h"
 #include "../body.h"
 #include "../wave.h"
 
@@ -26,13 +28,13 @@ using dealii::Tensor;
 namespace
 {
   StressField
-  stress_field(const Body &body, const Rotation rotation)
+  stress_field(const Body &body, const std::shared_ptr<const MaterialLaw> &law)
   {
     return {body.discretization,
             body.system.reference_element(),
             body.parameters.material.materials(
               body.discretization.mesh().regions()),
-            rotation};
+            law};
   }
 
   // A box of two materials, stiff for x < 1, soft beyond, of distorted cells.
@@ -116,7 +118,7 @@ TEST_P(StressFieldOf, IsExactForPolynomials)
   const Body         body(two_materials(), element_text(GetParam()) + two_laws);
   const Vector       u =
     body.interpolate([&](const Point<3> &x) { return polynomial(p, x); });
-  StressField field = stress_field(body, Rotation::none);
+  StressField field = stress_field(body, linear_law());
   EXPECT_EQ(field.law().n_materials(), 2u);
   field.set_displacement(u);
   const auto         nodal = field.at_nodes();
@@ -159,11 +161,9 @@ TEST(StressField, TurnsWithTheBody)
     body.interpolate([&](const Point<3> &x) { return deformed(x) - x; });
   const Vector v = body.interpolate(
     [&](const Point<3> &x) { return Q * Tensor<1, 3>(deformed(x)) - x; });
-  for (const Rotation rotation : {Rotation::cell_centre,
-                                  Rotation::cell_centre_variational,
-                                  Rotation::quadrature_points})
+  for (const NamedLaw &law : nonlinear_laws())
     {
-      StressField field = stress_field(body, rotation);
+      StressField field = stress_field(body, law.law);
       field.set_displacement(u);
       const auto   before = field.at_nodes();
       const double error  = field.error().energy_norm,
@@ -188,7 +188,7 @@ TEST(StressField, AgreesWithTheCentres)
   const Body   body(two_materials(), element_text(1) + two_laws);
   const Vector u =
     body.interpolate([](const Point<3> &x) { return polynomial(2, x); });
-  StressField field = stress_field(body, Rotation::none);
+  StressField field = stress_field(body, linear_law());
   field.set_displacement(u);
   const auto expected = body.system.elasticity().cell_results(u).von_mises;
   for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
@@ -217,8 +217,8 @@ TEST(StressField, RanksMakeNoDifference)
   w.update_ghost_values();
   const auto materials =
     body.parameters.material.materials(body.discretization.mesh().regions());
-  StressField alone(discretization, reference, materials, Rotation::none);
-  StressField together = stress_field(body, Rotation::none);
+  StressField alone(discretization, reference, materials, linear_law());
+  StressField together = stress_field(body, linear_law());
   alone.set_displacement(w);
   const Vector u =
     body.interpolate([](const Point<3> &x) { return polynomial(5, x); });
@@ -262,7 +262,7 @@ TEST(StressField, FindsSingularEdges)
   LoadStepping load_stepping;
   load_stepping.step(body.system, {0., 1., 1.}, body.state);
   body.system.set_state(body.state);
-  StressField field = stress_field(body, Rotation::none);
+  StressField field = stress_field(body, linear_law());
   field.set_displacement(body.system.displacement());
   const auto  &of_cells = field.error().of_cells;
   double       largest  = 0;
@@ -312,7 +312,7 @@ namespace
     load_stepping.step(body.system, {0., 1., 1.}, body.state);
     body.system.set_state(body.state);
     const Vector &u     = body.system.displacement();
-    StressField   field = stress_field(body, Rotation::none);
+    StressField   field = stress_field(body, linear_law());
     field.set_displacement(u);
 
     const double estimate = field.error().energy_norm;

@@ -5,6 +5,7 @@
 // than the plain mean of the raw stresses there, and the same on all numbers of
 // ranks, though patches reach beyond the cells that a rank has.
 
+#include <corotet/laws/linear.h>
 #include <corotet/operators/stress_field.h>
 #include <corotet/time_integration/load_stepping.h>
 
@@ -28,7 +29,7 @@ namespace
             body.system.reference_element(),
             body.parameters.material.materials(
               body.discretization.mesh().regions()),
-            Rotation::none};
+            linear_law()};
   }
 
   // The mean of the cells' stresses at the owned nodes of a body.

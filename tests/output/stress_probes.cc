@@ -5,6 +5,7 @@
 // of two where they meet, the same for any distribution over ranks; its columns
 // are the history's last.
 
+#include <corotet/laws/linear.h>
 #include <corotet/output/history_writer.h>
 
 #include <gtest/gtest.h>
@@ -71,7 +72,7 @@ TEST(StressProbes, ExactInEachMaterial)
       StressField            field(body.discretization,
                         reference,
                         materials,
-                        Rotation::none);
+                        linear_law());
       set_displacement(body);
       field.set_displacement(body.displacement);
       const auto left  = stress(materials.at(7), strain()),
@@ -90,7 +91,7 @@ TEST(StressProbes, Raw)
 {
   ModelBody              body(1);
   const ReferenceElement reference(1);
-  StressField field(body.discretization, reference, materials, Rotation::none);
+  StressField field(body.discretization, reference, materials, linear_law());
   for (unsigned int n = 0; n < body.discretization.n_local_nodes(); ++n)
     {
       const auto x = body.discretization.node_position(n);
@@ -116,7 +117,7 @@ TEST(StressProbes, ColumnsOfTheHistory)
 {
   ModelBody              body(1);
   const ReferenceElement reference(1);
-  StressField field(body.discretization, reference, materials, Rotation::none);
+  StressField field(body.discretization, reference, materials, linear_law());
   set_displacement(body);
   field.set_displacement(body.displacement);
   nlohmann::ordered_json row;

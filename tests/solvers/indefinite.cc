@@ -53,7 +53,7 @@ namespace
       , elasticity(discretization,
                    system.reference_element(),
                    parameters.material.materials(mesh.regions()),
-                   parameters.material.rotation_placement())
+                   parameters.material.law())
       , A(discretization,
           elasticity,
           system.mass(),

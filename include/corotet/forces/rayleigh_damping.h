@@ -69,8 +69,7 @@ namespace corotet
     bool
     depends_on_displacement() const override
     {
-      return coefficients.stiffness > 0 &&
-             elasticity.rotation_placement() != Rotation::none;
+      return coefficients.stiffness > 0 && !elasticity.law().is_linear();
     }
 
     bool

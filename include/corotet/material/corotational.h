@@ -11,23 +11,6 @@
 namespace corotet
 {
   /**
-   * Where the rotation of corotational elasticity is taken.
-   */
-  enum class Rotation
-  {
-    /// R = I: linear elasticity.
-    none,
-    /// From F at the centre of each cell. The force is R K0 (R^T x - X).
-    cell_centre,
-    /// The same R; the force is the gradient of the energy, so it has a term
-    /// with the derivative of R.
-    cell_centre_variational,
-    /// From F at each quadrature point: hyperelastic. For degree 1 all three
-    /// are the same.
-    quadrature_points
-  };
-
-  /**
    * Strain of corotational elasticity, sym(R^T F) - I with F = I + grad u, as
    * seen in the frame that rotates with the cell [seed, 2.1.2.4]. With R = I it
    * is the strain of linear elasticity, without loss of digits.

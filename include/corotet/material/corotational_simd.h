@@ -4,6 +4,7 @@
 #ifndef corotet_material_corotational_simd_h
 #define corotet_material_corotational_simd_h
 
+#include <corotet/material/isotropic.h>
 #include <corotet/material/rotation_derivative.h>
 
 namespace corotet
@@ -32,22 +33,6 @@ namespace corotet
     });
   }
 
-  /// sigma = 2 mu sym(A) + lambda tr(A) I.
-  COROTET_ALWAYS_INLINE void
-  isotropic_stress(const Simd<double> lambda,
-                   const Simd<double> mu,
-                   const Simd<double> (&A)[3][3],
-                   Simd<double> (&sigma)[3][3])
-  {
-    const Simd<double> pressure = lambda * (A[0][0] + A[1][1] + A[2][2]);
-    static_for<9>([&](auto ab) {
-      constexpr int a = ab / 3, b = ab % 3;
-      sigma[a][b] = mu * (A[a][b] + A[b][a]);
-      if constexpr (a == b)
-        sigma[a][b] += pressure;
-    });
-  }
-
   /// sigma of the strain sym(A) - I.
   COROTET_ALWAYS_INLINE void
   stress_of_stretch(const Simd<double> lambda,
@@ -59,6 +44,20 @@ namespace corotet
     internal::copy(A, e);
     static_for<3>([&](auto a) { e[a][a] -= 1.; });
     isotropic_stress(lambda, mu, e, sigma);
+  }
+
+  /// e = R^T F - I from H = grad u, without the loss of digits that F has; its
+  /// symmetric part is the strain.
+  COROTET_ALWAYS_INLINE void
+  corotational_strain(const Simd<double> (&R)[3][3],
+                      const Simd<double> (&H)[3][3],
+                      Simd<double> (&e)[3][3])
+  {
+    transposed_times(R, H, e);
+    static_for<9>([&](auto ab) {
+      constexpr int a = ab / 3, b = ab % 3;
+      e[a][b] += R[b][a] - (a == b ? 1. : 0.);
+    });
   }
 
   /// F = I + grad u.

@@ -5,7 +5,7 @@
 #define corotet_material_exact_solution_h
 
 #include <corotet/base/expression.h>
-#include <corotet/material/corotational.h>
+#include <corotet/material/material_law.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -35,8 +35,7 @@ namespace corotet
    *
    *   b = rho u_tt - Div P(F),    t = P(F) n,
    *
-   * of linear elasticity or of the corotational law with F = R S in each point,
-   * P = R sigma(S - I). That law is what rotations of cells converge to, too.
+   * with the law's stress at points: what rotations of cells converge to, too.
    */
   class ExactSolution
   {
@@ -56,17 +55,17 @@ namespace corotet
     dealii::Tensor<2, 3>
     gradient(const dealii::Point<3> &x, const double t) const;
 
-    /// P [Pa], per area at rest. @p is_linear: of linear elasticity.
+    /// P [Pa], per area at rest.
     dealii::Tensor<2, 3>
     stress(const IsotropicMaterial &material,
-           const bool               is_linear,
+           const MaterialLaw       &law,
            const dealii::Point<3>  &x,
            const double             t) const;
 
     /// Force per volume at rest [N/m^3], with or without inertia.
     dealii::Tensor<1, 3>
     body_force(const IsotropicMaterial &material,
-               const bool               is_linear,
+               const MaterialLaw       &law,
                const bool               with_inertia,
                const dealii::Point<3>  &x,
                const double             t) const;

@@ -7,12 +7,12 @@
 #include <corotet/base/vector.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
-#include <corotet/material/isotropic.h>
+#include <corotet/material/material_law.h>
 #include <corotet/operators/cell_loop.h>
-#include <corotet/operators/tangent_sweep.h>
+#include <corotet/operators/elastic_sweeps.h>
 
-#include <functional>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace corotet
@@ -29,7 +29,7 @@ namespace corotet
     /// Cells where det F is negative at one of these points.
     unsigned int inverted_cells = 0;
     /// Cells that the last rotation update found collapsed to a plane, a line
-    /// or a point where rotations are taken. Zero for linear elasticity.
+    /// or a point where the law takes rotations.
     unsigned int degenerate_cells = 0;
     /// Cells whose rotation the fast algorithm left to the robust one.
     unsigned int robust_rotations = 0;
@@ -49,19 +49,18 @@ namespace corotet
   };
 
   /**
-   * Internal force f(u) of linear or corotational elasticity,
-   * f_i = sum_q w_q R sigma(sym(R^T F_q) - I) grad N_i [seed, 2.73 to 2.76],
-   * and its tangents. Rotations R are those of the cells' centres, or each
-   * quadrature point has its own, as Rotation says; linear elasticity is the
-   * case R = I.
+   * Internal force f(u) of a law of elasticity, f_i = sum_q w_q P(F_q) grad N_i
+   * [seed, 2.73 to 2.76], and its tangents.
    *
-   * The cells' rotations change only in update_rotations() and
-   * update_rotations_and_force(), whatever the case; K is the tangent with
-   * these frozen. Tangents that need more are prepared by linearize(). Vectors
-   * are those of the discretization; input vectors need ghost entries up to
-   * date unless told otherwise, results are complete on owned entries.
-   * @p discretization and @p reference must outlive this object. All members
-   * but those marked are collective.
+   * Unless the law is linear, cells have rotations R, those of their centres;
+   * corotational laws take them, and K, the tangent of linear elasticity with
+   * these rotations, R K0 R^T, is what preconditioners know of any law. They
+   * change only in update_rotations() and update_rotations_and_force().
+   * Tangents that need more are prepared by linearize(). Vectors are those of
+   * the discretization; input vectors need ghost entries up to date unless told
+   * otherwise, results are complete on owned entries. @p discretization and
+   * @p reference must outlive this object. All members but those marked are
+   * collective.
    */
   class Elasticity
   {
@@ -70,7 +69,7 @@ namespace corotet
     Elasticity(const Discretization                            &discretization,
                const ReferenceElement                          &reference,
                const std::map<unsigned int, IsotropicMaterial> &materials,
-               const Rotation                                   rotation);
+               const std::shared_ptr<const MaterialLaw>        &law);
 
     /// Takes the rotation of every local cell from the displacement @p u. For
     /// linear elasticity it does nothing.
@@ -78,7 +77,7 @@ namespace corotet
     update_rotations(const Vector &u);
 
     /// f = internal force of the displacement @p u at the present rotations of
-    /// the cells, whatever the placement: of the law with these frozen.
+    /// the cells, whatever the law: of linear elasticity rotated with these.
     void
     internal_force(Vector &f, const Vector &u) const;
 
@@ -179,10 +178,10 @@ namespace corotet
       return reference;
     }
 
-    Rotation
-    rotation_placement() const
+    const MaterialLaw &
+    law() const
     {
-      return placement;
+      return *material_law;
     }
 
     /// Whether that tangent is the one of the cells' frozen rotations, which
@@ -191,9 +190,7 @@ namespace corotet
     bool
     is_by_cell(const Tangent tangent) const
     {
-      return placement == Rotation::none ||
-             (tangent == Tangent::frozen_rotation &&
-              placement != Rotation::quadrature_points);
+      return sweeps.tangent(tangent).apply == nullptr;
     }
 
     /// Whether that tangent is symmetric. For the consistent one this means
@@ -202,7 +199,7 @@ namespace corotet
     is_symmetric(const Tangent tangent) const
     {
       return tangent == Tangent::frozen_rotation ||
-             placement != Rotation::cell_centre || discretization.degree() == 1;
+             material_law->has_energy(discretization.degree());
     }
 
   private:
@@ -216,48 +213,33 @@ namespace corotet
     /// grad u at the centre of a cell.
     dealii::Tensor<2, 3>
     centre_gradient(const unsigned int cell, const Vector &u) const;
-    /// f = scale times what @p sweep, one of sweep.h, makes of @p u and
-    /// @p data.
-    template <typename Sweep, typename Data>
+    /// f = scale times what @p sweep makes of @p u and @p data.
+    template <typename Data>
     void
     cell_sweep(Vector       &f,
                const Vector &u,
-               const Sweep  &sweep,
-               Data         &data,
-               const double  scale) const;
-    /// A sweep that takes new rotations and adds the force in units of scale.
-    struct Force
-    {
-      std::function<void(ElasticData &,
-                         const unsigned int,
-                         const unsigned int,
-                         const double *,
-                         double *)>
-             sweep;
-      double scale;
-    };
-    Force
-    moving_force() const;
-    /// New rotations of batches [first, end).
-    void
-    rotate(ElasticData       &data,
-           const unsigned int first,
-           const unsigned int end,
-           const Vector      &u) const;
+               void (*sweep)(Data &,
+                             const unsigned int,
+                             const unsigned int,
+                             const double *,
+                             double *),
+               Data        &data,
+               const double scale) const;
 
-    const Discretization          &discretization;
-    const ReferenceElement        &reference;
-    Rotation                       placement;
-    std::vector<IsotropicMaterial> cell_materials;
-    std::vector<unsigned int>      material_of_cell;
-    CellLoop<double>               cell_loop;
+    const Discretization              &discretization;
+    const ReferenceElement            &reference;
+    std::shared_ptr<const MaterialLaw> material_law;
+    ElasticSweeps                      sweeps;
+    std::vector<IsotropicMaterial>     cell_materials;
+    std::vector<unsigned int>          material_of_cell;
+    CellLoop<double>                   cell_loop;
 
     // In the batches of the discretization. Gradients among the coefficients
     // are rotated: that is how rotations are stored.
     dealii::AlignedVector<CellShapes>               shapes;
     dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
 
-    /// Of the last linearize(); see linearization_sweep().
+    /// Of the last linearize(); see TangentSweeps.
     dealii::AlignedVector<double> linearization;
     Tangent                       linearized_tangent = Tangent::frozen_rotation;
 

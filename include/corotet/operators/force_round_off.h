@@ -43,7 +43,7 @@ namespace corotet
     double
     estimate(const Vector &u, const double strain_noise) const;
 
-    bool corotational;
+    bool has_rotations;
     /// By owned node: sum of the squares of the forces that cells exert if
     /// their strains are 1 [N^2].
     std::vector<double> by_strain;

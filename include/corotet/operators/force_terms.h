@@ -5,8 +5,8 @@
 #define corotet_operators_force_terms_h
 
 #include <corotet/discretization/discretization.h>
+#include <corotet/operators/elastic_sweeps.h>
 #include <corotet/operators/force_term.h>
-#include <corotet/operators/tangent_sweep.h>
 
 #include <memory>
 #include <vector>

@@ -6,9 +6,10 @@
 
 #include <corotet/base/vector.h>
 #include <corotet/discretization/point_geometry.h>
-#include <corotet/material/corotational.h>
+#include <corotet/material/material_law.h>
 
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace corotet
@@ -16,11 +17,10 @@ namespace corotet
   /**
    * Stress at points of cells, as a function of the displacement.
    *
-   * Corotational strain and stress are turned back into space: R (sym(R^T F) -
-   * I) R^T and R sigma R^T. Their principal directions are those that one sees
-   * on the displaced body. This stress is that of Cauchy but for terms of the
-   * order of the strain. R is that of the point, or of the cell's centre, as
-   * Rotation says; linear elasticity is the case R = I.
+   * It is MaterialLaw::spatial_stresses(): corotational stress is turned back
+   * into space, R sigma R^T, so that its principal directions are those that
+   * one sees on the displaced body. This stress is that of Cauchy but for terms
+   * of the order of the strain.
    *
    * Materials are told apart by their elastic constants: regions with equal
    * ones count as one material. @p discretization must outlive this object.
@@ -33,7 +33,7 @@ namespace corotet
     PointStress(const Discretization                            &discretization,
                 const ReferenceElement                          &reference,
                 const std::map<unsigned int, IsotropicMaterial> &materials,
-                const Rotation                                   rotation);
+                const std::shared_ptr<const MaterialLaw>        &law);
 
     /// The same number on all ranks.
     unsigned int
@@ -68,7 +68,7 @@ namespace corotet
   private:
     const Discretization                &discretization;
     const ReferenceElement::PointValues  centre;
-    Rotation                             rotation;
+    std::shared_ptr<const MaterialLaw>   law;
     std::vector<IsotropicMaterial>       materials;
     std::map<unsigned int, unsigned int> material_of_region;
   };

@@ -52,7 +52,7 @@ namespace corotet
     StressField(const Discretization                            &discretization,
                 const ReferenceElement                          &reference,
                 const std::map<unsigned int, IsotropicMaterial> &materials,
-                const Rotation                                   rotation);
+                const std::shared_ptr<const MaterialLaw>        &law);
 
     /// From now on all is that of the displacement @p u, which must not change
     /// until the next call; its ghost entries must be up to date.

@@ -6,11 +6,13 @@
 
 #include <corotet/discretization/cell_batches.h>
 #include <corotet/discretization/element.h>
-#include <corotet/material/corotational.h>
+#include <corotet/discretization/reference_element.h>
+#include <corotet/material/law.h>
 #include <corotet/material/polar_decomposition_simd.h>
 #include <corotet/operators/factored_kernel.h>
 
 #include <bit>
+#include <limits>
 
 /**
  * Loops over batches of cells around the cell kernels: gather, compute, add.
@@ -38,6 +40,13 @@ namespace corotet
                         lanes(const double *values)
   {
     return load_aligned<batch_size>(values);
+  }
+
+  /// Lamé's parameters of a batch.
+  COROTET_ALWAYS_INLINE LameLanes
+  lame(const CellShapes &shapes)
+  {
+    return {lanes(shapes.lambda), lanes(shapes.mu)};
   }
 
   /// The terms of a linear form.
@@ -116,16 +125,45 @@ namespace corotet
     }
   };
 
-  /// What the sweeps of corotational elasticity read and write.
+  /// What a sweep over the points of the stiffness rule finds.
+  struct PointResults
+  {
+    /// Elastic energy [J].
+    double energy = 0;
+    /// Smallest det F at these points and at the centres [-].
+    double min_det_F = std::numeric_limits<double>::infinity();
+    /// Cells where det F is negative at one of them, by more than round-off.
+    unsigned int inverted_cells = 0;
+  };
+
+  /// What the sweeps of elasticity read and write.
   struct ElasticData
   {
     const CellBatches              &batches;
+    const ReferenceElement         &reference;
     const CellShapes               *shapes;
     const CellCoefficients<double> *coefficients;
-    Rotation                        rotation;
+    /// Whether the cells have rotations; otherwise R = I.
+    bool has_rotations;
+    /// The law, for sweeps that know its class.
+    const void *law = nullptr;
+
     /// The coefficients, for sweeps that rotate; null for others.
     CellCoefficients<double> *new_coefficients = nullptr;
     RotationCounts            counts           = {};
+    PointResults              results          = {};
+
+    /// Numbers that linearizations keep, of all batches: [number][lane] each.
+    const double *linearization = nullptr;
+    /// The same, for sweeps that linearize.
+    double *new_linearization = nullptr;
+    /// Cells where a derivative was bounded.
+    unsigned int n_clamped = 0;
+    /// Multiplies the part of the tangent with frozen rotations.
+    double frozen_factor = 1;
+    /// Null if the tangent has no mass term.
+    const CellMasses<double> *masses      = nullptr;
+    double                    mass_factor = 0;
   };
 
   /**
@@ -139,7 +177,7 @@ namespace corotet
                Simd<double> (&R)[3][3])
   {
     using V = Simd<double>;
-    if (data.rotation == Rotation::none)
+    if (!data.has_rotations)
       {
         static_for<9>(
           [&](auto i) { R[i / 3][i % 3] = broadcast(i % 4 == 0 ? 1. : 0.); });
@@ -181,8 +219,9 @@ namespace corotet
 
   /**
    * Sweeps over the displacement: new rotations of the cells (also of ghost
-   * cells; @p sums is not used), the internal force with the rotations that
-   * there are, in units of stiffness_scale, or both in one go.
+   * cells; @p sums is not used), the internal force of linear elasticity with
+   * the rotations that there are, in units of stiffness_scale, or both in one
+   * go.
    */
   ElasticSweep
   rotation_sweep(const Element element);
@@ -190,6 +229,11 @@ namespace corotet
   force_sweep(const Element element);
   ElasticSweep
   rotation_and_force_sweep(const Element element);
+
+  /// K source with the cells' rotations that there are, like form_sweep() but
+  /// by quadrature and in units of one.
+  ElasticSweep
+  tangent_by_quadrature_sweep(const Element element);
 } // namespace corotet
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <corotet/base/log.h>
 #include <corotet/discretization/rigid_motions.h>
+#include <corotet/laws/linear.h>
 #include <corotet/simulation/observer.h>
 #include <corotet/simulation/simulation_parameters.h>
 #include <corotet/solvers/eigenvalue_solver.h>
@@ -109,7 +110,7 @@ namespace corotet
       return {disc,
               reference,
               parameters.material.materials(mesh.regions()),
-              Rotation::none};
+              linear_law()};
     }
 
     /// What is known of the run at its end. The number of steps is that of the

@@ -9,8 +9,8 @@
 #include <corotet/discretization/boundary_conditions.h>
 #include <corotet/discretization/element.h>
 #include <corotet/forces/force_kind.h>
+#include <corotet/laws/material_parameters.h>
 #include <corotet/material/exact_solution.h>
-#include <corotet/material/material_parameters.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/simulation/adaptive_step.h>
 #include <corotet/solvers/linear_solver.h>

@@ -146,8 +146,7 @@ namespace corotet
         return false;
       Vector difference(present.u);
       difference -= good_state.u;
-      return parameters.material.rotation_placement() == Rotation::none ||
-             norm(difference) == 0;
+      return system.elasticity().law().is_linear() || norm(difference) == 0;
     }
     void
     announce_half(const double to, const ComputationError &error) const

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_material_material_parameters_h
-#define corotet_material_material_parameters_h
+#ifndef corotet_laws_material_parameters_h
+#define corotet_laws_material_parameters_h
 
-#include <corotet/material/corotational.h>
+#include <corotet/laws/law_kind.h>
 #include <corotet/mesh/mesh.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -21,11 +21,13 @@ namespace corotet
    */
   struct MaterialParameters
   {
+    MaterialParameters();
+
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    Rotation
-    rotation_placement() const;
+    std::shared_ptr<const MaterialLaw>
+    law() const;
 
     /**
      * The material of each region, by the region's id. Throws InputError if a
@@ -34,11 +36,11 @@ namespace corotet
     std::map<unsigned int, IsotropicMaterial>
     materials(const MeshNames &regions) const;
 
-    std::string type           = "corotational";
-    std::string rotation       = "cell centre";
-    std::string youngs_modulus = "1e6";
-    std::string poissons_ratio = "0.3";
-    std::string density        = "1000";
+    Selectable<LawKind> type;
+    std::string         rotation       = "cell centre";
+    std::string         youngs_modulus = "1e6";
+    std::string         poissons_ratio = "0.3";
+    std::string         density        = "1000";
   };
 } // namespace corotet
 

@@ -3,7 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
-#include <corotet/material/material_parameters.h>
+#include <corotet/laws/material_parameters.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -91,16 +91,22 @@ namespace corotet
     }
   } // namespace
 
+  MaterialParameters::MaterialParameters()
+    : type(law_kinds(), "corotational")
+  {}
+
   void
   MaterialParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter(
-      "Type",
-      type,
-      "Strain measure: 'linear' is small-strain elasticity, right for small "
+    type.declare_parameters(
+      prm,
+      "Law of elasticity: 'linear' is small-strain elasticity, right for small "
       "rotations only; 'corotational' takes the rotation of each cell out of "
-      "the deformation gradient first.",
-      dealii::Patterns::Selection("linear|corotational"));
+      "the deformation gradient first, for small strains at any rotation; "
+      "'Saint Venant-Kirchhoff', linear in Green's strain, for moderate strains "
+      "without strong compression, in which it softens; 'neo-Hookean', "
+      "mu / 2 (tr C - 3) - mu ln J + lambda / 2 (ln J)^2, for large strains: "
+      "no cell can be turned inside out. All are the same at small strains.");
     prm.add_parameter("Rotation",
                       rotation,
                       "Where the rotation of corotational elasticity is taken: "
@@ -129,13 +135,10 @@ namespace corotet
                       "Mass per volume [kg/m^3], positive." + by_region);
   }
 
-  Rotation
-  MaterialParameters::rotation_placement() const
+  std::shared_ptr<const MaterialLaw>
+  MaterialParameters::law() const
   {
-    return type == "linear"                ? Rotation::none :
-           rotation == "cell centre"       ? Rotation::cell_centre :
-           rotation == "quadrature points" ? Rotation::quadrature_points :
-                                             Rotation::cell_centre_variational;
+    return type.selected().make(rotation);
   }
 
   std::map<unsigned int, IsotropicMaterial>

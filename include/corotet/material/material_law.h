@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_material_material_law_h
+#define corotet_material_material_law_h
+
+#include <corotet/discretization/element.h>
+#include <corotet/material/isotropic.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <span>
+
+namespace corotet
+{
+  struct ElasticSweeps;
+
+  /**
+   * A law of elasticity that is chosen at run time. Laws are written as a Law,
+   * at a point, and become this by MaterialLawOf. All members but sweeps() are
+   * for single points: for output and for data. H is grad u [component]
+   * [direction].
+   */
+  class MaterialLaw
+  {
+  public:
+    virtual ~MaterialLaw() = default;
+
+    /// Whether forces are linear in the displacement.
+    virtual bool
+    is_linear() const = 0;
+
+    /// Whether all points of a cell have the rotation of its centre.
+    virtual bool
+    has_cell_rotation() const
+    {
+      return false;
+    }
+
+    /// Whether the force is the gradient of the energy, so that its derivative
+    /// is symmetric, for elements of that degree.
+    virtual bool
+    has_energy(const unsigned int /*degree*/) const
+    {
+      return true;
+    }
+
+    /// First Piola-Kirchhoff stress [Pa] of a body with this gradient all over.
+    virtual dealii::Tensor<2, 3>
+    stress(const IsotropicMaterial    &material,
+           const dealii::Tensor<2, 3> &H) const = 0;
+
+    /// Its derivative in the direction @p dF.
+    virtual dealii::Tensor<2, 3>
+    stress_derivative(const IsotropicMaterial    &material,
+                      const dealii::Tensor<2, 3> &H,
+                      const dealii::Tensor<2, 3> &dF) const = 0;
+
+    /// Elastic energy per volume at rest [J/m^3] of such a body.
+    virtual double
+    energy_density(const IsotropicMaterial    &material,
+                   const dealii::Tensor<2, 3> &H) const = 0;
+
+    /**
+     * The stress that is shown [Pa] at points of a cell with gradients @p H,
+     * written to @p sigma. @p centre: the gradient at the cell's centre.
+     * Cauchy's stress; of corotational elasticity R sigma R^T, which is the
+     * same but for terms of the order of the strain; of linear elasticity
+     * sigma.
+     */
+    virtual void
+    spatial_stresses(const IsotropicMaterial                    &material,
+                     const dealii::Tensor<2, 3>                 &centre,
+                     const std::span<const dealii::Tensor<2, 3>> H,
+                     dealii::SymmetricTensor<2, 3> *sigma) const = 0;
+
+    /// The work on cells.
+    virtual ElasticSweeps
+    sweeps(const Element element) const = 0;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_batch_sweep_h
+#define corotet_operators_batch_sweep_h
+
+#include <corotet/discretization/curved_batches.h>
+#include <corotet/operators/with_kernel.h>
+
+namespace corotet
+{
+  /**
+   * The loop over batches of cells around one kind of work: gather, compute,
+   * add. It knows neither vectors nor ranks; cell_loop.h does. An Operation has
+   *
+   *   - Data, what it reads and writes, with a member batches, and Number;
+   *   - n_batches, how many batches it takes at once;
+   *   - apply(is_curved, data, batch, source, sums): adds to @p sums, four
+   *     numbers per local node, what the cells of a batch make of @p source.
+   *     is_curved is std::true_type or std::false_type, always the latter if
+   * the operation has a member ignores_curvature.
+   */
+  template <typename Operation>
+  class BatchSweep
+  {
+  public:
+    using Data   = typename Operation::Data;
+    using Number = typename Operation::Number;
+
+    /// Treats batches [first, end).
+    static void
+    run(Data              &data,
+        const unsigned int first,
+        const unsigned int end,
+        const Number      *source,
+        Number            *sums)
+    {
+      if constexpr (requires { Operation::ignores_curvature; })
+        run_batches(std::false_type(), data, first, end, source, sums);
+      else
+        for_each_kind(data.batches,
+                      first,
+                      end,
+                      [&](const auto begin,
+                          const auto stop,
+                          const auto is_curved) {
+                        run_batches(is_curved, data, begin, stop, source, sums);
+                      });
+    }
+
+  private:
+    // Flat: what it calls becomes one piece of code with constants for counters
+    // and registers for arrays; with calls it is six times slower.
+    template <typename IsCurved>
+    static __attribute__((flatten)) void
+    run_batches(const IsCurved     is_curved,
+                Data              &data,
+                const unsigned int first,
+                const unsigned int end,
+                const Number      *source,
+                Number            *sums)
+    {
+      for (unsigned int batch = first; batch < end;
+           batch += Operation::n_batches)
+        Operation::apply(is_curved, data, batch, source, sums);
+    }
+  };
+
+  /// A sweep for an element that is known at run time only: @p choose gets
+  /// std::type_identity of its kernel and returns the sweep.
+  template <typename T, typename Choose>
+  auto
+  sweep_of_element(const Element element, const Choose &choose)
+  {
+    decltype(choose(std::type_identity<FactoredKernel<1, T>>())) result =
+      nullptr;
+    with_kernel<T>(element,
+                   [&](const auto kernel) { result = choose(kernel); });
+    return result;
+  }
+} // namespace corotet
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_elastic_sweeps_h
+#define corotet_operators_elastic_sweeps_h
+
+#include <corotet/operators/cell_rule.h>
+#include <corotet/operators/sweep.h>
+
+namespace corotet
+{
+  /// The derivative of the internal force.
+  enum class Tangent
+  {
+    /// As if the rotations did not depend on the displacement: symmetric and
+    /// positive semi-definite.
+    frozen_rotation,
+    /// Exact.
+    consistent
+  };
+
+  /// How many numbers a linearization keeps.
+  struct LinearizationSize
+  {
+    unsigned int per_cell  = 0;
+    unsigned int per_point = 0;
+
+    constexpr std::size_t
+    of_cell(const unsigned int n_points) const
+    {
+      return per_cell + per_point * n_points;
+    }
+
+    /// Those of all owned batches.
+    std::size_t
+    of_batches(const ReferenceElement &reference,
+               const CellBatches      &batches) const;
+  };
+
+  /// First number of a batch. Those of curved ones follow those of all as if
+  /// they were straight.
+  template <bool is_curved>
+  inline std::size_t
+  linearization_start(const ElasticData      &data,
+                      const LinearizationSize size,
+                      const unsigned int      batch)
+  {
+    const std::size_t straight =
+      size.of_cell(n_points(data.reference.stiffness_rule));
+    std::size_t start = straight * batch;
+    if constexpr (is_curved)
+      {
+        const CurvedBatches &curved = *data.batches.curved();
+        start = straight * data.batches.n_owned_batches() +
+                size.of_cell(curved.n_points()) * curved.index(batch);
+      }
+    return batch_size * start;
+  }
+
+  /**
+   * A tangent that varies inside a cell: a first sweep keeps what it needs of
+   * the displacement, a second one adds (K_T + (frozen_factor - 1) K_frozen +
+   * mass_factor M) source to the sums. Null where the tangent is that of the
+   * cells' frozen rotations.
+   */
+  struct TangentSweeps
+  {
+    LinearizationSize size      = {};
+    ElasticSweep      linearize = nullptr;
+    ElasticSweep      apply     = nullptr;
+  };
+
+  /**
+   * The work that a law has on cells, for one element. Sources are
+   * displacements but for TangentSweeps::apply.
+   */
+  struct ElasticSweeps
+  {
+    /// The internal force, in units of force_scale.
+    ElasticSweep force       = nullptr;
+    double       force_scale = 1;
+    /// Whether it takes the cells' rotations, too.
+    bool force_rotates = false;
+    /// Elastic energy and det F. There are no sums.
+    ElasticSweep  state      = nullptr;
+    TangentSweeps consistent = {};
+    TangentSweeps frozen     = {};
+    /// What ElasticData::law is to be.
+    const void *law = nullptr;
+
+    const TangentSweeps &
+    tangent(const Tangent tangent) const
+    {
+      return tangent == Tangent::consistent ? consistent : frozen;
+    }
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_all_laws_h
+#define corotet_tests_all_laws_h
+
+#include <corotet/laws/law_kind.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet::tests
+{
+  /// A law of the registry, with one placement of rotations.
+  struct NamedLaw
+  {
+    /// "neo-Hookean", "corotational, cell centre".
+    std::string name;
+    /// Its entries in section Material.
+    std::string                        text;
+    std::shared_ptr<const MaterialLaw> law;
+  };
+
+  /// All laws that there are.
+  inline const std::vector<NamedLaw> &
+  all_laws()
+  {
+    static const std::vector<NamedLaw> laws = [] {
+      std::vector<NamedLaw> result;
+      for (const Candidate<LawKind> &candidate : law_kinds())
+        {
+          const auto kind = candidate.make();
+          const auto add  = [&](const std::string &placement) {
+            result.push_back(
+              {candidate.name + (placement.empty() ? "" : ", " + placement),
+               " set Type = " + candidate.name + "\n" +
+                 (placement.empty() ? "" :
+                                       " set Rotation = " + placement + "\n"),
+               kind->make(placement)});
+          };
+          if (kind->has_rotations())
+            for (const std::string placement : {"cell centre",
+                                                "quadrature points",
+                                                "cell centre, variational"})
+              add(placement);
+          else
+            add("");
+        }
+      return result;
+    }();
+    return laws;
+  }
+
+  /// Those that are not linear.
+  inline const std::vector<NamedLaw> &
+  nonlinear_laws()
+  {
+    static const std::vector<NamedLaw> laws = [] {
+      std::vector<NamedLaw> result;
+      for (const NamedLaw &law : all_laws())
+        if (!law.law->is_linear())
+          result.push_back(law);
+      return result;
+    }();
+    return laws;
+  }
+} // namespace corotet::tests
+
+#endif
