@@ -94,7 +94,8 @@ namespace corotet
     sums = dealii::Utilities::MPI::sum(sums, discretization.communicator());
     if (!std::isfinite(sums[0] + sums[1]))
       throw ComputationError(
-        "the forces at the end of the step are not finite");
+        "the forces at the end of the step are not finite" +
+        system.why_not_finite());
 
     before = {{this->dt, work, dissipation}};
     work += sums[0];

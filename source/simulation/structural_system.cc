@@ -194,6 +194,18 @@ namespace corotet
     return forces;
   }
 
+  std::string
+  StructuralSystem::why_not_finite() const
+  {
+    const ElasticState state = elastic.state(u_ghosted);
+    if (std::isfinite(state.energy))
+      return "";
+    return fmt::format(
+      ": cells are flat or inside out (smallest det F {:.3g}), "
+      "where the material has no stress",
+      state.min_det_F);
+  }
+
   void
   StructuralSystem::make_operators()
   {
@@ -223,6 +235,10 @@ namespace corotet
     catch (const ComputationError &)
       {
         log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
+        if (report.iterations == 0 && !std::isfinite(norm(forces.internal)))
+          throw ComputationError(
+            "the forces are not finite where Newton's method starts" +
+            why_not_finite());
         throw;
       }
     solved_scale = force_scale;

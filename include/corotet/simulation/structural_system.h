@@ -116,6 +116,12 @@ namespace corotet
       return forces_time;
     }
 
+    /// What may be the reason that the forces of the last evaluation are not
+    /// finite: cells without a stress, or nothing that is known. To be appended
+    /// to an error. Collective.
+    std::string
+    why_not_finite() const;
+
     /// Estimate of the largest angular frequency of M^-1 K [rad/s], from above
     /// by less than 0.1 percent. K is the tangent at @p state, with frozen
     /// rotations if the exact one is not symmetric. Collective.

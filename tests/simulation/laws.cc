@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Every law of the registry in whole problems: orders of convergence to exact
+// solutions, what the preconditioner takes, and what happens at the border of
+// what a law can do.
+
+#include <corotet/laws/neo_hookean.h>
+#include <corotet/operators/error_norms.h>
+#include <corotet/time_integration/load_stepping.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../all_laws.h"
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  // Turned by up to 50 degrees, strains of up to 20 percent. Two sides are
+  // prescribed, the others have tractions.
+  const std::string exact_displacement =
+    "0.2*sin(2*x+y)*y - 0.4*y; 0.6*x*x + 0.1*cos(3*y)*x + 0.5*x; "
+    "0.15*sin(2*z)*(1+x) - 0.2*x*y";
+
+  std::string
+  exact_problem(const unsigned int degree, const NamedLaw &law)
+  {
+    return fmt::format(R"(
+      subsection Discretization
+        set Degree = {}
+      end
+      subsection Material
+      {}
+        set Young's modulus = 10
+        set Poisson's ratio = 0.3
+      end
+      subsection Exact solution
+        set Displacement          = {}
+        set Displacement boundary = x-min, y-max
+      end
+      subsection Time integration
+        set Type = static
+      end
+      subsection Newton
+        set Residual tolerance  = 1e-11
+        set Increment tolerance = 1e-11
+      end)",
+                       degree,
+                       law.text,
+                       exact_displacement);
+  }
+
+  FieldNorms
+  errors(const unsigned int degree, const NamedLaw &law, const unsigned int n)
+  {
+    Body body(box("0.5, 0.5, 0.5", fmt::format("{0}, {0}, {0}", n), 0.1),
+              exact_problem(degree, law));
+    LoadStepping load_stepping;
+    load_stepping.proportional = false;
+    load_stepping.step(body.system, {0., 1., 1.}, body.state);
+    Vector u;
+    body.discretization.initialize_vector(u);
+    u.copy_locally_owned_data_from(body.state.u);
+    u.update_ghost_values();
+    const ExactSolution &exact = *body.system.exact_solution();
+    return error_norms(body.discretization,
+                       body.parameters.material.materials(body.mesh.regions()),
+                       u,
+                       [&](const Point<3> &x) {
+                         return PointDisplacement{exact.displacement(x, 1.),
+                                                  exact.gradient(x, 1.)};
+                       })
+      .error;
+  }
+
+  class LawsInProblems
+    : public testing::TestWithParam<std::tuple<unsigned int, unsigned int>>
+  {};
+
+  // A cube of neo-Hookean material between two plates, one of which moves.
+  std::string
+  squeezed(const std::string &displacement,
+           const std::string &time_integration,
+           const std::string &mass = "consistent")
+  {
+    return fmt::format(R"(
+      subsection Mesh
+        subsection box
+          set Size  = 1, 1, 1
+          set Cells = 2, 2, 2
+        end
+      end
+      {}
+      subsection Material
+        set Type            = neo-Hookean
+        set Young's modulus = 1e6
+        set Poisson's ratio = 0.3
+      end
+      subsection Boundary conditions
+        set Fixed        = x-min
+        set Displacement = x-max: {}; 0; 0
+      end
+      subsection Time integration
+        {}
+      end)",
+                       discretization(2, mass),
+                       displacement,
+                       time_integration);
+  }
+} // namespace
+
+// One rotation per cell leaves out O(h) times the strain; see
+// large_rotations.cc for its orders.
+TEST_P(LawsInProblems, OrdersOfConvergence)
+{
+  const auto &[degree, number] = GetParam();
+  const NamedLaw &law          = all_laws()[number];
+  if (law.law->has_cell_rotation())
+    GTEST_SKIP() << "orders of one rotation per cell are in LargeRotations";
+  const unsigned int n      = degree == 1 ? 8 : 4;
+  const FieldNorms   coarse = errors(degree, law, n),
+                   fine     = errors(degree, law, 2 * n);
+  const double L2           = std::log2(coarse.L2 / fine.L2),
+               H1           = std::log2(coarse.H1 / fine.H1);
+  report(fmt::format("L2 order, P{}, {}", degree, law.name), L2);
+  report(fmt::format("H1 order, P{}, {}", degree, law.name), H1);
+  EXPECT_NEAR(L2, degree + 1, 0.25);
+  EXPECT_NEAR(H1, degree, 0.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  All,
+  LawsInProblems,
+  testing::Combine(testing::Values(1u, 2u, 3u),
+                   testing::Range<unsigned int>(0, all_laws().size())));
+
+// The preconditioner knows linear elasticity rotated with the cells, whatever
+// the law: with strains of some tens of percent it takes a few times as many
+// iterations.
+TEST(Laws, Preconditioner)
+{
+  double of_linear = 0;
+  for (const NamedLaw &law : all_laws())
+    {
+      // One rotation per cell is measured where bodies bend: here its solution
+      // is another one.
+      if (law.law->has_cell_rotation())
+        continue;
+      Body body(box("0.5, 0.5, 0.5", "4, 4, 4", 0.1), exact_problem(3, law));
+      LoadStepping load_stepping;
+      load_stepping.proportional = false;
+      const StageReport solved =
+        load_stepping.step(body.system, {0., 1., 1.}, body.state);
+      const double iterations =
+        double(solved.linear_iterations) / solved.newton_iterations;
+      report("p-multigrid iterations per Newton iteration, " + law.name,
+             iterations);
+      EXPECT_LE(solved.newton_iterations, 8u);
+      if (law.law->is_linear())
+        of_linear = iterations;
+      EXPECT_LE(iterations, 4 * of_linear);
+    }
+}
+
+// A plate moves so far in one step that the first guess has cells inside out:
+// the step is made in parts, and the body ends where small steps end.
+TEST(NeoHookean, FailingStepIsHalved)
+{
+  const auto statics = [](const unsigned int load_steps) {
+    return fmt::format(
+      "set Type = static\n subsection static\n set Load steps = {}\n end\n",
+      load_steps);
+  };
+  CompleteRun one(squeezed("3", statics(1)));
+  CompleteRun many(squeezed("3", statics(8)));
+  EXPECT_EQ(one.run(), "");
+  EXPECT_EQ(many.run(), "");
+  const StepRecord &far  = one.recorder().steps.back(),
+                   &slow = many.recorder().steps.back();
+  EXPECT_GT(far.parts, 1u);
+  EXPECT_EQ(slow.parts, 1u);
+  // To Newton's tolerance, 1e-8.
+  EXPECT_NEAR(far.elastic_energy,
+              slow.elastic_energy,
+              1e-7 * slow.elastic_energy);
+  EXPECT_GT(far.min_det_F, 0.);
+}
+
+// What the law has no state for fails, and says why.
+TEST(NeoHookean, FlatBodyFails)
+{
+  CompleteRun statics(
+    squeezed("-1", "set Type = static\n set Maximum halvings = 0\n"));
+  const std::string flat = statics.run();
+  EXPECT_NE(flat.find("cells are flat or inside out"), std::string::npos)
+    << flat;
+  EXPECT_NE(flat.find("smallest det F"), std::string::npos) << flat;
+
+  CompleteRun explicit_run(
+    squeezed("-0.98*t/0.1",
+             "set Type = central difference\n set End time = 0.1\n set Time "
+             "step = 0\n",
+             "nodal quadrature"));
+  const std::string crushed = explicit_run.run();
+  EXPECT_NE(crushed.find("cells are flat or inside out"), std::string::npos)
+    << crushed;
+}
