@@ -4,7 +4,7 @@
 #ifndef corotet_laws_linear_h
 #define corotet_laws_linear_h
 
-#include <corotet/material/isotropic.h>
+#include <corotet/material/isotropic_law.h>
 #include <corotet/material/law.h>
 #include <corotet/material/material_law.h>
 

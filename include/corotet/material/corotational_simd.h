@@ -4,7 +4,7 @@
 #ifndef corotet_material_corotational_simd_h
 #define corotet_material_corotational_simd_h
 
-#include <corotet/material/isotropic.h>
+#include <corotet/material/isotropic_law.h>
 #include <corotet/material/rotation_derivative.h>
 
 namespace corotet

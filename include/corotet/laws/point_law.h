@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_laws_point_law_h
+#define corotet_laws_point_law_h
+
+#include <corotet/material/material_law.h>
+
+#include <memory>
+
+namespace corotet
+{
+  /**
+   * A law of elasticity as a program adds it: at a single point, in plain
+   * numbers. What makes it a MaterialLaw is in the library, and calls it for
+   * each quadrature point; the laws of the library itself are written as a Law,
+   * for many points at once, and are faster.
+   *
+   * H is grad u, [component][direction]; F = I + H. @p material has Lamé's
+   * parameters of the cell. At rest the law must be linear elasticity with
+   * these: modes and the preconditioner rely on it. Where it has no stress, it
+   * returns numbers that are not finite; the step is then made in halves.
+   * Members must not change the object.
+   */
+  class PointLaw
+  {
+  public:
+    virtual ~PointLaw() = default;
+
+    /// First Piola-Kirchhoff stress [Pa].
+    virtual dealii::Tensor<2, 3>
+    stress(const IsotropicMaterial    &material,
+           const dealii::Tensor<2, 3> &H) const = 0;
+
+    /// Its derivative in the direction @p dF.
+    virtual dealii::Tensor<2, 3>
+    stress_derivative(const IsotropicMaterial    &material,
+                      const dealii::Tensor<2, 3> &H,
+                      const dealii::Tensor<2, 3> &dF) const = 0;
+
+    /// Elastic energy per volume at rest [J/m^3], whose derivative the stress
+    /// is.
+    virtual double
+    energy_density(const IsotropicMaterial    &material,
+                   const dealii::Tensor<2, 3> &H) const = 0;
+  };
+
+  std::shared_ptr<const MaterialLaw>
+  material_law(const std::shared_ptr<const PointLaw> &law);
+} // namespace corotet
+
+#endif

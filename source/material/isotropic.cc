@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/material/isotropic.h>
+#include <corotet/material/isotropic_law.h>
+
+namespace corotet
+{
+  dealii::SymmetricTensor<2, 3>
+  stress(const IsotropicMaterial             &material,
+         const dealii::SymmetricTensor<2, 3> &strain)
+  {
+    dealii::SymmetricTensor<2, 3> sigma;
+    isotropic_stress(material.lambda, material.mu, strain, sigma);
+    return sigma;
+  }
+
+  double
+  energy_density(const IsotropicMaterial             &material,
+                 const dealii::SymmetricTensor<2, 3> &strain)
+  {
+    return isotropic_energy(material.lambda, material.mu, strain);
+  }
+} // namespace corotet

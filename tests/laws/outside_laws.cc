@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// A law of the test's own, written at a point and registered from outside: what
+// the library has of the same law, the number of digits of which it must have.
+
+#include <corotet/laws/point_law.h>
+#include <corotet/operators/elasticity.h>
+
+#include <gtest/gtest.h>
+
+#include "../operators/random_states.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Tensor;
+
+namespace
+{
+  // P = F (lambda tr(E) I + 2 mu E).
+  class MyKirchhoff : public PointLaw
+  {
+  public:
+    Tensor<2, 3>
+    stress(const IsotropicMaterial &material,
+           const Tensor<2, 3>      &H) const override
+    {
+      return (H + unit()) * second_stress(material, strain(H));
+    }
+
+    Tensor<2, 3>
+    stress_derivative(const IsotropicMaterial &material,
+                      const Tensor<2, 3>      &H,
+                      const Tensor<2, 3>      &dF) const override
+    {
+      const Tensor<2, 3> F = H + unit();
+      return dF * second_stress(material, strain(H)) +
+             F * second_stress(material,
+                               0.5 * (transpose(dF) * F + transpose(F) * dF));
+    }
+
+    double
+    energy_density(const IsotropicMaterial &material,
+                   const Tensor<2, 3>      &H) const override
+    {
+      const Tensor<2, 3> E = strain(H);
+      return 0.5 * scalar_product(E, second_stress(material, E));
+    }
+
+  private:
+    static Tensor<2, 3>
+    unit()
+    {
+      return Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
+    }
+
+    static Tensor<2, 3>
+    strain(const Tensor<2, 3> &H)
+    {
+      return 0.5 * (H + transpose(H) + transpose(H) * H);
+    }
+
+    static Tensor<2, 3>
+    second_stress(const IsotropicMaterial &material, const Tensor<2, 3> &E)
+    {
+      return material.lambda * trace(E) * unit() + 2 * material.mu * E;
+    }
+  };
+} // namespace
+
+TEST(OutsideLaws, IsLikeTheLibrarysOwn)
+{
+  const AddedCandidate<LawKind> added(law_candidate("my Kirchhoff", [] {
+    return material_law(std::make_shared<MyKirchhoff>());
+  }));
+  for (const unsigned int degree : {1, 2, 3})
+    {
+      // The entry Type knows it.
+      const std::string text =
+        "subsection Discretization\n set Degree = " + std::to_string(degree) +
+        "\nend\nsubsection Material\n set Young's modulus = 1e3\n set Type = ";
+      const SerialMesh mesh = box("1, 2, 1", "2, 2, 2", 0.2);
+      Body             mine(mesh, text + "my Kirchhoff\nend\n");
+      Body             theirs(mesh, text + "Saint Venant-Kirchhoff\nend\n");
+      Elasticity       a = elasticity_of(mine, mine.parameters.material.law()),
+                 b   = elasticity_of(theirs, theirs.parameters.material.law());
+      const Vector u = displacement(mine, states[2], 1.5, 3),
+                   v = random_direction(mine);
+      const Vector f = force(b, u);
+      // Sums of some hundred products.
+      EXPECT_LE(largest_difference(force(a, u), f), 1e-13 * f.linfty_norm());
+      EXPECT_NEAR(a.state(u).energy,
+                  b.state(u).energy,
+                  1e-13 * b.state(u).energy);
+      Vector Kv(f), expected(f);
+      a.linearize(u, Tangent::consistent);
+      a.apply_stiffness(Kv, v, Tangent::consistent);
+      b.linearize(u, Tangent::consistent);
+      b.apply_stiffness(expected, v, Tangent::consistent);
+      EXPECT_LE(largest_difference(Kv, expected),
+                1e-13 * expected.linfty_norm());
+      EXPECT_NEAR(a.cell_results(u).von_mises[0],
+                  b.cell_results(u).von_mises[0],
+                  1e-13 * b.cell_results(u).von_mises[0]);
+    }
+}
