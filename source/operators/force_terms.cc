@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/operators/force_terms.h>
+#include <corotet/operators/tangent_sweep.h>
 
 #include <algorithm>
 

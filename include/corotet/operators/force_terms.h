@@ -6,13 +6,14 @@
 
 #include <corotet/discretization/discretization.h>
 #include <corotet/operators/force_term.h>
-#include <corotet/operators/tangent_sweep.h>
 
 #include <memory>
 #include <vector>
 
 namespace corotet
 {
+  enum class Tangent;
+
   /**
    * The sum of force terms. Loads that depend on neither time nor motion are
    * evaluated once. Members are collective.
