@@ -8,10 +8,7 @@ set(runtime program)
 set(development development)
 
 install(TARGETS corotet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${runtime})
-# A library of the system is found without help.
-if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
-  set_target_properties(corotet PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-endif()
+set_target_properties(corotet PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS corotet_library EXPORT corotetTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${runtime} NAMELINK_COMPONENT ${development}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${development}

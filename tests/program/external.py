@@ -128,6 +128,12 @@ class External(unittest.TestCase):
             for row, wanted in zip(history, expected):
                 self.assertAlmostEqual(float(row[name]), float(wanted[name]), delta=1e-6 * size)
 
+        (folder / "modes.prm").write_text("set Type = modes\n")
+        result = subprocess.run([self.build / "let_go", folder / "modes.prm"], capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr, f"corotet: error: {folder}/modes.prm:1: Type: found 'modes'; allowed in a run step by step: "
+                                        "'simulation'\n")
+
         _, on_two_ranks = self.run_here(self.build / "let_go", PROJECT / "bar.prm", ranks=2)
         for a, b in zip(on_two_ranks.split(), (let_go_at, highest, lowest)):
             self.assertAlmostEqual(float(a), b, delta=1e-6 * abs(b))
