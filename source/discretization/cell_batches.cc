@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/cell_batches.h>
 #include <corotet/discretization/nodes.h>
 
 #include <algorithm>
@@ -19,6 +20,19 @@ namespace corotet
       return (n + size - 1) / size;
     }
   } // namespace
+
+  Nodes::Nodes(const Element element)
+    : cell_element(element)
+    , n_cell_nodes(element.n_nodes())
+  {}
+
+  Nodes::~Nodes() = default;
+
+  void
+  Nodes::make_batches()
+  {
+    cell_batches = std::make_unique<CellBatches>(*this);
+  }
 
   CellBatches::CellBatches(const Nodes &nodes)
     : n_cell_nodes(nodes.n_nodes_per_cell())

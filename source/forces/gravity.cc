@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/forces/gravity.h>
+#include <corotet/operators/mass.h>
 
 namespace corotet
 {

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/forces/rayleigh_damping.h>
 #include <corotet/operators/force_round_off.h>
+#include <corotet/operators/mass.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/operators/elastic_sweeps.h>
 #include <corotet/operators/force_terms.h>
 
 #include <algorithm>

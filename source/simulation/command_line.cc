@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/simd.h>
 #include <corotet/base/text.h>
 #include <corotet/base/version.h>
 #include <corotet/simulation/command_line.h>
@@ -28,10 +29,11 @@ namespace corotet
     std::string
     version_message()
     {
-      return fmt::format("corotet {} (revision {}, deal.II {})\n",
+      return fmt::format("corotet {} (revision {}, deal.II {}, for {})\n",
                          version,
                          git_revision,
-                         DEAL_II_PACKAGE_VERSION);
+                         DEAL_II_PACKAGE_VERSION,
+                         instruction_set);
     }
 
     // An argument that belongs to nothing is a misspelt option or one file too

@@ -57,55 +57,69 @@ namespace corotet
   Simulation::run(const std::vector<std::unique_ptr<Observer>> &observers,
                   const Recording                              &recording)
   {
-    StepRecord record;
+    start(observers, recording);
+    while (!is_done())
+      step();
+    finish();
+  }
+
+  void
+  Simulation::guarded(const std::function<void()> &action)
+  {
     try
       {
-        compute(observers, recording, record);
+        action();
       }
     catch (const ComputationError &error)
       {
         const std::string message =
           fmt::format("step {} (t = {:.6g}): {}",
-                      record.step + (stepper.has_partial_step() ? 0 : 1),
+                      last_record.step + (stepper.has_partial_step() ? 0 : 1),
                       stepper.time(),
                       error.what());
         if (is_started)
-          save(observers, record);
-        finish(observers, record, "failed", message);
+          save();
+        finish("failed", message);
         throw ComputationError(message);
       }
-    finish(observers, record, "done", "");
   }
 
   void
-  Simulation::compute(const std::vector<std::unique_ptr<Observer>> &observers,
-                      const Recording                              &recording,
-                      StepRecord                                   &record)
+  Simulation::start(const std::vector<std::unique_ptr<Observer>> &observers,
+                    const Recording                              &recording)
   {
-    record           = stepper.start(recording);
-    is_started       = true;
-    record.wall_time = seconds();
-    report_inversions(record);
-    for (const auto &observer : observers)
-      {
-        ScopedTimer timer(wall_times.output);
-        observer->start(snapshot(record, false));
-      }
-    while (!stepper.is_done())
-      {
-        stepper.next(record);
-        stress_is_present = false;
-        record.wall_time  = seconds();
-        report_inversions(record);
-        ScopedTimer timer(wall_times.output);
-        for (const auto &observer : observers)
-          observer->step(snapshot(record, stepper.is_done()));
-      }
+    this->observers = &observers;
+    guarded([&] {
+      last_record           = stepper.start(recording);
+      is_started            = true;
+      last_record.wall_time = seconds();
+      report_inversions();
+      for (const auto &observer : observers)
+        {
+          ScopedTimer timer(wall_times.output);
+          observer->start(snapshot(false));
+        }
+    });
   }
 
   void
-  Simulation::report_inversions(const StepRecord &record)
+  Simulation::step()
   {
+    guarded([&] {
+      stepper.next(last_record);
+      stress_is_present     = false;
+      last_record.wall_time = seconds();
+      report_inversions();
+      ScopedTimer timer(wall_times.output);
+      for (const auto &observer : *observers)
+        observer->step(snapshot(stepper.is_done()));
+    });
+  }
+
+  void
+  Simulation::report_inversions()
+  {
+    const StepRecord &record = last_record;
     if (record.inverted_cells == reported_inverted &&
         record.degenerate_cells == reported_degenerate &&
         record.clamped_cells == reported_clamped)
@@ -133,25 +147,24 @@ namespace corotet
   }
 
   void
-  Simulation::save(const std::vector<std::unique_ptr<Observer>> &observers,
-                   StepRecord                                   &record)
+  Simulation::save()
   {
     // What the failed step has left in the system is not the state.
     system.set_state(stepper.state());
     stress_is_present = false;
     ScopedTimer timer(wall_times.output);
-    for (const auto &observer : observers)
+    for (const auto &observer : *observers)
       if (stepper.has_partial_step())
-        observer->step(snapshot(record, true));
+        observer->step(snapshot(true));
       else
-        observer->save(snapshot(record, true));
+        observer->save(snapshot(true));
   }
 
   Snapshot
-  Simulation::snapshot(const StepRecord &record, const bool last)
+  Simulation::snapshot(const bool last)
   {
     return {disc,
-            record,
+            last_record,
             system.displacement(),
             system.velocity(),
             [this] {
@@ -177,10 +190,7 @@ namespace corotet
   }
 
   void
-  Simulation::finish(const std::vector<std::unique_ptr<Observer>> &observers,
-                     const StepRecord                             &record,
-                     const std::string                            &status,
-                     const std::string                            &message)
+  Simulation::finish(const std::string &status, const std::string &message)
   {
     RunSummary summary;
     summary.status  = status;
@@ -197,9 +207,9 @@ namespace corotet
     summary.mesh_volume =
       dealii::Utilities::MPI::sum(volume, disc.communicator());
     summary.total_mass            = system.mass().total();
-    summary.steps                 = record.step;
-    summary.end_time              = record.time;
-    summary.final_record          = record;
+    summary.steps                 = last_record.step;
+    summary.end_time              = last_record.time;
+    summary.final_record          = last_record;
     summary.preconditioner_builds = system.preconditioner_builds();
     if (is_started)
       {
@@ -208,7 +218,7 @@ namespace corotet
       }
     summary.wall_times      = wall_times;
     summary.total_wall_time = seconds();
-    for (const auto &observer : observers)
+    for (const auto &observer : *observers)
       observer->finish(summary);
   }
 

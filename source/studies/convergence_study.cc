@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/scripts.h>
 #include <corotet/base/text.h>
 #include <corotet/base/timing.h>
 #include <corotet/base/version.h>
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -39,17 +39,6 @@ namespace corotet
         content << file.rdbuf();
         return content.str();
       });
-    }
-
-    // One argument of a shell command.
-    std::string
-    quoted(const std::string &text)
-    {
-      std::string result = "'";
-      for (const char character : text)
-        result +=
-          character == '\'' ? std::string("'\\''") : std::string(1, character);
-      return result + "'";
     }
 
     std::string
@@ -312,9 +301,8 @@ namespace corotet
   ConvergenceStudy::draw() const
   {
     on_root(comm, [&] {
-      const std::string command =
-        quoted(COROTET_SCRIPTS "/draw_study") + " " + quoted(directory);
-      if (std::system(command.c_str()) != 0)
+      const std::string script = find_script("draw_study");
+      if (script.empty() || run_and_wait(script, {directory}) != 0)
         log.warning("the pictures of the study could not be drawn; "
                     "scripts/draw_study needs Python and matplotlib");
     });

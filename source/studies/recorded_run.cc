@@ -43,6 +43,27 @@ namespace corotet
   } // namespace
 
   void
+  with_places(const CommandLine           &command,
+              const ParameterFile         &file,
+              const std::function<void()> &action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const InputError &error)
+      {
+        if (error.entry.empty())
+          throw;
+        const bool by_option =
+          command.output_directory && error.entry == "Output/Directory";
+        const std::string place =
+          by_option ? "--output" : file.location(error.entry);
+        throw InputError("", place + ": " + error.entry + ": " + error.what());
+      }
+  }
+
+  void
   recorded_run(const CommandLine &command,
                ParameterFile     &file,
                const MPI_Comm     comm)

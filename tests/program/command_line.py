@@ -17,7 +17,7 @@ class CommandLine(ProgramTest):
             self.assertIn(option, text)
 
     def test_version(self):
-        self.assertRegex(self.run_program("--version").stdout, r"corotet \d+\.\d+\.\d+.*deal\.II \d+\.\d+")
+        self.assertRegex(self.run_program("--version").stdout, r"corotet \d+\.\d+\.\d+.*deal\.II \d+\.\d+.*for \S+")
 
     def test_print_parameters(self):
         # What is printed is a file of defaults: prm and json can be read again, and say the same.

@@ -30,6 +30,14 @@ class Documentation(ProgramTest):
                 path = page.parent / "".join(target)
                 self.assertTrue(path.exists(), f"{page.name} refers to {path}")
 
+    def test_tutorial(self):
+        """Code on the library's page is that of the project which a test builds and runs."""
+        project = ROOT / "tests" / "external"
+        sources = [file.read_text(encoding="utf-8") for file in project.iterdir()]
+        blocks = re.findall("```(?:cpp|cmake)\n(.*?)```", (ROOT / "doc" / "library.md").read_text(encoding="utf-8"), re.DOTALL)
+        self.assertGreaterEqual(len(blocks), 5)
+        self.assertEqual([block for block in blocks if not any(block in source for source in sources)], [])
+
     def test_citations(self):
         # Keys are names and years, as in [chung1993, newmark1959] on pages and "@cite chung1993" in comments.
         keys = set(re.findall(r"@\w+\{(\w+),", (ROOT / "doc" / "references.bib").read_text(encoding="utf-8")))

@@ -27,6 +27,18 @@ namespace corotet
     4;
 #endif
 
+  /// What this is compiled for: the newest of the extensions that matter.
+  inline constexpr const char *instruction_set =
+#if defined(__AVX512F__)
+    "AVX-512";
+#elif defined(__AVX2__)
+    "AVX2";
+#elif defined(__SSE2__)
+    "SSE2";
+#else
+      "any processor of its kind";
+#endif
+
   namespace internal
   {
     template <typename T, int n>

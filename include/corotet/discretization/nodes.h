@@ -5,17 +5,19 @@
 #define corotet_discretization_nodes_h
 
 #include <corotet/base/vector.h>
-#include <corotet/discretization/cell_batches.h>
 #include <corotet/discretization/element.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/partitioner.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace corotet
 {
+  class CellBatches;
+
   /**
    * The nodes of an element on a distributed mesh of tetrahedra: which
    * ones each cell has, who owns them, and their unknowns.
@@ -150,17 +152,12 @@ namespace corotet
     }
 
   protected:
-    Nodes(const Element element)
-      : cell_element(element)
-      , n_cell_nodes(element.n_nodes())
-    {}
+    explicit Nodes(const Element element);
+    ~Nodes();
 
     /// To be called when all else is known.
     void
-    make_batches()
-    {
-      cell_batches = std::make_unique<CellBatches>(*this);
-    }
+    make_batches();
 
     Element                               cell_element;
     unsigned int                          n_cell_nodes;

@@ -10,7 +10,6 @@
 #include <corotet/discretization/boundary_conditions.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/operators/force_terms.h>
-#include <corotet/operators/mass.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -21,6 +20,7 @@
 namespace corotet
 {
   class Elasticity;
+  class Mass;
 
   /**
    * What force terms may be made of. All must outlive the terms.

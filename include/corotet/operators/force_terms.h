@@ -5,7 +5,6 @@
 #define corotet_operators_force_terms_h
 
 #include <corotet/discretization/discretization.h>
-#include <corotet/operators/elastic_sweeps.h>
 #include <corotet/operators/force_term.h>
 
 #include <memory>
@@ -13,6 +12,8 @@
 
 namespace corotet
 {
+  enum class Tangent;
+
   /**
    * The sum of force terms. Loads that depend on neither time nor motion are
    * evaluated once. Members are collective.

@@ -9,8 +9,7 @@
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/error_norms.h>
 #include <corotet/operators/stress_field.h>
-
-#include <deal.II/base/tensor.h>
+#include <corotet/simulation/step_record.h>
 
 #include <functional>
 #include <optional>
@@ -19,54 +18,6 @@
 
 namespace corotet
 {
-  /**
-   * The budget of one step, equal on all ranks. Units: SI.
-   */
-  struct StepRecord
-  {
-    unsigned int step              = 0;
-    double       time              = 0;
-    double       dt                = 0;
-    unsigned int newton_iterations = 0;
-    unsigned int linear_iterations = 0;
-
-    double kinetic_energy    = 0;
-    double elastic_energy    = 0;
-    double dissipated_energy = 0;
-    double external_work     = 0;
-    /// Kinetic + elastic + dissipated energy - external work, less its value at
-    /// the start: what is left over.
-    double energy_balance = 0;
-
-    dealii::Tensor<1, 3> momentum;
-    /// About the origin, with current positions.
-    dealii::Tensor<1, 3> angular_momentum;
-
-    double       max_displacement = 0;
-    double       min_det_F        = 1;
-    unsigned int inverted_cells   = 0;
-    unsigned int degenerate_cells = 0;
-    /// Cells whose rotation the fast algorithm left to the robust one.
-    unsigned int robust_rotations = 0;
-    /// Cells where the derivative of a rotation was clamped in a tangent, most
-    /// of a tangent since the last record.
-    unsigned int clamped_cells = 0;
-    /// Parts that the step was made in: 1 unless it failed at first.
-    unsigned int parts = 1;
-    /// Steps up to now that were too inaccurate and were repeated.
-    unsigned int rejected_steps = 0;
-    /// Since the start of the run [s].
-    double wall_time = 0;
-
-    /// Volume of the deformed body [m^3].
-    double volume = 0;
-    /// Sum of the forces that the supports exert on the body [N].
-    dealii::Tensor<1, 3> reaction;
-    /// Moment of the internal forces about the origin, with current positions
-    /// [N m]: zero for a law that conserves angular momentum.
-    dealii::Tensor<1, 3> internal_moment;
-  };
-
   /**
    * What an observer sees of a finished step. References are valid during the
    * call only.

@@ -10,6 +10,7 @@
 #include <corotet/simulation/structural_system.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,6 +61,37 @@ namespace corotet
     run(const std::vector<std::unique_ptr<Observer>> &observers,
         const Recording                              &recording = {});
 
+    /// The same step by step: start(), then step() until is_done() or as long
+    /// as it is wanted, then finish(). The observers must live until then.
+    /// After a ComputationError, which they are told of, nothing may follow.
+    void
+    start(const std::vector<std::unique_ptr<Observer>> &observers,
+          const Recording                              &recording = {});
+
+    /// Goes on to the next step that is to be recorded.
+    void
+    step();
+
+    bool
+    is_done() const
+    {
+      return stepper.is_done();
+    }
+
+    /// Tells the observers that this was the last step.
+    void
+    finish()
+    {
+      finish("done", "");
+    }
+
+    /// Of the last step.
+    const StepRecord &
+    record() const
+    {
+      return last_record;
+    }
+
     /// The state after the last step.
     const State &
     state() const
@@ -71,23 +103,17 @@ namespace corotet
     /// Throws InputError if supports leave the body a rigid motion.
     void
     check_supports() const;
-    /// Records of the steps that are done, and what is left to observers.
+    /// Runs @p action. If that fails, observers are told so.
     void
-    compute(const std::vector<std::unique_ptr<Observer>> &observers,
-            const Recording                              &recording,
-            StepRecord                                   &record);
+    guarded(const std::function<void()> &action);
     void
-    report_inversions(const StepRecord &record);
+    report_inversions();
     /// Shows the observers the last good state, as far as they have not seen
     /// it.
     void
-    save(const std::vector<std::unique_ptr<Observer>> &observers,
-         StepRecord                                   &record);
+    save();
     void
-    finish(const std::vector<std::unique_ptr<Observer>> &observers,
-           const StepRecord                             &record,
-           const std::string                            &status,
-           const std::string                            &message);
+    finish(const std::string &status, const std::string &message);
     /// Of the last state, if the exact solution is known.
     std::optional<ErrorNorms>
     errors();
@@ -96,7 +122,7 @@ namespace corotet
     std::optional<double>
     rotation_difference();
     Snapshot
-    snapshot(const StepRecord &record, const bool last);
+    snapshot(const bool last);
     /// Of the present displacement. Made when it is first asked for.
     StressField &
     present_stress();
@@ -114,7 +140,10 @@ namespace corotet
     const Discretization  disc;
     StructuralSystem      system;
     Stepper               stepper;
+    StepRecord            last_record;
     bool                  is_started = false;
+
+    const std::vector<std::unique_ptr<Observer>> *observers = nullptr;
 
     std::unique_ptr<StressField> stress;
     bool                         stress_is_present = false;

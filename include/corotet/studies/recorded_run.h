@@ -9,6 +9,8 @@
 
 #include <mpi.h>
 
+#include <functional>
+
 namespace corotet
 {
   /**
@@ -23,6 +25,15 @@ namespace corotet
   recorded_run(const CommandLine &command,
                ParameterFile     &file,
                const MPI_Comm     comm);
+
+  /**
+   * Runs @p action. An InputError that it throws with an entry is thrown with
+   * the place instead where @p file or an option of @p command sets that entry.
+   */
+  void
+  with_places(const CommandLine           &command,
+              const ParameterFile         &file,
+              const std::function<void()> &action);
 } // namespace corotet
 
 #endif

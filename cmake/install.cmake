@@ -1,0 +1,39 @@
+# `cmake --install`: the program with its scripts, ready cases and pages; the library with its public headers and what
+# find_package(corotet) reads.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Components, of which each becomes a package.
+set(runtime program)
+set(development development)
+
+install(TARGETS corotet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${runtime})
+set_target_properties(corotet PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS corotet_library EXPORT corotetTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${runtime} NAMELINK_COMPONENT ${development}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${development}
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+# What the program starts (base/scripts.h), and cases to begin with, which refer to each other's folders.
+set(data ${CMAKE_INSTALL_DATADIR}/corotet)
+install(PROGRAMS scripts/draw_study DESTINATION ${data}/scripts COMPONENT ${runtime})
+install(DIRECTORY parameters meshes DESTINATION ${data} COMPONENT ${runtime})
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${runtime})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT ${runtime})
+install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT ${runtime})
+# The tutorial's project.
+install(DIRECTORY tests/external/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT ${development})
+
+install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}/include\")
+set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")" COMPONENT ${development})
+install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/install_headers.cmake COMPONENT ${development})
+
+set(package_files ${CMAKE_INSTALL_LIBDIR}/cmake/corotet)
+install(EXPORT corotetTargets NAMESPACE corotet:: DESTINATION ${package_files} COMPONENT ${development})
+get_target_property(COROTET_LIBRARY_TYPE corotet_library TYPE)
+set(COROTET_DEAL_II_VERSION ${DEAL_II_VERSION_MAJOR}.${DEAL_II_VERSION_MINOR})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/corotetConfig.cmake.in ${PROJECT_BINARY_DIR}/corotetConfig.cmake
+  INSTALL_DESTINATION ${package_files})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/corotetConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/corotetConfig.cmake ${PROJECT_BINARY_DIR}/corotetConfigVersion.cmake
+  DESTINATION ${package_files} COMPONENT ${development})

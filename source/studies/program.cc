@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/mpi.h>
+#include <corotet/studies/program.h>
+#include <corotet/studies/recorded_run.h>
+
+#include <csignal>
+#include <iostream>
+
+namespace corotet
+{
+  namespace
+  {
+    void
+    run_command(const int argc, const char *const *argv)
+    {
+      CommandLine command = parse_command_line(argc, argv);
+      if (command.message)
+        return on_root(MPI_COMM_WORLD, [&] { std::cout << *command.message; });
+      if (command.output_directory)
+        command.overrides.push_back("Output/Directory = " +
+                                    *command.output_directory);
+
+      ParameterFile file;
+      with_places(command, file, [&] {
+        recorded_run(command, file, MPI_COMM_WORLD);
+      });
+    }
+  } // namespace
+
+  int
+  run_program(const int argc, char **argv)
+  {
+    // A file that reaches a limit is an error of writing, like a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+
+    // deal.II hands its arguments on to PETSc, which warns about unknown ones.
+    int                                      n_passed_on = 1;
+    char                                    *passed_on[] = {argv[0], nullptr};
+    char                                   **first_argument = passed_on;
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(n_passed_on,
+                                                 first_argument,
+                                                 1);
+
+    return run_program(MPI_COMM_WORLD, [&] { run_command(argc, argv); });
+  }
+} // namespace corotet

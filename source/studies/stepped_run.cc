@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/log.h>
+#include <corotet/base/mpi.h>
+#include <corotet/output/observers.h>
+#include <corotet/output/output_directory.h>
+#include <corotet/simulation/simulation.h>
+#include <corotet/studies/recorded_run.h>
+#include <corotet/studies/run_parameters.h>
+#include <corotet/studies/stepped_run.h>
+
+#include <optional>
+
+namespace corotet
+{
+  struct SteppedRun::Parts
+  {
+    Parts(const CommandLine &command, const MPI_Comm comm);
+
+    ParameterFile                          file;
+    RunParameters                          parameters;
+    Log                                    log;
+    std::optional<Simulation>              simulation;
+    std::vector<std::unique_ptr<Observer>> observers;
+
+  private:
+    void
+    start(const CommandLine &command, const MPI_Comm comm);
+  };
+
+  SteppedRun::Parts::Parts(const CommandLine &command, const MPI_Comm comm)
+    : log(comm, command.quiet)
+  {
+    parameters.declare_parameters(file.handler());
+    with_places(command, file, [&] { start(command, comm); });
+  }
+
+  void
+  SteppedRun::Parts::start(const CommandLine &command, const MPI_Comm comm)
+  {
+    std::vector<std::string> overrides = command.overrides;
+    if (command.output_directory)
+      overrides.push_back("Output/Directory = " + *command.output_directory);
+    file.read(command.parameter_file, overrides, comm);
+    if (parameters.simulation.type != "simulation")
+      throw InputError("Type",
+                       "found '" + parameters.simulation.type +
+                         "'; allowed in a run step by step: 'simulation'");
+
+    const OutputParameters &output = parameters.output;
+    const std::string       directory =
+      output.directory_of_run(command.parameter_file);
+    check_output_directory(directory, output.overwrite, comm);
+    simulation.emplace(parameters.simulation, file.folder(), comm, log);
+    observers = make_observers(output,
+                               directory,
+                               simulation->discretization(),
+                               simulation->end_time(),
+                               log);
+    prepare_output_directory(directory, output.overwrite, comm);
+    log.open(directory + "/log.txt");
+    on_root(comm, [&] { file.write_effective(directory + "/parameters.prm"); });
+    simulation->start(observers,
+                      {output.steps_between_rows, output.time_between_results});
+  }
+
+  SteppedRun::SteppedRun(const CommandLine &command, const MPI_Comm comm)
+    : parts(std::make_unique<Parts>(command, comm))
+  {}
+
+  SteppedRun::~SteppedRun() = default;
+
+  bool
+  SteppedRun::is_done() const
+  {
+    return parts->simulation->is_done();
+  }
+
+  void
+  SteppedRun::step()
+  {
+    parts->simulation->step();
+  }
+
+  void
+  SteppedRun::finish()
+  {
+    parts->simulation->finish();
+  }
+
+  double
+  SteppedRun::time() const
+  {
+    return parts->simulation->record().time;
+  }
+
+  const Vector &
+  SteppedRun::displacement() const
+  {
+    return parts->simulation->structural_system().displacement();
+  }
+
+  const Vector &
+  SteppedRun::velocity() const
+  {
+    return parts->simulation->structural_system().velocity();
+  }
+
+  const StepRecord &
+  SteppedRun::record() const
+  {
+    return parts->simulation->record();
+  }
+
+  const Discretization &
+  SteppedRun::discretization() const
+  {
+    return parts->simulation->discretization();
+  }
+} // namespace corotet
