@@ -89,6 +89,17 @@ namespace corotet::benchmarks
     });
   }
 
+  /// Bytes that one application moves at least: the matrix, and both vectors
+  /// once.
+  inline double
+  matrix_traffic(const double values,
+                 const double indices,
+                 const double rows,
+                 const double unknowns)
+  {
+    return 8 * values + 4 * indices + 4 * rows + 16 * unknowns;
+  }
+
   /// Operations, and bytes that one application without a matrix moves at
   /// least: the cells, and both vectors once. Indices are those of nodes.
   inline Counters

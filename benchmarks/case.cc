@@ -32,6 +32,9 @@ main(int argc, char **argv)
 
   CaseData data(which);
   add_operators(data);
+#ifdef COROTET_WITH_EPETRA
+  add_epetra(data);
+#endif
   add_deal_matrix_free(data);
   add_updates(data);
   add_solvers(data);

@@ -39,7 +39,7 @@ namespace corotet::benchmarks
     return *the_operator;
   }
 
-  const dealii::TrilinosWrappers::SparseMatrix &
+  const BlockMatrix &
   CaseData::matrix()
   {
     EffectiveOperator &A = effective();
@@ -55,17 +55,24 @@ namespace corotet::benchmarks
         figures["seconds"]    = seconds([&] { A.matrix(); });
         figures["sparsity_s"] = first - figures["seconds"];
         figures["unknowns"]   = problem().n_unknowns();
-        figures["nonzeros"] =
-          static_cast<double>(A.matrix().n_nonzero_elements());
+        figures["nonzeros"]   = sum(A.matrix().n_values());
       }
     return A.matrix();
   }
 
-  const BlockMatrix &
+  const CompressedRows &
+  CaseData::compressed_rows()
+  {
+    if (!the_rows)
+      the_rows.emplace(matrix());
+    return *the_rows;
+  }
+
+  const RegisterBlocks &
   CaseData::blocks()
   {
     if (!the_blocks)
-      the_blocks.emplace(csr_view(matrix()));
+      the_blocks.emplace(compressed_rows().view());
     return *the_blocks;
   }
 } // namespace corotet::benchmarks

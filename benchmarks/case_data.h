@@ -50,11 +50,13 @@ namespace corotet::benchmarks
     effective();
 
     /// The same, assembled.
-    const dealii::TrilinosWrappers::SparseMatrix &
+    const BlockMatrix &
     matrix();
 
-    /// The same matrix in blocks. On one rank only.
-    const BlockMatrix &
+    /// The same matrix in other formats. On one rank only.
+    const CompressedRows &
+    compressed_rows();
+    const RegisterBlocks &
     blocks();
 
     /// Times [s] and memory [bytes] that it took to make the assembled matrix.
@@ -69,7 +71,8 @@ namespace corotet::benchmarks
     Case                               description;
     std::unique_ptr<Problem>           the_problem;
     std::unique_ptr<EffectiveOperator> the_operator;
-    std::optional<BlockMatrix>         the_blocks;
+    std::optional<CompressedRows>      the_rows;
+    std::optional<RegisterBlocks>      the_blocks;
     Counters                           figures;
   };
 
@@ -115,6 +118,10 @@ namespace corotet::benchmarks
   /// Implicit steps in dynamics.
   void
   add_dynamics(CaseData &data);
+
+  /// What Trilinos does with the assembled matrix; with Epetra only.
+  void
+  add_epetra(CaseData &data);
 
   /// Peak memory of a process that does nothing else.
   void

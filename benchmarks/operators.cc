@@ -13,35 +13,16 @@ namespace corotet::benchmarks
 {
   namespace
   {
-    /// Bytes that one application moves at least: the matrix, and both vectors
-    /// once.
-    double
-    matrix_traffic(const double values,
-                   const double indices,
-                   const double rows,
-                   const double unknowns)
-    {
-      return 8 * values + 4 * indices + 4 * rows + 16 * unknowns;
-    }
-
     void
     add_matrix_formats(CaseData &data)
     {
       const auto flops = [&data] {
         return 2. * data.assembly_figures().at("nonzeros");
       };
-      add_application(data, "epetra", [&data, flops](Application &a) {
-        const auto  &matrix = data.matrix();
-        const double n      = data.problem().n_unknowns();
-        return Measured{[&] { matrix.vmult(a.y, a.x); },
-                        {{"flops", flops()},
-                         {"bytes",
-                          matrix_traffic(flops() / 2, flops() / 2, n, n)}}};
-      });
       if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
         return;
       add_application(data, "eigen", [&data, flops](Application &a) {
-        const CsrView view = csr_view(data.matrix());
+        const CsrView view = data.compressed_rows().view();
         const double  n    = view.rows();
         return Measured{
           [&a, view] {
@@ -53,8 +34,8 @@ namespace corotet::benchmarks
            {"bytes", matrix_traffic(flops() / 2, flops() / 2, n, n)}}};
       });
       add_application(data, "block_csr", [&data, flops](Application &a) {
-        const BlockMatrix &blocks = data.blocks();
-        const double       n      = data.problem().n_unknowns();
+        const RegisterBlocks &blocks = data.blocks();
+        const double          n      = data.problem().n_unknowns();
         return Measured{
           [&] { blocks.vmult(a.y.begin(), a.x.begin()); },
           {{"flops", flops()},

@@ -5,52 +5,18 @@
 
 #include <deal.II/base/mpi.h>
 
-#include "case_data.h"
+#include "static_solve.h"
 #include <Eigen/CholmodSupport>
 
 namespace corotet::benchmarks
 {
   namespace
   {
-    constexpr double static_tolerance = 1e-8;
-
-    /// |b - A x| / |b|, by the matrix-free operator, which is checked
-    /// elsewhere.
-    double
-    residual(CaseData &data, const Vector &x, const Vector &b)
-    {
-      Vector r(b);
-      data.effective().vmult(r, x);
-      r -= b;
-      return r.l2_norm() / b.l2_norm();
-    }
-
-    /// By conjugate gradients with @p A, whose preconditioner is made from the
-    /// effective operator.
-    template <typename Operator>
-    Counters
-    solve(CaseData &data, const Operator &A, Preconditioner &P)
-    {
-      const Vector b = data.problem().weight();
-      Vector       x(b);
-      Counters     result;
-      result["unknowns"] = data.problem().n_unknowns();
-      result["setup_s"] =
-        seconds([&] { P.build(data.effective(), data.problem().positions()); });
-      result["solve_s"]  = seconds([&] {
-        result["cg_iterations"] =
-          conjugate_gradients(A, x, b, P, static_tolerance);
-      });
-      result["residual"] = residual(data, x, b);
-      result["seconds"]  = result["setup_s"] + result["solve_s"];
-      return result;
-    }
-
     Counters
     solve_by_cholmod(CaseData &data)
     {
       const Vector  b    = data.problem().weight();
-      const CsrView view = csr_view(data.matrix());
+      const CsrView view = data.compressed_rows().view();
       // A symmetric matrix in compressed rows is one in compressed columns.
       using Columns = Eigen::SparseMatrix<double>;
       const Eigen::Map<const Columns>                    matrix(view.rows(),
@@ -111,14 +77,10 @@ namespace corotet::benchmarks
     };
     for (const auto &candidate : preconditioners())
       add(candidate.name, candidate.name, "");
-    for (const std::string coarse : {"direct", "aggregation", "amg"})
+    for (const std::string coarse : {"direct", "aggregation"})
       add("p-multigrid-" + coarse,
           "p-multigrid",
           "set Coarse solver = " + coarse);
-    // The usual way.
-    add_long(data.name("solve/cg_ml"), [&data] {
-      return solve(data, data.matrix(), *make_preconditioner("amg"));
-    });
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
       add_long(data.name("solve/cholmod"),
                [&data] { return solve_by_cholmod(data); });

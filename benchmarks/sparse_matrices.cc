@@ -5,24 +5,39 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <Epetra_CrsMatrix.h>
-
 namespace corotet::benchmarks
 {
-  CsrView
-  csr_view(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+  CompressedRows::CompressedRows(const BlockMatrix &matrix)
+    : matrix(matrix)
+    , row_starts{0}
   {
-    const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
-    int                    *row_starts, *columns;
-    double                 *values;
-    AssertThrow(epetra.Comm().NumProc() == 1, dealii::ExcNotImplemented());
-    AssertThrow(epetra.ExtractCrsDataPointers(row_starts, columns, values) == 0,
-                dealii::ExcMessage("The matrix is not in compressed rows."));
-    const int n = epetra.NumMyRows();
-    return CsrView(n, n, epetra.NumMyNonzeros(), row_starts, columns, values);
+    const BlockPattern &pattern = *matrix.pattern();
+    const NodeGraph    &graph   = pattern.graph();
+    AssertThrow(pattern.n_owned() == pattern.n_global(),
+                dealii::ExcNotImplemented());
+    columns.reserve(matrix.n_values());
+    for (int row = 0; row < 3 * pattern.n_owned(); ++row)
+      {
+        for (int k = graph.starts[row / 3]; k < graph.starts[row / 3 + 1]; ++k)
+          for (int b = 0; b < 3; ++b)
+            columns.push_back(3 * graph.columns[k] + b);
+        row_starts.push_back(columns.size());
+      }
   }
 
-  BlockMatrix::BlockMatrix(const CsrView &matrix)
+  CsrView
+  CompressedRows::view() const
+  {
+    const int n = row_starts.size() - 1;
+    return CsrView(n,
+                   n,
+                   columns.size(),
+                   row_starts.data(),
+                   columns.data(),
+                   matrix.values_begin());
+  }
+
+  RegisterBlocks::RegisterBlocks(const CsrView &matrix)
     : row_starts{0}
   {
     const int *starts = matrix.outerIndexPtr();
@@ -47,7 +62,7 @@ namespace corotet::benchmarks
   }
 
   void
-  BlockMatrix::vmult(double *y, const double *x) const
+  RegisterBlocks::vmult(double *y, const double *x) const
   {
     using Four = SimdVector<double, 4>;
     for (std::size_t row = 0; row + 1 < row_starts.size(); ++row)

@@ -5,8 +5,7 @@
 #define corotet_benchmarks_sparse_matrices_h
 
 #include <corotet/base/simd.h>
-
-#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <corotet/operators/block_matrix.h>
 
 #include <vector>
 
@@ -18,20 +17,35 @@ namespace corotet::benchmarks
   using CsrView =
     Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor, int>>;
 
-  /// The numbers of a Trilinos matrix, without a copy. One rank only.
-  CsrView
-  csr_view(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+  /**
+   * A matrix in compressed rows with an index for each number. Its numbers are
+   * those of the block matrix, without a copy. One rank only.
+   */
+  class CompressedRows
+  {
+  public:
+    /// @p matrix must live as long as this.
+    explicit CompressedRows(const BlockMatrix &matrix);
+
+    CsrView
+    view() const;
+
+  private:
+    const BlockMatrix &matrix;
+    std::vector<int>   row_starts;
+    std::vector<int>   columns;
+  };
 
   /**
    * Compressed rows of 3 x 3 blocks: one column index per block, and one
    * register of four numbers per column of a block (the fourth belongs to the
    * next column).
    */
-  class BlockMatrix
+  class RegisterBlocks
   {
   public:
     /// Rows and columns of @p matrix come in threes with the same pattern.
-    explicit BlockMatrix(const CsrView &matrix);
+    explicit RegisterBlocks(const CsrView &matrix);
 
     /// y = A x.
     void

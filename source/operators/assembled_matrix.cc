@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
 #include <corotet/operators/assembled_matrix.h>
 #include <corotet/operators/curved_kernel.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-
-#include <Epetra_CrsMatrix.h>
+#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace corotet
 {
-  using dealii::types::global_dof_index;
-
   AssembledMatrix::AssembledMatrix(
     const Nodes                      &nodes,
     const std::vector<unsigned char> &is_prescribed)
@@ -22,7 +22,7 @@ namespace corotet
     , reference(nodes.element())
     , prescribed(is_prescribed)
   {
-    make_sparsity();
+    block_matrix = std::make_unique<BlockMatrix>(make_pattern());
     locate_blocks();
   }
 
@@ -30,6 +30,9 @@ namespace corotet
   {
     using V     = Simd<double>;
     using Block = V[3][3];
+
+    // Numbers of nodes and of blocks.
+    constexpr std::size_t largest_int = std::numeric_limits<int>::max();
 
     // mu (lambda / mu D + D^T + tr D I).
     COROTET_ALWAYS_INLINE void
@@ -68,83 +71,79 @@ namespace corotet
     }
   } // namespace
 
-  void
-  AssembledMatrix::make_sparsity()
+  std::shared_ptr<const BlockPattern>
+  AssembledMatrix::make_pattern() const
   {
-    const dealii::IndexSet &owned = nodes.partitioner()->locally_owned_range();
-    dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), owned);
-    std::vector<global_dof_index>  columns(3 * reference.n_nodes);
-    for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
-      {
-        const auto cell_nodes = nodes.cell_nodes(c);
-        for (unsigned int i = 0; i < reference.n_nodes; ++i)
-          for (unsigned int a = 0; a < 3; ++a)
-            columns[3 * i + a] = 3 * nodes.global_node(cell_nodes[i]) + a;
-        std::sort(columns.begin(), columns.end());
-        for (const unsigned int node : cell_nodes)
-          if (node < nodes.n_owned_nodes())
-            for (unsigned int a = 0; a < 3; ++a)
-              pattern.add_entries(3 * nodes.global_node(node) + a,
-                                  columns.begin(),
-                                  columns.end(),
-                                  true);
-      }
-    sparse_matrix.reinit(owned, pattern, nodes.communicator(), false);
+    const unsigned int n_owned = nodes.n_owned_nodes();
+    // The cells of each owned node.
+    std::vector<unsigned int> starts(n_owned + 1), cells;
+    const auto                for_owned_nodes = [&](const auto &action) {
+      for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
+        for (const unsigned int node : nodes.cell_nodes(c))
+          if (node < n_owned)
+            action(node, c);
+    };
+    for_owned_nodes(
+      [&](const unsigned int node, const unsigned int) { ++starts[node + 1]; });
+    for (unsigned int node = 0; node < n_owned; ++node)
+      starts[node + 1] += starts[node];
+    cells.resize(starts.back());
+    std::vector<unsigned int> next(starts);
+    for_owned_nodes([&](const unsigned int node, const unsigned int c) {
+      cells[next[node]++] = c;
+    });
+
+    NodeGraph rows;
+    on_all_ranks(nodes.communicator(), [&] {
+      std::vector<unsigned int> last_seen(nodes.n_local_nodes(), n_owned);
+      for (unsigned int node = 0; node < n_owned; ++node)
+        {
+          for (unsigned int k = starts[node]; k < starts[node + 1]; ++k)
+            for (const unsigned int other : nodes.cell_nodes(cells[k]))
+              if (std::exchange(last_seen[other], node) != node)
+                rows.columns.push_back(nodes.global_node(other));
+          if (std::max<std::size_t>(rows.columns.size(),
+                                    nodes.n_global_nodes()) > largest_int)
+            throw ComputationError("a matrix with " +
+                                   std::to_string(3 * nodes.n_global_nodes()) +
+                                   " unknowns has too many entries for one "
+                                   "rank");
+          rows.starts.push_back(rows.columns.size());
+        }
+    });
+    return std::make_shared<const BlockPattern>(rows, nodes.communicator());
   }
 
   void
   AssembledMatrix::locate_blocks()
   {
-    const Epetra_CrsMatrix &matrix = sparse_matrix.trilinos_matrix();
-    const unsigned int      n_rows = 3 * nodes.n_owned_nodes();
-    std::vector<int *>      row_columns(n_rows);
-    row_values.resize(n_rows);
-    row_lengths.resize(n_rows);
-    diagonal_positions.resize(n_rows);
-
-    const auto position = [&](const unsigned int row, const int column) {
-      const int *begin = row_columns[row];
-      const int *found =
-        std::lower_bound(begin, begin + row_lengths[row], column);
-      Assert(*found == column, dealii::ExcInternalError());
-      AssertThrow(found - begin <= std::numeric_limits<std::uint16_t>::max(),
-                  dealii::ExcMessage("A row of the matrix is too long."));
-      return static_cast<std::uint16_t>(found - begin);
-    };
-    // Epetra numbers the columns of other ranks in an order of its own: even
-    // the three of a node may be apart.
-    const auto column = [&](const unsigned int unknown) {
-      return matrix.ColMap().LID(
-        static_cast<int>(3 * nodes.global_node(unknown / 3) + unknown % 3));
-    };
-
-    for (unsigned int row = 0; row < n_rows; ++row)
-      matrix.ExtractMyRowView(row,
-                              row_lengths[row],
-                              row_values[row],
-                              row_columns[row]);
-    for (unsigned int row = 0; row < n_rows; ++row)
-      diagonal_positions[row] = position(row, column(row));
-
-    const unsigned int n = reference.n_nodes;
-    block_positions.resize(3 * static_cast<std::size_t>(n) * n *
-                           nodes.n_local_cells());
+    const BlockPattern &pattern = *block_matrix->pattern();
+    const unsigned int  n_owned = nodes.n_owned_nodes();
+    const unsigned int  n       = reference.n_nodes;
+    block_places.resize(static_cast<std::size_t>(n) * n *
+                        nodes.n_local_cells());
     touches_prescribed.resize(nodes.n_local_cells());
-    std::vector<int> columns(3 * n);
-    std::uint16_t   *next = block_positions.data();
+    std::uint16_t *next = block_places.data();
     for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
       {
         const auto cell_nodes = nodes.cell_nodes(c);
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int a = 0; a < 3; ++a)
-            {
-              columns[3 * j + a] = column(3 * cell_nodes[j] + a);
-              touches_prescribed[c] |= prescribed[3 * cell_nodes[j] + a];
-            }
+            touches_prescribed[c] |= prescribed[3 * cell_nodes[j] + a];
         for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < 3 * n; ++j, ++next)
-            if (cell_nodes[i] < nodes.n_owned_nodes())
-              *next = position(3 * cell_nodes[i], columns[j]);
+          for (unsigned int j = 0; j < n; ++j, ++next)
+            if (cell_nodes[i] < n_owned)
+              {
+                const int column =
+                  cell_nodes[j] < n_owned ?
+                    cell_nodes[j] :
+                    pattern.local_node(nodes.global_node(cell_nodes[j]));
+                const int place = pattern.place(cell_nodes[i], column);
+                AssertThrow(place <= std::numeric_limits<std::uint16_t>::max(),
+                            dealii::ExcMessage(
+                              "A row of the matrix is too long."));
+                *next = place;
+              }
       }
   }
 
@@ -162,21 +161,23 @@ namespace corotet
           if ((prescribed[3 * nodes[i] + a] || prescribed[3 * nodes[j] + b]) &&
               !(i == j && a == b))
             block[a][b] = 0;
-    const std::uint16_t *const positions =
-      block_positions.data() + 3 * static_cast<std::size_t>(n) * n * cell;
+    const std::uint16_t *const places =
+      block_places.data() + static_cast<std::size_t>(n) * n * cell;
     if (nodes[i] < this->nodes.n_owned_nodes())
       {
-        const std::uint16_t *const position = positions + 3 * (n * i + j);
-        for (unsigned int a = 0; a < 3; ++a)
+        double   *row = block_matrix->row(nodes[i], 0) + 3 * places[n * i + j];
+        const int length = block_matrix->row_length(nodes[i]);
+        for (unsigned int a = 0; a < 3; ++a, row += length)
           for (unsigned int b = 0; b < 3; ++b)
-            row_values[3 * nodes[i] + a][position[b]] += block[a][b];
+            row[b] += block[a][b];
       }
     if (i != j && nodes[j] < this->nodes.n_owned_nodes())
       {
-        const std::uint16_t *const position = positions + 3 * (n * j + i);
-        for (unsigned int a = 0; a < 3; ++a)
+        double   *row = block_matrix->row(nodes[j], 0) + 3 * places[n * j + i];
+        const int length = block_matrix->row_length(nodes[j]);
+        for (unsigned int a = 0; a < 3; ++a, row += length)
           for (unsigned int b = 0; b < 3; ++b)
-            row_values[3 * nodes[j] + a][position[b]] += block[b][a];
+            row[b] += block[b][a];
       }
   }
 
@@ -284,8 +285,7 @@ namespace corotet
     const dealii::AlignedVector<CellMasses<double>>       &masses,
     const Vector                                          *lumped_mass)
   {
-    for (unsigned int row = 0; row < row_values.size(); ++row)
-      std::fill_n(row_values[row], row_lengths[row], 0.);
+    block_matrix->set_zero();
     const double consistent = lumped_mass == nullptr ? c_M : 0.;
     const auto   add = [&](const unsigned int begin, const unsigned int end) {
       for (unsigned int first = begin; first < end; first += batch_size)
@@ -306,8 +306,7 @@ namespace corotet
     add(0, nodes.n_owned_cells());
     add(nodes.n_owned_cells(), nodes.n_local_cells());
     if (lumped_mass != nullptr)
-      for (unsigned int row = 0; row < row_values.size(); ++row)
-        row_values[row][diagonal_positions[row]] +=
-          c_M * lumped_mass->local_element(row);
+      for (unsigned int row = 0; row < 3 * nodes.n_owned_nodes(); ++row)
+        block_matrix->diagonal(row) += c_M * lumped_mass->local_element(row);
   }
 } // namespace corotet

@@ -53,7 +53,7 @@ namespace corotet
     ++n_updates;
   }
 
-  const dealii::TrilinosWrappers::SparseMatrix &
+  const BlockMatrix &
   EffectiveOperator::matrix() const
   {
     if (!assembled)

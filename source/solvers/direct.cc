@@ -3,30 +3,23 @@
 
 #include <corotet/solvers/direct.h>
 
-#include <Amesos.h>
-
 namespace corotet
 {
   void
-  Direct::build(const EffectiveOperator &A, const Vector &)
+  CholeskyDirect::build(const EffectiveOperator &A, const Vector &)
   {
-    using dealii::TrilinosWrappers::SolverDirect;
-    const std::string solver =
-      Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
-    factors = std::make_unique<SolverDirect>(
-      control, SolverDirect::AdditionalData(false, solver));
-    factors->initialize(A.matrix());
+    factors.factorize(A.matrix());
   }
 
   void
-  Direct::clear()
+  CholeskyDirect::clear()
   {
-    factors.reset();
+    factors.clear();
   }
 
   void
-  Direct::vmult(Vector &dst, const Vector &src) const
+  CholeskyDirect::vmult(Vector &dst, const Vector &src) const
   {
-    factors->solve(dst, src);
+    factors.vmult(dst, src);
   }
 } // namespace corotet

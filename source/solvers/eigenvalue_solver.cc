@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/ghosted_copy.h>
+#include <corotet/solvers/anasazi_adapter.h>
 #include <corotet/solvers/eigenvalue_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,9 +11,6 @@
 
 #include <AnasaziBasicEigenproblem.hpp>
 #include <AnasaziBlockKrylovSchurSolMgr.hpp>
-#include <AnasaziEpetraAdapter.hpp>
-#include <Epetra_Map.h>
-#include <Epetra_MpiComm.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,9 +20,6 @@ namespace corotet
 {
   namespace
   {
-    using MultiVector = Anasazi::MultiVec<double>;
-    using Operator    = Anasazi::Operator<double>;
-
     // Vectors of a block: pairs of modes are what symmetric bodies have.
     constexpr unsigned int block_size = 2;
 
@@ -34,76 +29,50 @@ namespace corotet
     // Pairs sought beyond those wanted: a search is slow if the first one that
     // it does without is next to the last one that it must find.
     constexpr unsigned int n_extra_pairs = 6;
-
-    // Applies f to a Vector made of each column of X, and puts the result into
-    // that of Y. Columns have the unknowns that are free.
-    template <typename Function>
-    void
-    for_each_column(const MultiVector               &X,
-                    MultiVector                     &Y,
-                    const std::vector<unsigned int> &free,
-                    Vector                          &x,
-                    const Function                  &f)
-    {
-      const auto &source =
-        *dynamic_cast<const Anasazi::EpetraMultiVec &>(X).GetEpetraMultiVec();
-      auto &result =
-        *dynamic_cast<Anasazi::EpetraMultiVec &>(Y).GetEpetraMultiVec();
-      for (int column = 0; column < source.NumVectors(); ++column)
-        {
-          x = 0;
-          for (unsigned int i = 0; i < free.size(); ++i)
-            x.local_element(free[i]) = source[column][i];
-          f(x);
-          for (unsigned int i = 0; i < free.size(); ++i)
-            result[column][i] = x.local_element(free[i]);
-        }
-    }
   } // namespace
 
-  class EigenvalueSolver::ShiftedInverse : public Operator
+  class EigenvalueSolver::ShiftedInverse : public BlockOperator
   {
   public:
     ShiftedInverse(EigenvalueSolver &solver)
       : solver(solver)
-    {
-      solver.A.discretization().initialize_vector(x);
-    }
+    {}
 
     void
-    Apply(const MultiVector &X, MultiVector &Y) const override
+    apply(const MultiVector &X, MultiVector &Y) const override
     {
-      for_each_column(X, Y, solver.free, x, [&](Vector &x) {
-        solver.apply_inverse(x);
-      });
+      for (unsigned int j = 0; j < X.size(); ++j)
+        {
+          Y[j] = X[j];
+          solver.apply_inverse(Y[j]);
+          solver.set_zero(Y[j]);
+        }
     }
 
   private:
     EigenvalueSolver &solver;
-    mutable Vector    x;
   };
 
-  class EigenvalueSolver::FreeMass : public Operator
+  class EigenvalueSolver::FreeMass : public BlockOperator
   {
   public:
     FreeMass(const EigenvalueSolver &solver)
       : solver(solver)
-    {
-      solver.A.discretization().initialize_vector(x);
-    }
+    {}
 
     void
-    Apply(const MultiVector &X, MultiVector &Y) const override
+    apply(const MultiVector &X, MultiVector &Y) const override
     {
-      for_each_column(X, Y, solver.free, x, [&](Vector &x) {
-        copy_with_ghosts(solver.ghosted, x);
-        solver.A.mass().apply(x, solver.ghosted);
-      });
+      for (unsigned int j = 0; j < X.size(); ++j)
+        {
+          copy_with_ghosts(solver.ghosted, X[j]);
+          solver.A.mass().apply(Y[j], solver.ghosted);
+          solver.set_zero(Y[j]);
+        }
     }
 
   private:
     const EigenvalueSolver &solver;
-    mutable Vector          x;
   };
 
   EigenvalueSolver::EigenvalueSolver(
@@ -218,16 +187,14 @@ namespace corotet
   {
     using Teuchos::RCP;
     using Teuchos::rcp;
-    const Epetra_MpiComm comm(A.discretization().communicator());
-    const Epetra_Map     map(-1, static_cast<int>(free.size()), 0, comm);
-
-    const auto start = rcp(new Anasazi::EpetraMultiVec(map, block_size));
+    const auto space = std::make_shared<VectorSpace>(right_side, free);
+    const auto start = rcp(new MultiVector(space, block_size));
     std::uniform_real_distribution<double> random(-1, 1);
     for (unsigned int j = 0; j < block_size; ++j)
-      for (unsigned int i = 0; i < free.size(); ++i)
-        (*start)[j][i] = random(generator);
+      for (const unsigned int i : free)
+        (*start)[j].local_element(i) = random(generator);
 
-    Anasazi::BasicEigenproblem<double, MultiVector, Operator> problem;
+    Anasazi::BasicEigenproblem<double, MultiVector, BlockOperator> problem;
     problem.setOperator(rcp(new ShiftedInverse(*this)));
     problem.setM(rcp(new FreeMass(*this)));
     problem.setInitVec(start);
@@ -243,11 +210,12 @@ namespace corotet
       known.push_back(&x);
     if (!known.empty())
       {
-        const auto columns =
-          rcp(new Anasazi::EpetraMultiVec(map, known.size()));
+        const auto columns = rcp(new MultiVector(space, known.size()));
         for (unsigned int j = 0; j < known.size(); ++j)
-          for (unsigned int i = 0; i < free.size(); ++i)
-            (*columns)[j][i] = known[j]->local_element(free[i]);
+          {
+            (*columns)[j] = *known[j];
+            set_zero((*columns)[j]);
+          }
         problem.setAuxVecs(columns);
       }
     problem.setProblem();
@@ -264,7 +232,7 @@ namespace corotet
     list.set("Orthogonalization", "DGKS");
     list.set("Convergence Tolerance", tolerance);
     list.set("Verbosity", 0);
-    Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, Operator> manager(
+    Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, BlockOperator> manager(
       rcp(&problem, false), list);
     if (manager.solve() != Anasazi::Converged)
       throw ComputationError(
@@ -275,17 +243,11 @@ namespace corotet
                     n_solves));
 
     const auto &solution = problem.getSolution();
-    const auto &vectors =
-      *dynamic_cast<const Anasazi::EpetraMultiVec &>(*solution.Evecs)
-         .GetEpetraMultiVec();
-    Eigenpairs pairs;
-    pairs.vectors.resize(solution.numVecs);
+    Eigenpairs  pairs;
     for (int j = 0; j < solution.numVecs; ++j)
       {
         pairs.values.push_back(1 / solution.Evals[j].realpart - shift);
-        A.discretization().initialize_vector(pairs.vectors[j]);
-        for (unsigned int i = 0; i < free.size(); ++i)
-          pairs.vectors[j].local_element(free[i]) = vectors[j][i];
+        pairs.vectors.push_back((*solution.Evecs)[j]);
       }
     return pairs;
   }

@@ -28,8 +28,8 @@ namespace corotet
       prm,
       "Preconditioner: 'p-multigrid', over the degrees "
       "down to 1, matrix-free; 'amg', smoothed aggregation with rigid body "
-      "modes, on the assembled matrix; 'jacobi', the diagonal; 'direct', a "
-      "sparse factorisation of the assembled matrix.");
+      "modes, on the assembled matrix (where Trilinos has ML); 'jacobi', the "
+      "diagonal; 'direct', a sparse factorisation of the assembled matrix.");
     prm.add_parameter("Method",
                       method,
                       "Krylov method. 'automatic': conjugate gradients for "

@@ -103,16 +103,19 @@ namespace corotet
                       "Largest over smallest eigenvalue that the smoother is "
                       "to damp [-].",
                       dealii::Patterns::Double(1.1, 1e4));
+    std::string names = "automatic|direct|aggregation";
+    for (const auto &candidate : further)
+      names += "|" + candidate.name;
     prm.add_parameter("Coarse solver",
                       coarse_type,
                       "For degree 1: 'direct', a sparse factorisation; "
                       "'aggregation', one cycle of smoothed aggregation with "
                       "two levels; 'amg', one cycle of Trilinos ML, with the "
-                      "parameters of 'Linear solver/amg'; "
+                      "parameters of 'Linear solver/amg' (where Trilinos has "
+                      "it); "
                       "'automatic', the direct one up to the limit below, then "
                       "aggregation.",
-                      dealii::Patterns::Selection(
-                        "automatic|direct|aggregation|amg"));
+                      dealii::Patterns::Selection(names));
     prm.add_parameter("Direct limit",
                       direct_limit,
                       "Unknowns of degree 1 up to which 'automatic' means "
@@ -279,7 +282,7 @@ namespace corotet
                                                       "aggregation";
     if (coarse_solver == "direct")
       {
-        direct.factorize(matrix.trilinos_matrix());
+        direct.factorize(matrix);
         return;
       }
     for (unsigned int n = 0; n < coarse_nodes->n_owned_nodes(); ++n)
@@ -292,10 +295,15 @@ namespace corotet
           coarse_x.local_element(3 * n + a) =
             positions.local_element(3 * fine + a);
       }
-    if (coarse_solver == "amg")
-      amg.initialize(matrix, coarse_x);
-    else
-      aggregation.build(matrix.trilinos_matrix(), coarse_x.begin());
+    if (coarse_solver == "aggregation")
+      {
+        aggregation.build(matrix, coarse_x.begin());
+        return;
+      }
+    for (const auto &candidate : further)
+      if (candidate.name == coarse_solver && !other)
+        other = candidate.make();
+    other->build(matrix, coarse_x);
   }
 
   void
@@ -303,7 +311,7 @@ namespace corotet
   {
     direct.clear();
     aggregation.clear();
-    amg.clear();
+    other.reset();
     levels.clear();
     coarse_matrix.reset();
     coarse_nodes = nullptr;
@@ -318,7 +326,7 @@ namespace corotet
     else if (coarse_solver == "aggregation")
       aggregation.vmult(x.begin(), b.begin());
     else if constexpr (std::is_same_v<VectorType, Vector>)
-      amg.vmult(x, b);
+      other->vmult(x, b);
   }
 
   void
@@ -370,7 +378,7 @@ namespace corotet
     for (const unsigned int i : coarse_prescribed)
       if (i < b.locally_owned_size())
         b.local_element(i) = 0;
-    if (coarse_solver != "amg")
+    if (!other)
       {
         apply_coarse_solver(x, b);
         return;

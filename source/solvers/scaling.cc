@@ -3,7 +3,7 @@
 
 #include <corotet/solvers/scaling.h>
 
-#include <Epetra_Comm.h>
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,18 +20,10 @@ namespace corotet
   }
 
   double
-  unit_of(const Epetra_CrsMatrix &A)
+  unit_of(const BlockMatrix &A)
   {
-    double own = 0, largest;
-    for (int row = 0; row < A.NumMyRows(); ++row)
-      {
-        int     length;
-        double *values;
-        A.ExtractMyRowView(row, length, values);
-        for (int k = 0; k < length; ++k)
-          own = std::max(own, std::abs(values[k]));
-      }
-    A.Comm().MaxAll(&own, &largest, 1);
-    return power_of_two(largest);
+    return power_of_two(
+      dealii::Utilities::MPI::max(A.largest_value(),
+                                  A.pattern()->communicator()));
   }
 } // namespace corotet

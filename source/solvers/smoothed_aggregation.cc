@@ -5,9 +5,8 @@
 #include <corotet/solvers/smoothed_aggregation.h>
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
-
-#include <Epetra_Comm.h>
 
 #include <algorithm>
 #include <array>
@@ -76,24 +75,22 @@ namespace corotet
   void
   SmoothedAggregation::clear()
   {
-    graph.reset();
+    pattern.reset();
     coarse_factor.clear();
   }
 
   void
-  SmoothedAggregation::build(const Epetra_CrsMatrix &A, const double *positions)
+  SmoothedAggregation::build(const BlockMatrix &A, const double *positions)
   {
-    const bool is_new = !graph || graph->DataPtr() != A.Graph().DataPtr();
+    const bool is_new = pattern != A.pattern();
     if (is_new)
       {
-        graph     = std::make_unique<Epetra_CrsGraph>(A.Graph());
-        node_rows = NodeRows(*graph);
-        ghosts    = GhostExchange(*graph, node_rows.ghosts());
-        n_nodes   = node_rows.graph().n_rows();
+        pattern = A.pattern();
+        n_nodes = pattern->n_owned();
         for (auto *vector : {&rhs, &residual, &product})
           vector->resize(3 * n_nodes);
         for (auto *vector : {&solution, &direction})
-          vector->resize(3 * ghosts.n_items());
+          vector->resize(3 * pattern->exchange().n_items());
       }
     unit = unit_of(A);
     copy_matrix(A);
@@ -104,19 +101,19 @@ namespace corotet
   }
 
   void
-  SmoothedAggregation::copy_matrix(const Epetra_CrsMatrix &A)
+  SmoothedAggregation::copy_matrix(const BlockMatrix &A)
   {
-    const NodeGraph &pattern = node_rows.graph();
+    const NodeGraph &graph = pattern->graph();
     // Columns are loaded with four entries.
-    blocks.resize(9 * pattern.columns.size() + 1);
+    blocks.resize(9 * graph.columns.size() + 1);
     inverse_diagonal.resize(9 * n_nodes);
     is_prescribed.resize(3 * n_nodes);
     float *block = blocks.data();
     for (int node = 0; node < n_nodes; ++node)
       {
-        const auto rows    = node_rows.rows(A, node);
-        const int *columns = &pattern.columns[pattern.starts[node]];
-        const int  n       = pattern.starts[node + 1] - pattern.starts[node];
+        const auto            rows    = A.rows(node);
+        const int            *columns = &graph.columns[graph.starts[node]];
+        const int             n = graph.starts[node + 1] - graph.starts[node];
         dealii::Tensor<2, 3>  diagonal;
         std::array<double, 3> row_sums{};
         for (int k = 0; k < n; ++k, block += 9)
@@ -149,14 +146,14 @@ namespace corotet
     std::vector<double> diagonal, off_diagonal{0.};
     std::vector<float> &r = rhs, &z = residual, &p = direction;
     const auto          dot = [&](const auto &u, const auto &v) {
-      double own = 0, all;
+      double own = 0;
       for (int i = 0; i < n; ++i)
         own += static_cast<double>(u[i]) * v[i];
-      graph->Comm().SumAll(&own, &all, 1);
-      return all;
+      return dealii::Utilities::MPI::sum(own, pattern->communicator());
     };
     // Anything that is not smooth.
-    unsigned int seed = 1 + graph->Comm().MyPID();
+    unsigned int seed =
+      1 + dealii::Utilities::MPI::this_mpi_process(pattern->communicator());
     for (float &entry : r)
       {
         seed  = 1664525u * seed + 1013904223u;
@@ -196,16 +193,15 @@ namespace corotet
   void
   SmoothedAggregation::apply(float *y, float *x) const
   {
-    const NodeGraph &pattern = node_rows.graph();
-    ghosts.update(x, 3);
+    const NodeGraph &graph = pattern->graph();
+    pattern->exchange().update(x, 3);
     const float *block = blocks.data();
     for (int i = 0; i < n_nodes; ++i)
       {
         Column sum{};
-        for (int k = pattern.starts[i]; k < pattern.starts[i + 1];
-             ++k, block += 9)
+        for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k, block += 9)
           {
-            const float *v = x + 3 * pattern.columns[k];
+            const float *v = x + 3 * graph.columns[k];
             sum += v[0] * load(block) + v[1] * load(block + 3) +
                    v[2] * load(block + 6);
           }
@@ -301,8 +297,9 @@ namespace corotet
     Number own_largest = 0;
     for (int i = 0; i < 3 * n_nodes; ++i)
       own_largest = std::max(own_largest, std::abs(src[i]));
-    double own = own_largest, largest;
-    graph->Comm().MaxAll(&own, &largest, 1);
+    const double largest =
+      dealii::Utilities::MPI::max(static_cast<double>(own_largest),
+                                  pattern->communicator());
     const Number scale = largest > 0 ? largest : 1;
     const Number back  = scale / unit;
     for (int i = 0; i < 3 * n_nodes; ++i)

@@ -60,7 +60,7 @@ namespace corotet
     /// Motions that an aggregate lacks get a 1 on the diagonal. A row of the
     /// matrix has its owned columns first.
     void
-    copy_blocks(Epetra_CrsMatrix                        &matrix,
+    copy_blocks(BlockMatrix                             &matrix,
                 const NodeGraph                         &pattern,
                 const std::vector<std::array<Modes, 6>> &blocks,
                 const int                                first)
@@ -75,9 +75,7 @@ namespace corotet
           const int  n_ghosts = owned - pattern.columns.begin() - begin;
           for (int m = 0; m < 6; ++m)
             {
-              int     length;
-              double *values;
-              matrix.ExtractMyRowView(6 * i + m, length, values);
+              double *values = matrix.row(2 * i + m / 3, m % 3);
               for (int k = begin; k < end; ++k)
                 {
                   const int place =
@@ -138,21 +136,20 @@ namespace corotet
   } // namespace
 
   void
-  SmoothedAggregation::build_coarse(const Epetra_CrsMatrix &A,
-                                    const double           *positions)
+  SmoothedAggregation::build_coarse(const BlockMatrix &A,
+                                    const double      *positions)
   {
     std::vector<double> all_positions(positions, positions + 3 * n_nodes);
-    all_positions.resize(3 * ghosts.n_items());
-    ghosts.update(all_positions.data(), 3);
+    all_positions.resize(3 * pattern->exchange().n_items());
+    pattern->exchange().update(all_positions.data(), 3);
     std::vector<Block> prolongation(prolongation_pattern.columns.size());
     smooth_motions(prolongation,
                    A,
                    rigid_motions(all_positions),
                    all_positions);
     prolongation_ghosts.update(prolongation.data());
-    Epetra_CrsMatrix coarse_matrix(Copy, *coarse_graph);
-    fill_coarse(coarse_matrix, A, prolongation);
-    coarse_factor.factorize(coarse_matrix);
+    fill_coarse(A, prolongation);
+    coarse_factor.factorize(*coarse_matrix);
   }
 
   /// Those of each aggregate, orthonormal; zero where A has a prescribed
@@ -204,12 +201,12 @@ namespace corotet
   /// row.
   void
   SmoothedAggregation::smooth_motions(std::vector<Block>        &prolongation,
-                                      const Epetra_CrsMatrix    &A,
+                                      const BlockMatrix         &A,
                                       const Motions             &motions,
                                       const std::vector<double> &positions)
   {
-    const double     omega   = 4. / 3 / largest_eigenvalue / unit;
-    const NodeGraph &pattern = node_rows.graph();
+    const double     omega = 4. / 3 / largest_eigenvalue / unit;
+    const NodeGraph &graph = pattern->graph();
     std::vector<int> place(n_aggregates());
     prolongation_blocks.resize(18 * prolongation_pattern.starts[n_nodes]);
     for (int i = 0; i < n_nodes; ++i)
@@ -218,15 +215,15 @@ namespace corotet
         const int end   = prolongation_pattern.starts[i + 1];
         for (int k = begin; k < end; ++k)
           place[prolongation_pattern.columns[k]] = k;
-        const Rows rows = node_rows.rows(A, i);
-        for (int k = pattern.starts[i]; k < pattern.starts[i + 1]; ++k)
+        const Rows rows = A.rows(i);
+        for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
           {
-            const int  j        = pattern.columns[k];
+            const int  j        = graph.columns[k];
             const bool is_ghost = j >= n_nodes;
             const int  g        = aggregates[is_ghost ? i : j];
             add_product(prolongation[place[g]],
                         rows,
-                        3 * (k - pattern.starts[i]),
+                        3 * (k - graph.starts[i]),
                         is_ghost ? motions.aggregates[g - first_aggregate].at(
                                      position(positions, j)) :
                                    motions.nodes[j]);
@@ -252,11 +249,10 @@ namespace corotet
 
   /// P^T A P / unit, lower triangle.
   void
-  SmoothedAggregation::fill_coarse(Epetra_CrsMatrix         &coarse_matrix,
-                                   const Epetra_CrsMatrix   &A,
-                                   const std::vector<Block> &prolongation) const
+  SmoothedAggregation::fill_coarse(const BlockMatrix        &A,
+                                   const std::vector<Block> &prolongation)
   {
-    const NodeGraph                  &pattern = node_rows.graph();
+    const NodeGraph                  &graph = pattern->graph();
     std::vector<std::array<Modes, 6>> matrix(coarse_pattern.columns.size());
     std::vector<int>                  place(n_aggregates());
     std::vector<Block>                row_blocks;
@@ -268,16 +264,16 @@ namespace corotet
         row_blocks.assign(n, Block());
         for (int k = 0; k < n; ++k)
           place[columns[k]] = k;
-        const Rows rows = node_rows.rows(A, i);
-        for (int k = pattern.starts[i]; k < pattern.starts[i + 1]; ++k)
+        const Rows rows = A.rows(i);
+        for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
           {
-            const int j = pattern.columns[k];
+            const int j = graph.columns[k];
             for (int l = prolongation_pattern.starts[j];
                  l < prolongation_pattern.starts[j + 1];
                  ++l)
               add_product(row_blocks[place[prolongation_pattern.columns[l]]],
                           rows,
-                          3 * (k - pattern.starts[i]),
+                          3 * (k - graph.starts[i]),
                           prolongation[l]);
           }
         for (int l = prolongation_pattern.starts[i];
@@ -301,6 +297,6 @@ namespace corotet
               }
           }
       }
-    copy_blocks(coarse_matrix, coarse_pattern, matrix, first_aggregate);
+    copy_blocks(*coarse_matrix, coarse_pattern, matrix, first_aggregate);
   }
 } // namespace corotet

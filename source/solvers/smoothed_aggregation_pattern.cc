@@ -3,8 +3,7 @@
 
 #include <corotet/solvers/smoothed_aggregation.h>
 
-#include <Epetra_Comm.h>
-#include <Epetra_Map.h>
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,34 +12,18 @@ namespace corotet
 {
   namespace
   {
-    /// The entries of blocks of n x n in these rows. Columns of other ranks are
-    /// in ascending order behind the owned ones.
-    std::unique_ptr<Epetra_CrsGraph>
-    graph_of_blocks(const NodeGraph  &blocks,
-                    const int         n,
-                    const Epetra_Map &rows)
+    /// The pattern of matrices whose nodes come in twos, from that of the twos.
+    NodeGraph
+    split_in_two(const NodeGraph &twos)
     {
-      std::vector<int> columns, n_columns;
-      for (int i = 0; i < blocks.n_rows(); ++i)
-        n_columns.insert(n_columns.end(),
-                         n,
-                         n * (blocks.starts[i + 1] - blocks.starts[i]));
-      auto result =
-        std::make_unique<Epetra_CrsGraph>(Copy, rows, n_columns.data(), true);
-      for (int i = 0; i < blocks.n_rows(); ++i)
+      NodeGraph result;
+      for (int i = 0; i < 2 * twos.n_rows(); ++i)
         {
-          columns.clear();
-          for (int k = blocks.starts[i]; k < blocks.starts[i + 1]; ++k)
-            for (int m = 0; m < n; ++m)
-              columns.push_back(n * blocks.columns[k] + m);
-          for (int m = 0; m < n; ++m)
-            result->InsertGlobalIndices(rows.GID(n * i + m),
-                                        columns.size(),
-                                        columns.data());
+          for (int k = twos.starts[i / 2]; k < twos.starts[i / 2 + 1]; ++k)
+            for (int part = 0; part < 2; ++part)
+              result.columns.push_back(2 * twos.columns[k] + part);
+          result.starts.push_back(result.columns.size());
         }
-      result->SortGhostsAssociatedWithEachProcessor(true);
-      result->FillComplete();
-      result->OptimizeStorage();
       return result;
     }
   } // namespace
@@ -49,7 +32,7 @@ namespace corotet
   void
   SmoothedAggregation::aggregate_nodes()
   {
-    const NodeGraph &pattern     = node_rows.graph();
+    const NodeGraph &graph       = pattern->graph();
     const auto       norm_square = [&](const int k) {
       double sum = 0;
       for (int l = 9 * k; l < 9 * k + 9; ++l)
@@ -57,16 +40,16 @@ namespace corotet
       return sum;
     };
     std::vector<double> size(n_nodes);
-    std::vector<int>    row_of(pattern.columns.size());
+    std::vector<int>    row_of(graph.columns.size());
     for (int i = 0; i < n_nodes; ++i)
-      for (int k = pattern.starts[i]; k < pattern.starts[i + 1]; ++k)
+      for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
         {
           row_of[k] = i;
-          if (pattern.columns[k] == i)
+          if (graph.columns[k] == i)
             size[i] = std::sqrt(norm_square(k));
         }
-    aggregates = aggregate(pattern, [&](const int k) {
-      const int j = pattern.columns[k];
+    aggregates = aggregate(graph, [&](const int k) {
+      const int j = graph.columns[k];
       return j < n_nodes && norm_square(k) >=
                               threshold * threshold * size[row_of[k]] * size[j];
     });
@@ -82,23 +65,23 @@ namespace corotet
     coarse.resize(6 * n_own);
     NodeGraph tentative;
     tentative.columns = aggregates;
-    for (int i = 0; i < ghosts.n_items(); ++i)
+    for (int i = 0; i < pattern->exchange().n_items(); ++i)
       tentative.starts.push_back(std::min(i + 1, n_nodes));
-    nodes_of_aggregates = transpose(tentative, n_own);
-    prolongation_pattern =
-      corotet::product(node_rows.graph(), tentative, n_own);
+    nodes_of_aggregates  = transpose(tentative, n_own);
+    prolongation_pattern = corotet::product(pattern->graph(), tentative, n_own);
     const NodeGraph restriction = transpose(prolongation_pattern, n_own);
 
     // From here on, aggregates are numbered through all ranks.
-    const Epetra_Map rows(-1, 6 * n_own, 0, graph->Comm());
-    const int        n_all = rows.NumGlobalElements() / 6;
-    first_aggregate        = n_own > 0 ? rows.GID(0) / 6 : 0;
+    const auto [before, n_all] =
+      dealii::Utilities::MPI::partial_and_total_sum(n_own,
+                                                    pattern->communicator());
+    first_aggregate = before;
     for (auto *columns : {&aggregates, &prolongation_pattern.columns})
       for (int &column : *columns)
         column += first_aggregate;
-    prolongation_ghosts = ghosts.append_rows(prolongation_pattern);
+    prolongation_ghosts = pattern->exchange().append_rows(prolongation_pattern);
     product_pattern =
-      corotet::product(node_rows.graph(), prolongation_pattern, n_all);
+      corotet::product(pattern->graph(), prolongation_pattern, n_all);
     const NodeGraph full =
       corotet::product(restriction, product_pattern, n_all);
     coarse_pattern = NodeGraph();
@@ -109,6 +92,8 @@ namespace corotet
             coarse_pattern.columns.push_back(full.columns[k]);
         coarse_pattern.starts.push_back(coarse_pattern.columns.size());
       }
-    coarse_graph = graph_of_blocks(coarse_pattern, 6, rows);
+    coarse_matrix = std::make_unique<BlockMatrix>(
+      std::make_shared<const BlockPattern>(split_in_two(coarse_pattern),
+                                           pattern->communicator()));
   }
 } // namespace corotet

@@ -9,9 +9,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsGraph.h>
-#include <Epetra_MpiComm.h>
-
 #include <numeric>
 #include <tuple>
 #include <vector>
@@ -19,15 +16,6 @@
 namespace corotet
 {
   using dealii::Utilities::MPI::mpi_type_id_for_type;
-
-  namespace
-  {
-    MPI_Comm
-    communicator_of(const Epetra_CrsGraph &graph)
-    {
-      return dynamic_cast<const Epetra_MpiComm &>(graph.Comm()).Comm();
-    }
-  } // namespace
 
   /// What each rank has of a distributed array; on rank 0 only.
   struct SparseCholesky::Shares
@@ -72,16 +60,17 @@ namespace corotet
   class SparseCholesky::Factors
   {
   public:
-    Factors(const Epetra_CrsGraph &graph, const Precision precision);
+    Factors(const std::shared_ptr<const BlockPattern> &pattern,
+            const Precision                            precision);
 
     bool
-    belong_to(const Epetra_CrsGraph &other) const
+    belong_to(const BlockMatrix &A) const
     {
-      return other.DataPtr() == graph.DataPtr();
+      return A.pattern() == pattern;
     }
 
     void
-    factorize(const Epetra_CrsMatrix &A);
+    factorize(const BlockMatrix &A);
 
     template <typename Number>
     void
@@ -95,12 +84,12 @@ namespace corotet
     set_up(const std::vector<int> &columns);
     template <typename Number>
     void
-    gather_values(const Epetra_CrsMatrix &A);
+    gather_values(const BlockMatrix &A);
 
-    const Epetra_CrsGraph graph;
-    const MPI_Comm        comm;
-    const bool            is_root;
-    const bool            is_alone;
+    const std::shared_ptr<const BlockPattern> pattern;
+    const MPI_Comm                            comm;
+    const bool                                is_root;
+    const bool                                is_alone;
 
     /// Of each owned row, how many entries its lower triangle has, and their
     /// positions in the row, one row after another.
@@ -118,43 +107,43 @@ namespace corotet
     std::tuple<std::vector<double>, std::vector<float>> buffers;
   };
 
-  SparseCholesky::Factors::Factors(const Epetra_CrsGraph &graph,
-                                   const Precision        precision)
+  SparseCholesky::Factors::Factors(
+    const std::shared_ptr<const BlockPattern> &pattern,
+    const Precision                            precision)
     : precision(precision)
-    , graph(graph)
-    , comm(communicator_of(graph))
-    , is_root(graph.Comm().MyPID() == 0)
-    , is_alone(graph.Comm().NumProc() == 1)
-    , row_counts(graph.NumMyRows())
+    , pattern(pattern)
+    , comm(pattern->communicator())
+    , is_root(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    , is_alone(dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
   {
-    AssertThrow(graph.NumGlobalRows() % 3 == 0,
-                dealii::ExcMessage("The matrix has no three rows per node."));
+    const NodeGraph &graph = pattern->graph();
     std::vector<int> columns;
-    for (unsigned int row = 0; row < row_counts.size(); ++row)
-      {
-        int  length;
-        int *local_columns;
-        graph.ExtractMyRowView(row, length, local_columns);
-        const int         id     = graph.GRID(row);
-        const std::size_t before = columns.size();
-        for (int k = 0; k < length; ++k)
-          {
-            const int column = graph.GCID(local_columns[k]);
-            if (column <= id)
+    for (int node = 0; node < pattern->n_owned(); ++node)
+      for (int a = 0; a < 3; ++a)
+        {
+          const int         id     = 3 * pattern->global_node(node) + a;
+          const std::size_t before = columns.size();
+          const int         begin  = graph.starts[node];
+          for (int k = begin; k < graph.starts[node + 1]; ++k)
+            for (int b = 0; b < 3; ++b)
               {
-                columns.push_back(column);
-                positions.push_back(k);
+                const int column =
+                  3 * pattern->global_node(graph.columns[k]) + b;
+                if (column <= id)
+                  {
+                    columns.push_back(column);
+                    positions.push_back(3 * (k - begin) + b);
+                  }
               }
-          }
-        row_counts[row] = columns.size() - before;
-      }
+          row_counts.push_back(columns.size() - before);
+        }
     set_up(columns);
   }
 
   void
   SparseCholesky::Factors::set_up(const std::vector<int> &columns)
   {
-    const int n_rows = graph.NumGlobalRows();
+    const int n_rows = 3 * pattern->n_global();
     row_shares       = Shares(row_counts.size(), comm);
     entry_shares     = Shares(columns.size(), comm);
     on_root(comm, [&] {
@@ -187,7 +176,7 @@ namespace corotet
 
   template <typename Number>
   void
-  SparseCholesky::Factors::gather_values(const Epetra_CrsMatrix &A)
+  SparseCholesky::Factors::gather_values(const BlockMatrix &A)
   {
     std::vector<Number> &own  = std::get<std::vector<Number>>(buffers);
     Number              *part = nullptr;
@@ -203,9 +192,7 @@ namespace corotet
     const double inverse  = 1 / unit;
     for (unsigned int row = 0; row < row_counts.size(); ++row)
       {
-        int     length;
-        double *values;
-        A.ExtractMyRowView(row, length, values);
+        const double *values = A.row(row / 3, row % 3);
         for (int k = 0; k < row_counts[row]; ++k)
           *value++ = inverse * values[*position++];
       }
@@ -217,7 +204,7 @@ namespace corotet
   }
 
   void
-  SparseCholesky::Factors::factorize(const Epetra_CrsMatrix &A)
+  SparseCholesky::Factors::factorize(const BlockMatrix &A)
   {
     unit = unit_of(A);
     if (precision == Precision::single_precision)
@@ -269,10 +256,10 @@ namespace corotet
   SparseCholesky::~SparseCholesky() = default;
 
   void
-  SparseCholesky::factorize(const Epetra_CrsMatrix &A)
+  SparseCholesky::factorize(const BlockMatrix &A)
   {
-    if (!factors || !factors->belong_to(A.Graph()))
-      factors.reset(new Factors(A.Graph(), wanted));
+    if (!factors || !factors->belong_to(A))
+      factors.reset(new Factors(A.pattern(), wanted));
     try
       {
         factors->factorize(A);

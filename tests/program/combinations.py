@@ -31,7 +31,7 @@ import sys
 import tempfile
 import unittest
 
-from support import ROOT, ProgramTest, launcher, parameter_text, read_history
+from support import ROOT, ProgramTest, has_preconditioner, launcher, parameter_text, read_history
 
 EPSILON = 2.0**-52
 N_SEEDS_IN_CI = 30
@@ -164,6 +164,10 @@ class Combination:
         self.reference = {"Linear solver/Type": "direct"}
         self.other = {"Linear solver/Type": self.random.choice(("p-multigrid", "p-multigrid", "p-multigrid", "jacobi", "amg"))}
         self.other["Linear solver/p-multigrid/Coarse solver"] = self.random.choice(("automatic", "direct", "aggregation", "amg"))
+        if not has_preconditioner("amg"):
+            for entry, another in (("Type", "p-multigrid"), ("p-multigrid/Coarse solver", "aggregation")):
+                if self.other[f"Linear solver/{entry}"] == "amg":
+                    self.other[f"Linear solver/{entry}"] = another
         if by_cell and self.entries["Newton/Tangent"] != "consistent":
             self.other["Linear solver/Operator"] = self.random.choice(("matrix-free", "assembled"))
         if self.random.random() < 0.3:

@@ -12,7 +12,7 @@ must accept both time series, which two ranks write together.
 import re
 import unittest
 
-from support import ProgramTest, read_history, read_summary
+from support import ProgramTest, has_preconditioner, read_history, read_summary
 
 STRICT = ("Linear solver/Tolerance = 1e-11", "Newton/Residual tolerance = 1e-10", "Newton/Increment tolerance = 1e-10")
 MAY_DIFFER = {"newton_iterations", "linear_iterations", "wall_time"}
@@ -48,6 +48,7 @@ class Ranks(ProgramTest):
     def test_direct(self):
         self.check("direct")
 
+    @unittest.skipUnless(has_preconditioner("amg"), "built without Epetra")
     def test_amg(self):
         self.check("amg")
 

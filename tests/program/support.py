@@ -3,9 +3,11 @@
 """What the tests of the program share. The environment says what to run: COROTET_PROGRAM, COROTET_MPIRUN (words)."""
 
 import csv
+import functools
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -60,6 +62,15 @@ def launcher(ranks):
     """The words before a program that start it on so many ranks."""
     # The last word is a number of ranks.
     return [] if ranks == 1 else [*shlex.split(os.environ["COROTET_MPIRUN"])[:-1], str(ranks)]
+
+
+@functools.cache
+def has_preconditioner(name):
+    """Whether this program has it: some need optional parts of the build."""
+    program = [os.environ["COROTET_PROGRAM"], "--print-parameters", "markdown"]
+    parameters = subprocess.run(program, capture_output=True, text=True, check=True).stdout
+    allowed = re.search(r"## Linear solver\n.*?\| Type \| [^|]* \| one of ([^|]*) \|", parameters, re.DOTALL).group(1)
+    return name in allowed.split(", ")
 
 
 class ProgramTest(unittest.TestCase):

@@ -9,6 +9,7 @@
 
 #include "../body.h"
 #include "../refusal.h"
+#include "preconditioner_names.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -156,8 +157,11 @@ class Indefinite : public testing::TestWithParam<std::string>
 // goes on with MINRES.
 TEST_P(Indefinite, AllMethodsAgree)
 {
-  for (const std::string preconditioner : {"p-multigrid", "direct", "amg"})
+  for (const std::string &preconditioner : preconditioner_names())
     {
+      // Its thousands of iterations say nothing new.
+      if (preconditioner == "jacobi")
+        continue;
       Vector expected;
       for (const std::string method : {"minres", "gmres", "automatic"})
         {

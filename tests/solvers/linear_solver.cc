@@ -4,11 +4,11 @@
 // Every preconditioner leads conjugate gradients to the same solution, on one
 // rank and on two, and to round-off of the required residual.
 
-#include <corotet/solvers/preconditioners.h>
-
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "preconditioner_names.h"
+#include "solved_beam.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -59,12 +59,9 @@ TEST_P(PreconditionerTest, SolvesClampedBeam)
 }
 
 // The list itself is the parameter: a newcomer is tested without an edit.
-INSTANTIATE_TEST_SUITE_P(All, PreconditionerTest, testing::ValuesIn([] {
-                           std::vector<std::string> names;
-                           for (const auto &candidate : preconditioners())
-                             names.push_back(candidate.name);
-                           return names;
-                         }()));
+INSTANTIATE_TEST_SUITE_P(All,
+                         PreconditionerTest,
+                         testing::ValuesIn(preconditioner_names()));
 
 // Both Krylov methods, matrix-free or with the assembled matrix, solve the same
 // system; the true residual is the one that was asked for, up to its round-off.
@@ -137,41 +134,6 @@ TEST(LinearSolver, FailureIsClear)
 
 namespace
 {
-  // What the solver of a clamped beam needs and finds.
-  struct Solved
-  {
-    unsigned int        iterations = 0;
-    std::vector<double> x;
-  };
-
-  Solved
-  solve_beam(const std::string &cells,
-             const unsigned int degree,
-             const std::string &entries)
-  {
-    Body              body(box("4, 1, 1", cells, 0.1),
-              "subsection Discretization\n set Degree = " +
-                std::to_string(degree) +
-                "\nend\nsubsection Boundary conditions\n set Fixed = "
-                             "x-min\nend\nsubsection Linear solver\n" +
-                entries + "\nend\n");
-    EffectiveOperator A(body.discretization,
-                        body.system.elasticity(),
-                        body.system.mass(),
-                        body.system.prescribed_motion().is_prescribed());
-    A.update(1., 0.);
-    Vector x(body.state.u), b(x);
-    b = 1.;
-    body.system.prescribed_motion().set_zero(b);
-    Solved result;
-    result.iterations = body.parameters.linear_solver.solve(
-      A, x, b, body.discretization.node_positions());
-    body.parameters.linear_solver.clear();
-    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
-      result.x.push_back(x.local_element(i));
-    return result;
-  }
-
   // A preconditioner of another program: a multiple of the identity.
   class Multiple : public Preconditioner
   {
@@ -225,41 +187,4 @@ TEST(LinearSolver, PreconditionerOfAnotherProgram)
             solve_beam("4, 1, 1", 1, "set Type = direct").iterations);
   EXPECT_EQ(one.iterations, four.iterations);
   EXPECT_EQ(one.x, four.x);
-}
-
-// The coarse solver "amg" of p-multigrid has the parameters of section amg. At
-// degree 1 it is all of p-multigrid, so the solution is that of "Type = amg" to
-// the last bit, for every parameter; more sweeps save iterations, and do so
-// below degree 2, too.
-TEST(LinearSolver, CoarseAMGHasItsParameters)
-{
-  const std::string within =
-    "set Type = p-multigrid\n subsection p-multigrid\n set Coarse solver = "
-    "amg\n end\n";
-  const auto amg = [](const std::string &sweeps, const std::string &threshold) {
-    return "subsection amg\n set Smoother sweeps = " + sweeps +
-           "\n set Aggregation threshold = " + threshold + "\n end\n";
-  };
-  // More unknowns than the coarsest level may have.
-  const std::string cells = "20, 6, 6";
-  for (const std::string sweeps : {"1", "2", "8"})
-    for (const std::string threshold : {"1e-4", "0.05"})
-      {
-        const Solved by_itself =
-          solve_beam(cells, 1, "set Type = amg\n" + amg(sweeps, threshold));
-        const Solved coarse =
-          solve_beam(cells, 1, within + amg(sweeps, threshold));
-        EXPECT_EQ(coarse.iterations, by_itself.iterations);
-        EXPECT_EQ(coarse.x, by_itself.x) << sweeps << ' ' << threshold;
-      }
-  for (const unsigned int degree : {1u, 2u})
-    {
-      const unsigned int few =
-        solve_beam(cells, degree, within + amg("1", "1e-4")).iterations;
-      const unsigned int many =
-        solve_beam(cells, degree, within + amg("8", "1e-4")).iterations;
-      report("iterations with 1 sweep", few);
-      report("iterations with 8 sweeps", many);
-      EXPECT_GT(few, many) << degree;
-    }
 }

@@ -25,25 +25,22 @@ namespace
   int
   iterations(const SpringBox &box, const SmoothedAggregation &preconditioner)
   {
-    const Epetra_BlockMap &map = box.matrix->RowMap();
-    Epetra_Vector          x(map), r(map), z(map), d(map), q(map);
-    for (int i = 0; i < r.MyLength(); ++i)
-      r[i] = i % 3 == 1;
-    double b_norm, norm, rz = 0;
-    r.Norm2(&b_norm);
+    Vector x = box.vector(), r(x), z(x), d(x), q(x);
+    for (unsigned int i = 1; i < r.locally_owned_size(); i += 3)
+      r.local_element(i) = 1;
+    const double b_norm = r.l2_norm();
+    double       rz     = 0;
     for (int i = 1; i < 1000; ++i)
       {
-        preconditioner.vmult(z.Values(), r.Values());
+        preconditioner.vmult(z.begin(), r.begin());
         const double last = rz;
-        double       dq;
-        r.Dot(z, &rz);
-        d.Update(1., z, i == 1 ? 0. : rz / last);
-        box.matrix->Multiply(false, d, q);
-        d.Dot(q, &dq);
-        x.Update(rz / dq, d, 1.);
-        r.Update(-rz / dq, q, 1.);
-        r.Norm2(&norm);
-        if (norm <= 1e-8 * b_norm)
+        rz                = r * z;
+        d.sadd(i == 1 ? 0. : rz / last, 1., z);
+        box.matrix->vmult(q, d);
+        const double step = rz / (d * q);
+        x.add(step, d);
+        r.add(-step, q);
+        if (r.l2_norm() <= 1e-8 * b_norm)
           return i;
       }
     return 1000;
@@ -60,14 +57,14 @@ TEST(SmoothedAggregation, IterationsHardlyGrow)
         const SpringBox     box({{4 * n, n, n}}, true, comm);
         SmoothedAggregation preconditioner;
         preconditioner.build(*box.matrix, box.positions().data());
-        EXPECT_LT(8 * preconditioner.n_aggregates(),
-                  box.matrix->NumGlobalRows() / 3)
+        EXPECT_LT(8 * preconditioner.n_aggregates(), box.pattern->n_global())
           << n;
         return iterations(box, preconditioner);
       };
       const int alone = iterations_of(MPI_COMM_SELF);
       EXPECT_LE(alone, 25) << n;
-      const int n_interfaces = Epetra_MpiComm(MPI_COMM_WORLD).NumProc() - 1;
+      const int n_interfaces =
+        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
       EXPECT_LE(iterations_of(MPI_COMM_WORLD), alone + 2 * n_interfaces) << n;
     }
 }
@@ -77,10 +74,10 @@ TEST(SmoothedAggregation, AllowsRankWithoutNodes)
 {
   SpringBox box({{2, 0, 0}}, false);
   box.add_mass(1.);
-  const Epetra_Comm &comm = box.matrix->Comm();
-  if (comm.NumProc() > 1 && comm.MyPID() == 0)
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1 &&
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     {
-      EXPECT_EQ(box.matrix->NumMyRows(), 0);
+      EXPECT_EQ(box.pattern->n_owned(), 0);
     }
   SmoothedAggregation preconditioner;
   preconditioner.build(*box.matrix, box.positions().data());
@@ -94,7 +91,7 @@ TEST(SmoothedAggregation, NeedsRotations)
   SmoothedAggregation preconditioner;
   preconditioner.build(*box.matrix, box.positions().data());
   const int                 right = iterations(box, preconditioner);
-  const std::vector<double> nowhere(box.matrix->NumMyRows(), 1.);
+  const std::vector<double> nowhere(3 * box.pattern->n_owned(), 1.);
   preconditioner.build(*box.matrix, nowhere.data());
   EXPECT_GT(iterations(box, preconditioner), 1.5 * right);
 }
@@ -105,26 +102,22 @@ TEST(SmoothedAggregation, IsSymmetric)
   SpringBox           box({{9, 5, 4}}, true);
   SmoothedAggregation preconditioner(3);
   preconditioner.build(*box.matrix, box.positions().data());
-  const Epetra_Map  &map = box.matrix->RowMap();
-  const int          n   = map.NumMyElements();
-  Epetra_Vector      u(map), v(map), Pu(map), Pv(map), widened(map);
+  Vector             u = box.vector(), v(u), Pu(u), Pv(u), widened(u);
+  const unsigned int n = u.locally_owned_size();
   std::vector<float> single_v(n), single_Pv(n);
-  for (int i = 0; i < n; ++i)
+  for (unsigned int i = 0; i < n; ++i)
     {
-      u[i]        = std::sin(map.GID(i) + 1.);
-      v[i]        = std::cos(0.3 * map.GID(i));
-      single_v[i] = v[i];
+      const double row   = box.owned.nth_index_in_set(i);
+      u.local_element(i) = std::sin(row + 1.);
+      v.local_element(i) = std::cos(0.3 * row);
+      single_v[i]        = v.local_element(i);
     }
-  preconditioner.vmult(Pu.Values(), u.Values());
-  preconditioner.vmult(Pv.Values(), v.Values());
+  preconditioner.vmult(Pu.begin(), u.begin());
+  preconditioner.vmult(Pv.begin(), v.begin());
   preconditioner.vmult(single_Pv.data(), single_v.data());
-  std::copy(single_Pv.begin(), single_Pv.end(), widened.Values());
-  double uPv, vPu, u_single_Pv, uPu, vPv;
-  u.Dot(Pv, &uPv);
-  v.Dot(Pu, &vPu);
-  u.Dot(widened, &u_single_Pv);
-  u.Dot(Pu, &uPu);
-  v.Dot(Pv, &vPv);
+  std::copy(single_Pv.begin(), single_Pv.end(), widened.begin());
+  const double uPv = u * Pv, vPu = v * Pu, u_single_Pv = u * widened;
+  const double uPu = u * Pu, vPv = v * Pv;
   EXPECT_GT(uPu, 0.);
   EXPECT_GT(vPv, 0.);
   const double size = std::sqrt(uPu * vPv);

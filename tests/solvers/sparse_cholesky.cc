@@ -33,18 +33,19 @@ namespace
   double
   error(const SpringBox &box, const SparseCholesky &inverse)
   {
-    const Epetra_CrsMatrix &matrix = *box.matrix;
-    Epetra_Vector           x(matrix.RowMap()), b(matrix.RowMap());
-    for (int i = 0; i < x.MyLength(); ++i)
-      x[i] = std::cos(0.1 * matrix.GRID(i));
-    matrix.Multiply(false, x, b);
+    Vector             x = box.vector(), b(x);
+    const unsigned int n = x.locally_owned_size();
+    for (unsigned int i = 0; i < n; ++i)
+      x.local_element(i) = std::cos(0.1 * box.owned.nth_index_in_set(i));
+    box.matrix->vmult(b, x);
     DistributedVector<Number> rhs(box.owned, MPI_COMM_WORLD), y(rhs);
-    for (int i = 0; i < b.MyLength(); ++i)
-      rhs.local_element(i) = b[i];
+    for (unsigned int i = 0; i < n; ++i)
+      rhs.local_element(i) = b.local_element(i);
     inverse.vmult(y, rhs);
     double largest = 0;
-    for (int i = 0; i < b.MyLength(); ++i)
-      largest = std::max(largest, std::abs(x[i] - y.local_element(i)));
+    for (unsigned int i = 0; i < n; ++i)
+      largest =
+        std::max(largest, std::abs(x.local_element(i) - y.local_element(i)));
     return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
   }
 
@@ -106,7 +107,7 @@ TEST(SparseCholesky, InvertsMatrix)
       EXPECT_LT(error<double>(box, inverse), 1e-11);
       EXPECT_LT(error<float>(box, inverse), 1e-2);
       EXPECT_GT(inverse.n_entries(),
-                static_cast<std::size_t>(box.matrix->NumGlobalRows()));
+                static_cast<std::size_t>(3 * box.pattern->n_global()));
     }
 }
 
@@ -128,10 +129,10 @@ TEST(SparseCholesky, InvertsMatrixInSinglePrecision)
 TEST(SparseCholesky, AnySize)
 {
   const SpringBox     unscaled({{8, 2, 2}}, true);
-  const int           n = unscaled.matrix->NumMyRows();
+  const int           n = 3 * unscaled.pattern->n_owned();
   std::vector<double> b(n), reference(n), x(n);
   for (int i = 0; i < n; ++i)
-    b[i] = std::cos(0.1 * unscaled.matrix->GRID(i));
+    b[i] = std::cos(0.1 * unscaled.owned.nth_index_in_set(i));
   for (const Precision precision :
        {Precision::single_precision, Precision::double_precision})
     {
@@ -142,7 +143,7 @@ TEST(SparseCholesky, AnySize)
         for (const int of_rhs : {-400, 400})
           {
             SpringBox box({{8, 2, 2}}, true);
-            box.matrix->Scale(std::ldexp(1., of_matrix));
+            box.matrix->scale(std::ldexp(1., of_matrix));
             inverse.factorize(*box.matrix);
             EXPECT_EQ(inverse.precision(), precision);
             for (int i = 0; i < n; ++i)
@@ -237,7 +238,7 @@ TEST(SparseCholesky, MemoryMayBeTooShortAnywhere)
       const SpringBox   box(cells, true);
       const std::string expected =
         "memory is too short to factorise a matrix with " +
-        std::to_string(box.matrix->NumGlobalRows()) + " unknowns";
+        std::to_string(3 * box.pattern->n_global()) + " unknowns";
       const auto factorizes = [&](const long n_blocks, const bool once) {
         SparseCholesky inverse(precision);
         std::string    message = "none";

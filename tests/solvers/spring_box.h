@@ -4,20 +4,17 @@
 #ifndef corotet_tests_solvers_spring_box_h
 #define corotet_tests_solvers_spring_box_h
 
+#include <corotet/operators/block_matrix.h>
+
 #include <deal.II/base/index_set.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
-
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Map.h>
-#include <Epetra_MpiComm.h>
-#include <Epetra_Vector.h>
 
 #include <array>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 namespace corotet::tests
@@ -33,32 +30,39 @@ namespace corotet::tests
               const MPI_Comm            comm = MPI_COMM_WORLD)
       : cells(cells)
       , clamped(clamped)
-      , communicator(comm)
     {
       const int n_nodes = (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1);
       // Not the same number on all ranks.
-      const int n_ranks = communicator.NumProc();
-      const int rank    = communicator.MyPID();
+      const int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+      const int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
       const int first   = n_nodes * rank * rank / (n_ranks * n_ranks);
       const int end = n_nodes * (rank + 1) * (rank + 1) / (n_ranks * n_ranks);
-      const Epetra_Map rows(3 * n_nodes, 3 * (end - first), 0, communicator);
       owned.set_size(3 * n_nodes);
       owned.add_range(3 * first, 3 * end);
-      matrix = std::make_unique<Epetra_CrsMatrix>(Copy, rows, 81);
+      NodeGraph rows;
       for (int node = first; node < end; ++node)
-        add_rows(node);
-      matrix->FillComplete();
+        {
+          for (const auto &[column, block] : blocks_of(node))
+            rows.columns.push_back(column);
+          rows.starts.push_back(rows.columns.size());
+        }
+      pattern = std::make_shared<const BlockPattern>(rows, comm);
+      matrix  = std::make_unique<BlockMatrix>(pattern);
+      for (int i = 0; i < end - first; ++i)
+        for (const auto &[column, block] : blocks_of(first + i))
+          for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b)
+              matrix->row(
+                i, a)[3 * pattern->place(i, pattern->local_node(column)) + b] =
+                block[a][b];
     }
 
     /// Adds @p mass to the diagonal.
     void
     add_mass(const double mass)
     {
-      Epetra_Vector diagonal(matrix->RowMap());
-      matrix->ExtractDiagonalCopy(diagonal);
-      for (int i = 0; i < diagonal.MyLength(); ++i)
-        diagonal[i] += mass;
-      matrix->ReplaceDiagonalValues(diagonal);
+      for (int row = 0; row < 3 * pattern->n_owned(); ++row)
+        matrix->diagonal(row) += mass;
     }
 
     /// Three coordinates of each owned node.
@@ -66,14 +70,22 @@ namespace corotet::tests
     positions() const
     {
       std::vector<double> result;
-      for (int i = 0; i < matrix->NumMyRows(); i += 3)
-        for (const int x : position(matrix->GRID(i) / 3))
+      for (int i = 0; i < pattern->n_owned(); ++i)
+        for (const int x : position(pattern->global_node(i)))
           result.push_back(x);
       return result;
     }
 
-    dealii::IndexSet                  owned;
-    std::unique_ptr<Epetra_CrsMatrix> matrix;
+    /// A vector of the matrix's rows.
+    Vector
+    vector() const
+    {
+      return Vector(owned, pattern->communicator());
+    }
+
+    dealii::IndexSet                    owned;
+    std::shared_ptr<const BlockPattern> pattern;
+    std::unique_ptr<BlockMatrix>        matrix;
 
   private:
     std::array<int, 3>
@@ -89,8 +101,9 @@ namespace corotet::tests
       return clamped && x[0] == 0;
     }
 
-    void
-    add_rows(const int node)
+    /// The blocks in the row of a node, by columns in global numbers.
+    std::map<int, dealii::Tensor<2, 3>>
+    blocks_of(const int node) const
     {
       const auto                          x = position(node);
       std::map<int, dealii::Tensor<2, 3>> blocks;
@@ -116,21 +129,11 @@ namespace corotet::tests
         }
       if (is_fixed(x))
         diagonal = dealii::unit_symmetric_tensor<3>();
-      for (const auto &[other, block] : blocks)
-        for (int a = 0; a < 3; ++a)
-          {
-            std::array<int, 3> columns;
-            std::iota(columns.begin(), columns.end(), 3 * other);
-            matrix->InsertGlobalValues(3 * node + a,
-                                       3,
-                                       &block[a][0],
-                                       columns.data());
-          }
+      return blocks;
     }
 
     std::array<int, 3> cells;
     bool               clamped;
-    Epetra_MpiComm     communicator;
   };
 } // namespace corotet::tests
 

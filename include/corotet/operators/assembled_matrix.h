@@ -7,13 +7,14 @@
 #include <corotet/base/vector.h>
 #include <corotet/discretization/nodes.h>
 #include <corotet/discretization/reference_element.h>
+#include <corotet/operators/block_matrix.h>
 #include <corotet/operators/factored_kernel.h>
 
 #include <deal.II/base/aligned_vector.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace corotet
@@ -45,15 +46,16 @@ namespace corotet
            const dealii::AlignedVector<CellMasses<double>>       &masses,
            const Vector                                          *lumped_mass);
 
-    const dealii::TrilinosWrappers::SparseMatrix &
+    const BlockMatrix &
     matrix() const
     {
-      return sparse_matrix;
+      return *block_matrix;
     }
 
   private:
-    void
-    make_sparsity();
+    /// The blocks of the owned rows.
+    std::shared_ptr<const BlockPattern>
+    make_pattern() const;
     void
     locate_blocks();
     /// Adds the blocks of cells first, .., first + n_cells - 1, those of one
@@ -89,15 +91,9 @@ namespace corotet
     const ReferenceElement           reference;
     const std::vector<unsigned char> prescribed;
 
-    dealii::TrilinosWrappers::SparseMatrix sparse_matrix;
-    /// First value of each owned row.
-    std::vector<double *> row_values;
-    std::vector<int>      row_lengths;
-    /// Position in the row of the diagonal entry of each owned row.
-    std::vector<std::uint16_t> diagonal_positions;
-    /// [local cell][row node i][column node j][component]: position of the
-    /// block's columns in each of its three rows.
-    std::vector<std::uint16_t> block_positions;
+    std::unique_ptr<BlockMatrix> block_matrix;
+    /// [local cell][row node i][column node j]: place of the block in its row.
+    std::vector<std::uint16_t> block_places;
     /// Local cells with prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
 

@@ -56,7 +56,7 @@ namespace corotet
 
     /// A with the numbers of the last update(); they are computed by the first
     /// call after it. Collective.
-    const dealii::TrilinosWrappers::SparseMatrix &
+    const BlockMatrix &
     matrix() const;
 
     const Discretization &

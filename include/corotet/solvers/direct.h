@@ -5,20 +5,31 @@
 #define corotet_solvers_direct_h
 
 #include <corotet/solvers/preconditioner.h>
-
-#include <deal.II/lac/trilinos_solver.h>
-
-#include <memory>
+#include <corotet/solvers/sparse_cholesky.h>
 
 namespace corotet
 {
   /**
-   * The inverse by sparse factorisation (MUMPS where Trilinos has it, else
-   * KLU, through Amesos). The factors of an older A serve as preconditioner as
-   * long as a few iterations suffice: a rotation update does not force a new
-   * factorisation.
+   * The inverse by sparse factorisation. The factors of an older A serve as
+   * preconditioner as long as a few iterations suffice: a rotation update does
+   * not force a new factorisation.
    */
-  class Direct : public Preconditioner
+  class DirectSolver : public Preconditioner
+  {
+  public:
+    unsigned int
+    acceptable_iterations(const unsigned int) const override
+    {
+      // A factorisation costs more than ten solves with it, for the meshes
+      // that one would factorise.
+      return 10;
+    }
+  };
+
+  /**
+   * By CHOLMOD in double precision, on rank 0.
+   */
+  class CholeskyDirect : public DirectSolver
   {
   public:
     void
@@ -30,17 +41,8 @@ namespace corotet
     void
     vmult(Vector &dst, const Vector &src) const override;
 
-    unsigned int
-    acceptable_iterations(const unsigned int) const override
-    {
-      // A factorisation costs more than ten solves with it, for the meshes
-      // that one would factorise.
-      return 10;
-    }
-
   private:
-    dealii::SolverControl                                           control;
-    mutable std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
+    SparseCholesky factors;
   };
 } // namespace corotet
 

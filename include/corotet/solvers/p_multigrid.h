@@ -6,8 +6,8 @@
 
 #include <corotet/discretization/coarser_nodes.h>
 #include <corotet/operators/assembled_matrix.h>
-#include <corotet/solvers/amg.h>
 #include <corotet/solvers/chebyshev.h>
+#include <corotet/solvers/coarse_solver.h>
 #include <corotet/solvers/preconditioner.h>
 #include <corotet/solvers/smoothed_aggregation.h>
 #include <corotet/solvers/sparse_cholesky.h>
@@ -34,10 +34,10 @@ namespace corotet
   class PMultigrid : public Preconditioner
   {
   public:
-    /// @p amg: parameters of the coarse solver "amg", which others declare.
-    explicit PMultigrid(const std::shared_ptr<AMGParameters> &amg =
-                          std::make_shared<AMGParameters>())
-      : amg(amg)
+    /// @p further: solvers of degree 1 beside the own ones, whose parameters
+    /// others declare.
+    explicit PMultigrid(const CoarseSolvers &further = {})
+      : further(further)
     {}
 
     void
@@ -98,6 +98,8 @@ namespace corotet
     void
     solve_coarse(FloatVector &x, FloatVector &b) const;
 
+    const CoarseSolvers further;
+
     unsigned int smoother_degree = 4;
     double       smoothing_range = 20;
     std::string  coarse_type     = "automatic";
@@ -118,12 +120,13 @@ namespace corotet
     std::string                      coarse_solver;
     SparseCholesky      direct{SparseCholesky::Precision::single_precision};
     SmoothedAggregation aggregation;
-    AMG                 amg;
-    std::vector<unsigned int> coarse_prescribed;
-    mutable Vector            coarse_x;
-    mutable Vector            coarse_b;
-    mutable FloatVector       coarse_float_x;
-    mutable FloatVector       coarse_float_b;
+    /// One of the further ones, once it is asked for.
+    std::unique_ptr<CoarseSolver> other;
+    std::vector<unsigned int>     coarse_prescribed;
+    mutable Vector                coarse_x;
+    mutable Vector                coarse_b;
+    mutable FloatVector           coarse_float_x;
+    mutable FloatVector           coarse_float_b;
   };
 } // namespace corotet
 

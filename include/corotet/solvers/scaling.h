@@ -4,7 +4,7 @@
 #ifndef corotet_solvers_scaling_h
 #define corotet_solvers_scaling_h
 
-#include <Epetra_CrsMatrix.h>
+#include <corotet/operators/block_matrix.h>
 
 namespace corotet
 {
@@ -20,7 +20,7 @@ namespace corotet
 
   /// That of the largest absolute entry of A, over all ranks. Collective.
   double
-  unit_of(const Epetra_CrsMatrix &A);
+  unit_of(const BlockMatrix &A);
 } // namespace corotet
 
 #endif

@@ -4,11 +4,11 @@
 #ifndef corotet_solvers_smoothed_aggregation_h
 #define corotet_solvers_smoothed_aggregation_h
 
+#include <corotet/operators/block_matrix.h>
 #include <corotet/solvers/node_graph.h>
 #include <corotet/solvers/sparse_cholesky.h>
 
-#include <Epetra_CrsMatrix.h>
-
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,14 +17,13 @@ namespace corotet
   /**
    * One cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996) with two
    * levels for a stiffness matrix A of 3 x 3 blocks, in single precision:
-   * symmetric and positive definite. The ranks own contiguous ranges of rows,
-   * three per node, in ascending order; a rank may own none.
+   * symmetric and positive definite.
    *
    * The coarse unknowns are the six rigid body motions of every aggregate of
    * nodes, smoothed by one step of damped block Jacobi; they are found by a
    * sparse factorisation on rank 0. The smoother is Chebyshev's polynomial of
    * D^-1 A, D the diagonal blocks. What the coarse level is made of is computed
-   * in double precision; patterns are kept while the graph of A is the same.
+   * in double precision; patterns are kept while that of A is the same.
    *
    * Aggregates stay within a rank, and so do their smoothed motions: the step
    * of damped Jacobi takes a neighbour on another rank to move with the
@@ -41,7 +40,7 @@ namespace corotet
     /// @p positions: three coordinates per owned node [m]. Throws
     /// SingularMatrixError if A is singular. Collective.
     void
-    build(const Epetra_CrsMatrix &A, const double *positions);
+    build(const BlockMatrix &A, const double *positions);
 
     void
     clear();
@@ -56,7 +55,7 @@ namespace corotet
     int
     n_aggregates() const
     {
-      return coarse_graph->NumGlobalRows() / 6;
+      return coarse_matrix->pattern()->n_global() / 2;
     }
 
   private:
@@ -69,22 +68,20 @@ namespace corotet
     void
     set_up_pattern();
     void
-    copy_matrix(const Epetra_CrsMatrix &A);
+    copy_matrix(const BlockMatrix &A);
     void
     estimate_largest_eigenvalue();
     void
-    build_coarse(const Epetra_CrsMatrix &A, const double *positions);
+    build_coarse(const BlockMatrix &A, const double *positions);
     Motions
     rigid_motions(const std::vector<double> &positions) const;
     void
     smooth_motions(std::vector<Block>        &prolongation,
-                   const Epetra_CrsMatrix    &A,
+                   const BlockMatrix         &A,
                    const Motions             &motions,
                    const std::vector<double> &positions);
     void
-    fill_coarse(Epetra_CrsMatrix         &coarse_matrix,
-                const Epetra_CrsMatrix   &A,
-                const std::vector<Block> &prolongation) const;
+    fill_coarse(const BlockMatrix &A, const std::vector<Block> &prolongation);
 
     void
     apply(float *y, float *x) const;
@@ -98,11 +95,9 @@ namespace corotet
     const unsigned int degree;
     const double       threshold;
 
-    /// Keeps the graph's memory from being used by another graph.
-    std::unique_ptr<Epetra_CrsGraph> graph;
-    int                              n_nodes = 0;
-    NodeRows                         node_rows;
-    GhostExchange                    ghosts;
+    /// That of A; none is none.
+    std::shared_ptr<const BlockPattern> pattern;
+    int                                 n_nodes = 0;
 
     /// Aggregates are numbered through all ranks, rows are owned ones.
     int              first_aggregate = 0;
@@ -113,8 +108,10 @@ namespace corotet
     GhostExchange prolongation_ghosts;
     NodeGraph     product_pattern;
     /// Lower triangle only.
-    NodeGraph                        coarse_pattern;
-    std::unique_ptr<Epetra_CrsGraph> coarse_graph;
+    NodeGraph coarse_pattern;
+    /// Each aggregate has two nodes with three unknowns: its translations and
+    /// its rotations.
+    std::unique_ptr<BlockMatrix> coarse_matrix;
 
     /// What A is divided by, a power of two, so that single precision holds it
     /// whatever its size is.

@@ -4,9 +4,9 @@
 #ifndef corotet_solvers_sparse_cholesky_h
 #define corotet_solvers_sparse_cholesky_h
 
-#include <deal.II/lac/la_parallel_vector.h>
+#include <corotet/operators/block_matrix.h>
 
-#include <Epetra_CrsMatrix.h>
+#include <deal.II/lac/la_parallel_vector.h>
 
 #include <cstddef>
 #include <memory>
@@ -18,10 +18,9 @@ namespace corotet
    * factorisation P A P^T = L L^T (CHOLMOD; Chen, Davis, Hager, Rajamanickam
    * 2008) on rank 0, where the values are gathered.
    *
-   * A has three unknowns per node, 3n, 3n+1, 3n+2, and the ranks own contiguous
-   * ranges of rows, in ascending order. P comes from nested dissection (METIS)
-   * or minimum degree (AMD) of the graph of nodes, which has a ninth of the
-   * matrix's entries. Only the lower triangle of A is read.
+   * P comes from nested dissection (METIS) or minimum degree (AMD) of the graph
+   * of nodes, which has a ninth of the matrix's entries. Only the lower
+   * triangle of A is read.
    *
    * In single precision, factors take half the memory and half the time; the
    * relative error of a solution is about 1e-7 times the condition number, good
@@ -46,14 +45,13 @@ namespace corotet
 
     /**
      * Computes L. Ordering and pattern are kept from the last call if @p A has
-     * the same graph (Epetra_CrsGraph) as then; the graph is kept alive for
-     * that.
+     * the same BlockPattern as then, which is kept alive for that.
      * Throws SingularMatrixError if A is not positive definite up to round-off,
      * ComputationError if L has too many entries (2^31), and MachineError if
      * memory is short; then there is no L. Collective.
      */
     void
-    factorize(const Epetra_CrsMatrix &A);
+    factorize(const BlockMatrix &A);
 
     /// Forgets A and L.
     void

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_solvers_amg_h
-#define corotet_solvers_amg_h
+#ifndef corotet_solvers_epetra_amg_h
+#define corotet_solvers_epetra_amg_h
 
+#include <corotet/solvers/coarse_solver.h>
+#include <corotet/solvers/epetra/epetra_matrix.h>
 #include <corotet/solvers/preconditioner.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
@@ -30,7 +32,7 @@ namespace corotet
    * with the six rigid body modes of the current configuration as near null
    * space (Vanek, Mandel, Brezina 1996).
    */
-  class AMG : public Preconditioner
+  class AMG : public Preconditioner, public CoarseSolver
   {
   public:
     explicit AMG(const std::shared_ptr<AMGParameters> &parameters =
@@ -47,11 +49,8 @@ namespace corotet
     void
     build(const EffectiveOperator &A, const Vector &positions) override;
 
-    /// The same for any matrix with three unknowns per node, whose nodes are at
-    /// @p positions. The matrix must live as long as vmult() is called.
     void
-    initialize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-               const Vector                                 &positions);
+    build(const BlockMatrix &A, const Vector &positions) override;
 
     void
     clear() override;
@@ -62,6 +61,8 @@ namespace corotet
   private:
     const std::shared_ptr<AMGParameters> parameters;
 
+    /// Lives longer than amg, which refers to it.
+    std::unique_ptr<EpetraMatrix>             matrix;
     dealii::TrilinosWrappers::PreconditionAMG amg;
     /// Six vectors over the owned unknowns, one after another; ML refers to it.
     std::vector<double> rigid_body_modes;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/solvers/amg.h>
+#include <corotet/solvers/epetra/amg.h>
 
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
@@ -25,12 +25,11 @@ namespace corotet
   void
   AMG::build(const EffectiveOperator &A, const Vector &positions)
   {
-    initialize(A.matrix(), positions);
+    build(A.matrix(), positions);
   }
 
   void
-  AMG::initialize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                  const Vector                                 &positions)
+  AMG::build(const BlockMatrix &A, const Vector &positions)
   {
     const unsigned int n       = positions.locally_owned_size();
     const unsigned int n_nodes = n / 3;
@@ -63,13 +62,20 @@ namespace corotet
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", 6);
     list.set("null space: vectors", rigid_body_modes.data());
-    amg.initialize(matrix, list);
+    if (!matrix || !matrix->shows(A))
+      {
+        // What refers to the old one goes first.
+        amg.clear();
+        matrix = std::make_unique<EpetraMatrix>(A);
+      }
+    amg.initialize(matrix->get(), list);
   }
 
   void
   AMG::clear()
   {
     amg.clear();
+    matrix.reset();
   }
 
   void

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_block_matrix_h
+#define corotet_operators_block_matrix_h
+
+#include <corotet/base/vector.h>
+#include <corotet/operators/ghost_exchange.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Where a distributed square matrix has 3 x 3 blocks: node n has the rows and
+   * columns 3n, 3n+1, 3n+2. The ranks own contiguous ranges of nodes, in
+   * ascending order; a rank may own none.
+   *
+   * Columns have local numbers: owned nodes first, then the ghosts, nodes of
+   * other ranks that owned rows have a column of, both in the order of their
+   * global numbers.
+   */
+  class BlockPattern
+  {
+  public:
+    /// @p rows: those of the owned nodes, whose columns have global numbers;
+    /// each has its diagonal block. Collective.
+    BlockPattern(const NodeGraph &rows, const MPI_Comm comm);
+
+    MPI_Comm
+    communicator() const
+    {
+      return comm;
+    }
+
+    /// Columns have local numbers.
+    const NodeGraph &
+    graph() const
+    {
+      return local_graph;
+    }
+
+    int
+    n_owned() const
+    {
+      return local_graph.n_rows();
+    }
+
+    /// Nodes of all ranks.
+    int
+    n_global() const
+    {
+      return first_nodes.back();
+    }
+
+    /// The first of the owned nodes, in global numbers.
+    int
+    first_owned() const
+    {
+      return first;
+    }
+
+    /// Global numbers, ascending.
+    const std::vector<int> &
+    ghosts() const
+    {
+      return ghost_nodes;
+    }
+
+    /// Of what owned nodes have to where they are ghosts.
+    const GhostExchange &
+    exchange() const
+    {
+      return ghost_exchange;
+    }
+
+    int
+    global_node(const int local) const
+    {
+      return local < n_owned() ? first + local : ghost_nodes[local - n_owned()];
+    }
+
+    /// Of a node that is owned or a ghost.
+    int
+    local_node(const int global) const;
+
+    /// Where row @p node has a block: the place of @p column among its columns,
+    /// which must be there.
+    int
+    place(const int node, const int column) const;
+
+  private:
+    MPI_Comm         comm;
+    int              first = 0;
+    std::vector<int> first_nodes;
+    std::vector<int> ghost_nodes;
+    NodeGraph        local_graph;
+    GhostExchange    ghost_exchange;
+  };
+
+  /**
+   * A distributed square matrix of 3 x 3 blocks. Each of the three rows of a
+   * node has its values one after the other, three of each block, and all rows
+   * follow each other: compressed rows.
+   */
+  class BlockMatrix
+  {
+  public:
+    /// All zero.
+    explicit BlockMatrix(const std::shared_ptr<const BlockPattern> &pattern);
+
+    /// Values are not to have two owners by mistake.
+    BlockMatrix(const BlockMatrix &) = delete;
+    BlockMatrix &
+    operator=(const BlockMatrix &) = delete;
+
+    /// Shared by all who keep what depends on it, for matrices with the same
+    /// one.
+    const std::shared_ptr<const BlockPattern> &
+    pattern() const
+    {
+      return the_pattern;
+    }
+
+    /// Columns, and so values, of each row of an owned node.
+    int
+    row_length(const int node) const
+    {
+      const auto &starts = the_pattern->graph().starts;
+      return 3 * (starts[node + 1] - starts[node]);
+    }
+
+    /// The first value of row 3 @p node + @p component, a local number.
+    double *
+    row(const int node, const int component)
+    {
+      return values.data() + offset(node, component);
+    }
+
+    const double *
+    row(const int node, const int component) const
+    {
+      return values.data() + offset(node, component);
+    }
+
+    std::array<const double *, 3>
+    rows(const int node) const
+    {
+      return {{row(node, 0), row(node, 1), row(node, 2)}};
+    }
+
+    /// The diagonal entry of an owned row, a local number.
+    double &
+    diagonal(const int row);
+    double
+    diagonal(const int row) const;
+
+    /// All of this rank.
+    const double *
+    values_begin() const
+    {
+      return values.data();
+    }
+
+    std::size_t
+    n_values() const
+    {
+      return values.size();
+    }
+
+    /// The largest absolute one of this rank; 0 if it has none.
+    double
+    largest_value() const;
+
+    void
+    set_zero();
+
+    void
+    scale(const double factor);
+
+    /// dst = A src, owned entries. Only the first call allocates memory.
+    /// Collective.
+    void
+    vmult(double *dst, const double *src) const;
+
+    void
+    vmult(Vector &dst, const Vector &src) const;
+
+  private:
+    std::size_t
+    offset(const int node, const int component) const
+    {
+      return 9 * static_cast<std::size_t>(the_pattern->graph().starts[node]) +
+             component * row_length(node);
+    }
+
+    std::shared_ptr<const BlockPattern> the_pattern;
+    std::vector<double>                 values;
+    /// What is multiplied, with the entries of ghosts; without ghosts unused.
+    mutable std::vector<double> source;
+  };
+} // namespace corotet
+
+#endif

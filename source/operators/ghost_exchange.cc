@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/operators/ghost_exchange.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace corotet
+{
+  GhostExchange::GhostExchange(const MPI_Comm          comm,
+                               const std::vector<int> &first_nodes,
+                               const std::vector<int> &ghosts)
+    : comm(comm)
+    , n_ghosts(ghosts.size())
+  {
+    const int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
+    const int n_ranks = first_nodes.size() - 1;
+    n_owned           = first_nodes[rank + 1] - first_nodes[rank];
+    // The numbers of ghosts at their owners.
+    std::vector<int> nodes(n_ghosts);
+    std::vector<int> n_got(n_ranks), n_sent(n_ranks);
+    std::vector<int> ghost_begin(n_ranks), send_begin(n_ranks);
+    for (int i = 0; i < n_ghosts; ++i)
+      {
+        // Of ranks that begin with the same node, the last one has nodes.
+        const int owner =
+          std::upper_bound(first_nodes.begin(), first_nodes.end(), ghosts[i]) -
+          first_nodes.begin() - 1;
+        nodes[i] = ghosts[i] - first_nodes[owner];
+        ++n_got[owner];
+      }
+    MPI_Alltoall(n_got.data(), 1, MPI_INT, n_sent.data(), 1, MPI_INT, comm);
+    std::exclusive_scan(n_got.begin(), n_got.end(), ghost_begin.begin(), 0);
+    std::exclusive_scan(n_sent.begin(), n_sent.end(), send_begin.begin(), 0);
+    sent.resize(send_begin.back() + n_sent.back());
+    MPI_Alltoallv(nodes.data(),
+                  n_got.data(),
+                  ghost_begin.data(),
+                  MPI_INT,
+                  sent.data(),
+                  n_sent.data(),
+                  send_begin.data(),
+                  MPI_INT,
+                  comm);
+    for (int rank = 0; rank < n_ranks; ++rank)
+      if (n_sent[rank] + n_got[rank] > 0)
+        neighbours.push_back({rank,
+                              send_begin[rank],
+                              send_begin[rank] + n_sent[rank],
+                              ghost_begin[rank],
+                              ghost_begin[rank] + n_got[rank]});
+  }
+
+  GhostExchange
+  GhostExchange::append_rows(NodeGraph &graph) const
+  {
+    std::vector<int> lengths(n_items());
+    for (int i = 0; i < n_owned; ++i)
+      lengths[i] = graph.starts[i + 1] - graph.starts[i];
+    update(lengths.data());
+    for (int i = n_owned; i < n_items(); ++i)
+      graph.starts.push_back(graph.starts.back() + lengths[i]);
+
+    GhostExchange result;
+    result.comm     = comm;
+    result.n_owned  = graph.starts[n_owned];
+    result.n_ghosts = graph.starts.back() - result.n_owned;
+    for (const Neighbour &neighbour : neighbours)
+      {
+        const int send_begin = result.sent.size();
+        for (int i = neighbour.send_begin; i < neighbour.send_end; ++i)
+          for (int k = graph.starts[sent[i]]; k < graph.starts[sent[i] + 1];
+               ++k)
+            result.sent.push_back(k);
+        result.neighbours.push_back(
+          {neighbour.rank,
+           send_begin,
+           static_cast<int>(result.sent.size()),
+           graph.starts[n_owned + neighbour.ghost_begin] - result.n_owned,
+           graph.starts[n_owned + neighbour.ghost_end] - result.n_owned});
+      }
+    graph.columns.resize(graph.starts.back());
+    result.update(graph.columns.data());
+    return result;
+  }
+
+  void
+  GhostExchange::exchange(char *values, const std::size_t size) const
+  {
+    constexpr int tag = 7316;
+    buffer.resize(std::max(buffer.size(), sent.size() * size));
+    requests.resize(2 * neighbours.size());
+    MPI_Request *request = requests.data();
+    for (const Neighbour &neighbour : neighbours)
+      {
+        MPI_Irecv(values + (n_owned + neighbour.ghost_begin) * size,
+                  (neighbour.ghost_end - neighbour.ghost_begin) * size,
+                  MPI_BYTE,
+                  neighbour.rank,
+                  tag,
+                  comm,
+                  request++);
+        for (int i = neighbour.send_begin; i < neighbour.send_end; ++i)
+          std::memcpy(&buffer[i * size], values + sent[i] * size, size);
+        MPI_Isend(buffer.data() + neighbour.send_begin * size,
+                  (neighbour.send_end - neighbour.send_begin) * size,
+                  MPI_BYTE,
+                  neighbour.rank,
+                  tag,
+                  comm,
+                  request++);
+      }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+  }
+} // namespace corotet

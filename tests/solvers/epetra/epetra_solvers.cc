@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What is built where Trilinos has Epetra, ML and Amesos: its view of a matrix,
+// and the solvers that need it.
+
+#include <corotet/solvers/epetra/epetra_matrix.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../preconditioner_names.h"
+#include "../solved_beam.h"
+#include "../spring_box.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+TEST(EpetraMatrix, SolversAreRegistered)
+{
+  EXPECT_TRUE(has_preconditioner("amg"));
+  EXPECT_TRUE(has_preconditioner("direct"));
+}
+
+// The same entries make the same product, but for the order of its sums; new
+// values are seen at once, without another set-up.
+TEST(EpetraMatrix, ShowsTheMatrix)
+{
+  SpringBox          box({{7, 3, 4}}, true);
+  const EpetraMatrix epetra(*box.matrix);
+  EXPECT_TRUE(epetra.shows(*box.matrix));
+  EXPECT_EQ(epetra.get().NumGlobalRows(), 3 * box.pattern->n_global());
+  EXPECT_EQ(epetra.get().NumMyNonzeros(),
+            static_cast<int>(box.matrix->n_values()));
+  Vector x = box.vector(), y(x), z(x);
+  for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+    x.local_element(i) = std::sin(1. + box.owned.nth_index_in_set(i));
+  for (const double mass : {0., 10.})
+    {
+      box.add_mass(mass);
+      box.matrix->vmult(y, x);
+      epetra.vmult(z, x);
+      EXPECT_GT(y.linfty_norm(), mass / 2 + 1);
+      // Sums of 81 products of size below 20.
+      EXPECT_LE(largest_difference(y, z), 1e-13);
+    }
+  const SpringBox other({{7, 3, 4}}, true);
+  EXPECT_FALSE(epetra.shows(*other.matrix));
+}
+
+// The coarse solver "amg" of p-multigrid has the parameters of section amg. At
+// degree 1 it is all of p-multigrid, so the solution is that of "Type = amg" to
+// the last bit, for every parameter; more sweeps save iterations, and do so
+// below degree 2, too.
+TEST(AMG, CoarseSolverHasItsParameters)
+{
+  const std::string within =
+    "set Type = p-multigrid\n subsection p-multigrid\n set Coarse solver = "
+    "amg\n end\n";
+  const auto amg = [](const std::string &sweeps, const std::string &threshold) {
+    return "subsection amg\n set Smoother sweeps = " + sweeps +
+           "\n set Aggregation threshold = " + threshold + "\n end\n";
+  };
+  // More unknowns than the coarsest level may have.
+  const std::string cells = "20, 6, 6";
+  for (const std::string sweeps : {"1", "2", "8"})
+    for (const std::string threshold : {"1e-4", "0.05"})
+      {
+        const Solved by_itself =
+          solve_beam(cells, 1, "set Type = amg\n" + amg(sweeps, threshold));
+        const Solved coarse =
+          solve_beam(cells, 1, within + amg(sweeps, threshold));
+        EXPECT_EQ(coarse.iterations, by_itself.iterations);
+        EXPECT_EQ(coarse.x, by_itself.x) << sweeps << ' ' << threshold;
+      }
+  for (const unsigned int degree : {1u, 2u})
+    {
+      const unsigned int few =
+        solve_beam(cells, degree, within + amg("1", "1e-4")).iterations;
+      const unsigned int many =
+        solve_beam(cells, degree, within + amg("8", "1e-4")).iterations;
+      report("iterations with 1 sweep", few);
+      report("iterations with 8 sweeps", many);
+      EXPECT_GT(few, many) << degree;
+    }
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_solvers_solved_beam_h
+#define corotet_tests_solvers_solved_beam_h
+
+#include <string>
+#include <vector>
+
+#include "../body.h"
+
+namespace corotet::tests
+{
+  /// What the solver of a clamped beam needs and finds: owned entries.
+  struct Solved
+  {
+    unsigned int        iterations = 0;
+    std::vector<double> x;
+  };
+
+  /// @p entries of the section Linear solver.
+  inline Solved
+  solve_beam(const std::string &cells,
+             const unsigned int degree,
+             const std::string &entries)
+  {
+    Body              body(box("4, 1, 1", cells, 0.1),
+              "subsection Discretization\n set Degree = " +
+                std::to_string(degree) +
+                "\nend\nsubsection Boundary conditions\n set Fixed = "
+                             "x-min\nend\nsubsection Linear solver\n" +
+                entries + "\nend\n");
+    EffectiveOperator A(body.discretization,
+                        body.system.elasticity(),
+                        body.system.mass(),
+                        body.system.prescribed_motion().is_prescribed());
+    A.update(1., 0.);
+    Vector x(body.state.u), b(x);
+    b = 1.;
+    body.system.prescribed_motion().set_zero(b);
+    Solved result;
+    result.iterations = body.parameters.linear_solver.solve(
+      A, x, b, body.discretization.node_positions());
+    body.parameters.linear_solver.clear();
+    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+      result.x.push_back(x.local_element(i));
+    return result;
+  }
+} // namespace corotet::tests
+
+#endif
