@@ -52,7 +52,7 @@ namespace corotet
       return place(Point<3>(d[last] > 0 ? d : -d), 1.);
     }
 
-    struct Rotation
+    struct Turn
     {
       // Unit length.
       Tensor<1, 3> axis;
@@ -66,36 +66,36 @@ namespace corotet
 
     // The point that three rotations leave in its place, if there is one.
     bool
-    have_common_point(const std::vector<Rotation> &rotations,
-                      const Point<3>              &centre,
-                      const double                 radius,
-                      Point<3>                    &point)
+    have_common_point(const std::vector<Turn> &rotations,
+                      const Point<3>          &centre,
+                      const double             radius,
+                      Point<3>                &point)
     {
       if (rotations.size() != 3)
         return false;
       // They are about x, y, z: sum_k e_k x (e_k x d) = -2 d.
       Tensor<1, 3> d;
-      for (const Rotation &rotation : rotations)
+      for (const Turn &rotation : rotations)
         d += 0.5 * cross_product_3d(rotation.axis, rotation.translation);
       point = centre + d;
       return std::all_of(
-        rotations.begin(), rotations.end(), [&](const Rotation &rotation) {
+        rotations.begin(), rotations.end(), [&](const Turn &rotation) {
           return (rotation.translation + cross_product_3d(rotation.axis, d))
                    .norm() < 1e-6 * radius;
         });
     }
 
     std::vector<std::string>
-    rotations_in_words(const std::vector<Rotation> &rotations,
-                       const Point<3>              &centre,
-                       const double                 radius)
+    rotations_in_words(const std::vector<Turn> &rotations,
+                       const Point<3>          &centre,
+                       const double             radius)
     {
       const double length = centre.norm() + radius;
       Point<3>     point;
       if (have_common_point(rotations, centre, radius, point))
         return {"rotate about any axis through " + place(point, length)};
       std::vector<std::string> words;
-      for (const Rotation &rotation : rotations)
+      for (const Turn &rotation : rotations)
         {
           words.push_back(
             fmt::format("rotate about the axis through {} along {}",
@@ -129,7 +129,7 @@ namespace corotet
     if (motions.size() == 6)
       return "move in any direction and rotate about any axis";
     std::vector<std::string> directions, words;
-    std::vector<Rotation>    rotations;
+    std::vector<Turn>        rotations;
     for (const RigidMotions::Numbers &m : motions)
       {
         Tensor<1, 3> t({m[0], m[1], m[2]}), w({m[3], m[4], m[5]});

@@ -282,7 +282,8 @@ namespace corotet
     const dealii::AlignedVector<CellCoefficients<double>> &coefficients,
     const double                                           c_M,
     const dealii::AlignedVector<CellMasses<double>>       &masses,
-    const Vector                                          *lumped_mass)
+    const Vector                                          *lumped_mass,
+    const SurfaceOperator<double>                         *surface)
   {
     for (unsigned int row = 0; row < row_values.size(); ++row)
       std::fill_n(row_values[row], row_lengths[row], 0.);
@@ -309,5 +310,16 @@ namespace corotet
       for (unsigned int row = 0; row < row_values.size(); ++row)
         row_values[row][diagonal_positions[row]] +=
           c_M * lumped_mass->local_element(row);
+    if (surface != nullptr)
+      surface->for_each_block([&](const unsigned int cell,
+                                  const unsigned int i,
+                                  const unsigned int j,
+                                  const auto        &S) {
+        double block[3][3];
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            block[a][b] = S[a][b];
+        add_block(cell, i, j, block);
+      });
   }
 } // namespace corotet

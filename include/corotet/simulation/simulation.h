@@ -70,7 +70,7 @@ namespace corotet
   private:
     /// Throws InputError if supports leave the body a rigid motion.
     void
-    check_supports() const;
+    check_supports();
     /// Records of the steps that are done, and what is left to observers.
     void
     compute(const std::vector<std::unique_ptr<Observer>> &observers,
