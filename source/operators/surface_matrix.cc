@@ -139,7 +139,7 @@ namespace corotet
       find_nodes(matrix);
     tensors.resize(matrix.tensors().size());
     for (std::size_t i = 0; i < tensors.size(); ++i)
-      tensors[i] = Tensor(factor * matrix.tensors()[i]);
+      tensors[i] = factor * matrix.tensors()[i];
 
     std::fill(blocks.begin(), blocks.end(), SurfaceMatrix::Tensor());
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -159,7 +159,7 @@ namespace corotet
   void
   SurfaceOperator<T>::add(VectorType       &y,
                           const VectorType &x,
-                          const T           factor) const
+                          const double      factor) const
   {
     constexpr unsigned int most    = 10;
     const unsigned int     n_owned = nodes.n_owned_nodes();
@@ -170,15 +170,19 @@ namespace corotet
     AssertIndexRange(n_face_nodes, most + 1);
     for (const SurfaceMatrix::Face &face : faces)
       {
-        const T *N              = values[face.face].data();
-        T        sums[3 * most] = {};
+        const double *N              = values[face.face].data();
+        double        u[3 * most]    = {};
+        double        sums[3 * most] = {};
+        for (unsigned int k = 0; k < n_face_nodes; ++k)
+          for (unsigned int a = 0; a < 3; ++a)
+            u[3 * k + a] = X[3 * node[k] + a];
         for (unsigned int q = 0; q < n_points; ++q, ++D, N += n_face_nodes)
           {
-            dealii::Tensor<1, 3, T> u;
+            dealii::Tensor<1, 3> at_point;
             for (unsigned int k = 0; k < n_face_nodes; ++k)
               for (unsigned int a = 0; a < 3; ++a)
-                u[a] += N[k] * X[3 * node[k] + a];
-            const dealii::Tensor<1, 3, T> f = factor * (*D * u);
+                at_point[a] += N[k] * u[3 * k + a];
+            const dealii::Tensor<1, 3> f = factor * (*D * at_point);
             for (unsigned int k = 0; k < n_face_nodes; ++k)
               for (unsigned int a = 0; a < 3; ++a)
                 sums[3 * k + a] += N[k] * f[a];

@@ -130,8 +130,10 @@ namespace corotet
   }
 
   /**
-   * Applies a SurfaceMatrix to vectors of an element, in numbers of type T: the
-   * element of the matrix or a coarser one on the same cells.
+   * Applies a SurfaceMatrix to vectors of numbers of type T of an element: that
+   * of the matrix or a coarser one on the same cells. It computes in double
+   * precision: springs along a normal that is no axis are stiff in one
+   * direction, where a displacement across has nothing but round-off.
    *
    * @p nodes must outlive this object. Members are not collective but where
    * they say so.
@@ -150,7 +152,7 @@ namespace corotet
 
     /// y += factor S x for owned entries. x has ghost values.
     void
-    add(VectorType &y, const VectorType &x, const T factor = 1) const;
+    add(VectorType &y, const VectorType &x, const double factor = 1) const;
 
     /// Sets the entries of y that add() changes to zero.
     void
@@ -189,7 +191,7 @@ namespace corotet
     }
 
   private:
-    using Tensor = dealii::SymmetricTensor<2, 3, T>;
+    using Tensor = SurfaceMatrix::Tensor;
 
     void
     find_nodes(const SurfaceMatrix &matrix);
@@ -199,7 +201,7 @@ namespace corotet
     unsigned int           n_points     = 0;
     unsigned int           n_face_nodes = 0;
     /// N_k(x_q) on each face, [q][k].
-    std::array<std::vector<T>, 4>    values;
+    std::array<std::vector<double>, 4> values;
     std::vector<SurfaceMatrix::Face> faces;
     /// Local numbers, [face][k].
     std::vector<unsigned int> face_nodes;
