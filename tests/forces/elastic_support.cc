@@ -81,18 +81,17 @@ namespace
   }
 } // namespace
 
-class ElasticSupport : public testing::TestWithParam<Element>
+class ElasticSupportTest : public testing::TestWithParam<Element>
 {};
 
 INSTANTIATE_TEST_SUITE_P(Elements,
-                         ElasticSupport,
-                         testing::ValuesIn(all_elements),
-                         testing::PrintToStringParamName());
+                         ElasticSupportTest,
+                         testing::ValuesIn(all_elements));
 
 // A translation u: the force on the side z = 0 of 2 m^2 is - u int k, and the
 // rule is exact for k linear in x: with k_x = 1 + 2 x + 3 y, int k_x = 2 + 4 +
 // 3 N/m; k_y = 5 everywhere.
-TEST_P(ElasticSupport, ForceOfATranslation)
+TEST_P(ElasticSupportTest, ForceOfATranslation)
 {
   Body body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(GetParam()) +
@@ -109,7 +108,7 @@ TEST_P(ElasticSupport, ForceOfATranslation)
 }
 
 // Springs along the normal resist the motion along it only.
-TEST_P(ElasticSupport, NormalSpringsOnAPlane)
+TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 {
   Body body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(GetParam()) +
@@ -125,7 +124,7 @@ TEST_P(ElasticSupport, NormalSpringsOnAPlane)
 // The force is minus the derivative of the energy, and the matrix minus that of
 // the force: exactly, as the energy is quadratic. Round-off is that of some ten
 // terms.
-TEST_P(ElasticSupport, Derivatives)
+TEST_P(ElasticSupportTest, Derivatives)
 {
   Body body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(GetParam()) +
@@ -162,7 +161,7 @@ TEST_P(ElasticSupport, Derivatives)
 
 // A with springs, matrix-free, is that without and S, as the assembled matrix
 // is; its diagonal has that of S; prescribed unknowns have no springs.
-TEST_P(ElasticSupport, MatricesAgree)
+TEST_P(ElasticSupportTest, MatricesAgree)
 {
   Body body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(GetParam()) +
@@ -212,7 +211,7 @@ TEST_P(ElasticSupport, MatricesAgree)
 
 // On a coarser element of the same cells S is P^T S P with the embedding P: the
 // points and their tensors are the same.
-TEST_P(ElasticSupport, CoarserLevels)
+TEST_P(ElasticSupportTest, CoarserLevels)
 {
   if (GetParam().degree() == 1)
     return;
@@ -346,12 +345,12 @@ TEST(Supports, Refusals)
             "are needed, separated by semicolons");
   EXPECT_EQ(refusal_of("Elastic normal", "z-min: 1; 2; 3"),
             "Supports/Elastic normal: the expression \"1; 2; 3\" has 3 "
-            "components; 1 are needed, separated by semicolons");
+            "components; 1 is needed, separated by semicolons");
   EXPECT_EQ(refusal_of("Elastic", "z-min: 1; 1; 1, z-min: 2; 2; 2"),
             "Supports/Elastic: found boundary 'z-min' twice; allowed: each "
             "boundary once");
   // Which point says so is the rule's business.
-  for (const std::string &value : {"-1", "1 / 0", "sqrt(-1)", "x - 0.5"})
+  for (const std::string value : {"-1", "1 / 0", "sqrt(-1)", "x - 0.5"})
     {
       const std::string text = refusal_of("Elastic normal", "z-min: " + value);
       EXPECT_TRUE(text.starts_with("Supports/Elastic normal: found the value "))

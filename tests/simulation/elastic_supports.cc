@@ -398,7 +398,7 @@ TEST(ElasticSupports, DashpotsAbsorbWaves)
 TEST(ElasticSupports, BudgetCloses)
 {
   for (const std::string &name :
-       names_of([](const TimeIntegrator &integrator) {
+       integrators_with([](const TimeIntegrator &integrator) {
          return integrator.closes_budget();
        }))
     for (const std::string k : {"3; 5; 7", "3; 5; 7 * (1.5 + sin(9 * t))"})
