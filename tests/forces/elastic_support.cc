@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Elements,
 // 3 N/m; k_y = 5 everywhere.
 TEST_P(ElasticSupportTest, ForceOfATranslation)
 {
-  Body body(box("2, 1, 1", "3, 2, 2", 0.1),
+  Body         body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(GetParam()) +
               supports("Elastic", "z-min: 1 + 2 * x + 3 * y; 5; 0"));
   const Vector u =
@@ -110,7 +110,7 @@ TEST_P(ElasticSupportTest, ForceOfATranslation)
 // Springs along the normal resist the motion along it only.
 TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 {
-  Body body(box("2, 1, 1", "3, 2, 2", 0.1),
+  Body         body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(GetParam()) +
               supports("Elastic normal", "z-min: 7, x-max: 3"));
   const Vector u =
@@ -126,7 +126,7 @@ TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 // terms.
 TEST_P(ElasticSupportTest, Derivatives)
 {
-  Body body(box("2, 1, 1", "3, 2, 2", 0.1),
+  Body              body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(GetParam()) +
               supports("Elastic", "z-min: 1 + x * x; 5 + y; 2") +
               supports("Elastic normal", "x-max: 2 + z, y-min: 3"));
@@ -233,8 +233,7 @@ TEST_P(ElasticSupportTest, CoarserLevels)
   for (Vector *vector : {&fine, &product})
     body.discretization.initialize_vector(*vector);
   for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
-    x.local_element(i) =
-      std::sin(1. + x.get_partitioner()->local_to_global(i));
+    x.local_element(i) = std::sin(1. + x.get_partitioner()->local_to_global(i));
   x.update_ghost_values();
   coarse_S.add(y, x);
   coarser.prolongate_add(fine, x);
@@ -247,9 +246,9 @@ TEST_P(ElasticSupportTest, CoarserLevels)
 
 // An eighth of a sphere of radius 1 less its pole: area 2 pi cos(0.3) / 4.
 // Radial displacements of size one have the energy k area / 2, rotations about
-// the z axis none. Faces of degree q miss the sphere by h^(q + 1), their normals
-// by h^q, but the energy has the square of that; measured with 4 and 8 faces
-// along an edge.
+// the z axis none. Faces of degree q miss the sphere by h^(q + 1), their
+// normals by h^q, but the energy has the square of that; measured with 4 and 8
+// faces along an edge.
 TEST(ElasticSupportOnCurvedFaces, Sphere)
 {
   for (const unsigned int q : {2, 3})
@@ -257,18 +256,16 @@ TEST(ElasticSupportOnCurvedFaces, Sphere)
       double error[2], rotation[2];
       for (const unsigned int level : {0, 1})
         {
-          Body body(thick_shell(4 << level, q),
+          Body              body(thick_shell(4 << level, q),
                     element_text(q) + supports("Elastic normal", "z-max: 2"));
           const ForceTerms &terms = body.system.force_terms();
           const Vector      u     = body.interpolate(
             [](const Point<3> &x) { return Tensor<1, 3>(x / x.norm()); });
           const double area = PI / 2 * std::cos(0.3);
-          error[level] =
-            std::abs(terms.energy({0., u, u}) / area - 1);
-          const Vector turn = body.interpolate([](const Point<3> &x) {
-            return Tensor<1, 3>({-x[1], x[0], 0});
-          });
-          rotation[level]   = terms.energy({0., turn, turn}) / area;
+          error[level]      = std::abs(terms.energy({0., u, u}) / area - 1);
+          const Vector turn = body.interpolate(
+            [](const Point<3> &x) { return Tensor<1, 3>({-x[1], x[0], 0}); });
+          rotation[level] = terms.energy({0., turn, turn}) / area;
         }
       report(fmt::format("degree {}: error of the energy", q), error[1]);
       report(fmt::format("degree {}: energy of a rotation", q), rotation[1]);
@@ -293,7 +290,7 @@ TEST(ElasticSupportOnCurvedFaces, Area)
 // Dashpots resist the velocity.
 TEST(Dashpots, Force)
 {
-  Body body(box("2, 1, 1", "3, 2, 2", 0.1),
+  Body              body(box("2, 1, 1", "3, 2, 2", 0.1),
             element_text(2) + supports("Dashpots", "z-min: 1 + t; 5; 0"));
   const ForceTerms &terms = body.system.force_terms();
   const Vector      u     = body.interpolate(wavy);
@@ -330,9 +327,8 @@ TEST(Supports, Refusals)
 {
   const auto refusal_of = [](const std::string &entry,
                              const std::string &value) {
-    return refusal([&] {
-      Body body(box("1, 1, 1", "1, 1, 1"), supports(entry, value));
-    });
+    return refusal(
+      [&] { Body body(box("1, 1, 1", "1, 1, 1"), supports(entry, value)); });
   };
   EXPECT_EQ(refusal_of("Elastic", "z-mix: 1; 1; 1"),
             "Supports/Elastic: no such boundary: found 'z-mix'; the mesh has "

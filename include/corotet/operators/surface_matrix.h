@@ -202,7 +202,7 @@ namespace corotet
     unsigned int           n_face_nodes = 0;
     /// N_k(x_q) on each face, [q][k].
     std::array<std::vector<double>, 4> values;
-    std::vector<SurfaceMatrix::Face> faces;
+    std::vector<SurfaceMatrix::Face>   faces;
     /// Local numbers, [face][k].
     std::vector<unsigned int> face_nodes;
     std::vector<Tensor>       tensors;

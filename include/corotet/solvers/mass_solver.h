@@ -39,8 +39,8 @@ namespace corotet
     solve(Vector &a, const Vector &r) const;
 
     /**
-     * Solves (@p c_M M + S) a = r in the same way. If the mass is lumped, the
-     * iterations are about the nodes on which @p S acts alone.
+     * Solves (@p c_M M + S) a = r by conjugate gradients. If the mass is
+     * lumped, they are about the nodes on which @p S acts alone.
      */
     unsigned int
     solve(Vector                        &a,
@@ -60,6 +60,18 @@ namespace corotet
     vmult(Vector &dst, const Vector &src) const;
 
   private:
+    /// Calls @p function(i) for the owned unknowns that S couples: all of them
+    /// but with a lumped mass.
+    template <typename Function>
+    void
+    for_each_coupled(const SurfaceOperator<double> &S,
+                     const Function                &function) const;
+    /// product = (c_M M + S) x for these, zero where prescribed.
+    void
+    multiply(const Vector                  &x,
+             const double                   c_M,
+             const SurfaceOperator<double> &S) const;
+
     const Mass             &mass;
     const PrescribedMotion &motion;
     /// 1 / M_ii, zero where prescribed.
