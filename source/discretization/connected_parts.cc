@@ -63,7 +63,12 @@ namespace corotet
   ConnectedParts::ConnectedParts(const Discretization &discretization)
     : part_of_node(discretization.n_owned_nodes(), invalid_unsigned_int)
   {
-    find_joints(discretization, number_parts(discretization));
+    const std::vector<unsigned int> part_of_active_cell =
+      number_parts(discretization);
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      part_of_cell.push_back(
+        part_of_active_cell[discretization.active_cell_index(c)]);
+    find_joints(discretization, part_of_active_cell);
     measure(discretization);
   }
 

@@ -3,6 +3,7 @@
 
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/finite_element.h>
+#include <corotet/mesh/triangulation.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -106,10 +107,19 @@ namespace corotet
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
         const CellIterator &cell = cells[c];
-        if (c < n_owned)
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary())
-              surface.push_back({c, f, cell->face(f)->boundary_id()});
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              const BoundaryFace face{c, f, cell->face(f)->boundary_id()};
+              if (c < n_owned)
+                surface.push_back(face);
+              else if (face.boundary != unnamed_boundary)
+                // The others may be inside of the body, where the known part
+                // of the mesh ends.
+                surface_of_ghosts.push_back(face);
+            }
+
+        active_indices.push_back(cell->active_cell_index());
 
         dealii::Tensor<2, 3> jacobian;
         for (unsigned int k = 0; k < 3; ++k)

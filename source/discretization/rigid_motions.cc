@@ -79,10 +79,12 @@ namespace corotet
         row[3 + (a + 1) % 3]         = f * r[(a + 2) % 3];
         row[3 + (a + 2) % 3]         = -f * r[(a + 1) % 3];
       };
-      std::vector<double> row(pair.first == pair.second ? 6 : 12);
+      std::vector<double> row(12);
       fill(row.data(), pair.first, 1);
       if (pair.first != pair.second)
         fill(row.data() + 6, pair.second, -1);
+      else
+        row.resize(6);
       return row;
     }
 
@@ -119,20 +121,39 @@ namespace corotet
     }
 
     EquationsOfParts
-    equations_of_parts(const Discretization   &discretization,
-                       const PrescribedMotion &motion,
-                       const ConnectedParts   &parts)
+    equations_of_parts(const Discretization                    &discretization,
+                       const PrescribedMotion                  &motion,
+                       const std::vector<RigidMotions::Spring> &springs,
+                       const ConnectedParts                    &parts)
     {
       EquationsOfParts own;
-      const auto       add = [&](const Pair        &pair,
-                           const unsigned int node,
-                           const unsigned int a) {
-        std::vector<double> row =
-          coefficients(parts, pair, discretization.node_position(node), a);
+      const auto add_row = [&](const Pair &pair, std::vector<double> &row) {
         Equations &equations = own.try_emplace(pair, row.size()).first->second;
         equations.add(row);
         ++equations.count;
       };
+      const auto add =
+        [&](const Pair &pair, const unsigned int node, const unsigned int a) {
+          std::vector<double> row =
+            coefficients(parts, pair, discretization.node_position(node), a);
+          add_row(pair, row);
+        };
+      for (const RigidMotions::Spring &spring : springs)
+        {
+          // d . (t + w x r) = d . t + (r x d) . w.
+          const unsigned int         part = parts.part_of_cell[spring.cell];
+          const dealii::Tensor<1, 3> r =
+            (spring.point - parts.centres[part]) / parts.radii[part];
+          const dealii::Tensor<1, 3> moment =
+            cross_product_3d(r, spring.direction);
+          std::vector<double> row(6);
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              row[a]     = spring.direction[a];
+              row[3 + a] = moment[a];
+            }
+          add_row({part, part}, row);
+        }
       for (const unsigned int dof : motion.unknowns())
         {
           const unsigned int part = parts.part_of_node[dof / 3];
@@ -210,15 +231,16 @@ namespace corotet
     rows.resize(n_done);
   }
 
-  RigidMotions::RigidMotions(const Discretization   &discretization,
-                             const PrescribedMotion &motion)
+  RigidMotions::RigidMotions(const Discretization      &discretization,
+                             const PrescribedMotion    &motion,
+                             const std::vector<Spring> &springs)
     : discretization(discretization)
     , motion(motion)
     , parts(discretization)
     , numbers_of_parts(parts.n_parts)
   {
     const EquationsOfParts all =
-      equations_of_parts(discretization, motion, parts);
+      equations_of_parts(discretization, motion, springs, parts);
     DisjointSets sets(parts.n_parts);
     for (const auto &[pair, equations] : all)
       sets.unite(pair.first, pair.second);

@@ -2,12 +2,15 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/forces/body_force.h>
+#include <corotet/forces/elastic_support.h>
 #include <corotet/forces/force_kind.h>
 #include <corotet/forces/gravity.h>
 #include <corotet/forces/point_forces.h>
 #include <corotet/forces/pressure.h>
 #include <corotet/forces/rayleigh_damping.h>
 #include <corotet/forces/traction.h>
+
+#include <algorithm>
 
 namespace corotet
 {
@@ -20,7 +23,8 @@ namespace corotet
        candidate<ForceKind, PointForcesKind>("point forces"),
        candidate<ForceKind, TractionKind>("traction"),
        candidate<ForceKind, PressureKind>("pressure"),
-       candidate<ForceKind, RayleighDampingKind>("Rayleigh damping")});
+       candidate<ForceKind, RayleighDampingKind>("Rayleigh damping"),
+       candidate<ForceKind, SupportsKind>("supports")});
   }
 
   ForceParameters::ForceParameters()
@@ -52,6 +56,21 @@ namespace corotet
     ForceTerms terms(context.discretization);
     for (const auto &kind : kinds)
       kind->add_to(terms, context);
+    return terms;
+  }
+
+  ForceTerms
+  ForceParameters::make_for_modes(const ForceContext &context) const
+  {
+    ForceTerms terms(context.discretization);
+    for (const auto &kind : kinds)
+      {
+        const auto given = kind->given();
+        if (std::any_of(given.begin(), given.end(), [](const auto &entry) {
+              return entry.in_modes;
+            }))
+          kind->add_to(terms, context);
+      }
     return terms;
   }
 } // namespace corotet

@@ -283,7 +283,8 @@ namespace corotet
     const dealii::AlignedVector<CellCoefficients<double>> &coefficients,
     const double                                           c_M,
     const dealii::AlignedVector<CellMasses<double>>       &masses,
-    const Vector                                          *lumped_mass)
+    const Vector                                          *lumped_mass,
+    const SurfaceOperator<double>                         *surface)
   {
     block_matrix->set_zero();
     const double consistent = lumped_mass == nullptr ? c_M : 0.;
@@ -308,5 +309,16 @@ namespace corotet
     if (lumped_mass != nullptr)
       for (unsigned int row = 0; row < 3 * nodes.n_owned_nodes(); ++row)
         block_matrix->diagonal(row) += c_M * lumped_mass->local_element(row);
+    if (surface != nullptr)
+      surface->for_each_block([&](const unsigned int cell,
+                                  const unsigned int i,
+                                  const unsigned int j,
+                                  const auto        &S) {
+        double block[3][3];
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            block[a][b] = S[a][b];
+        add_block(cell, i, j, block);
+      });
   }
 } // namespace corotet

@@ -20,21 +20,29 @@ namespace corotet
     const Discretization             &discretization,
     const Elasticity                 &elasticity,
     const Mass                       &mass,
-    const std::vector<unsigned char> &is_prescribed)
+    const std::vector<unsigned char> &is_prescribed,
+    const SurfaceMatrix              *surface)
     : disc(discretization)
     , elastic(elasticity)
     , mass_matrix(mass)
     , prescribed(is_prescribed)
     , noise(std::make_unique<ForceRoundOff>(discretization, elasticity))
     , matrix_free(discretization, marked_unknowns(is_prescribed))
-  {}
+    , surface_matrix(surface)
+  {
+    if (surface == nullptr)
+      return;
+    surface_operator = std::make_unique<SurfaceOperator<double>>(disc);
+    matrix_free.set_surface(surface_operator.get());
+  }
 
   EffectiveOperator::~EffectiveOperator() = default;
 
   double
   EffectiveOperator::round_off(const Vector &v) const
   {
-    return c_K * noise->of_product(v);
+    return c_K * noise->of_product(v) +
+           (surface_operator ? surface_operator->round_off(v) : 0.);
   }
 
   void
@@ -48,6 +56,11 @@ namespace corotet
                           mass_matrix.cell_masses().data(),
                           mass_matrix.is_lumped() ? &mass_matrix.diagonal() :
                                                     nullptr);
+    if (surface_matrix != nullptr)
+      {
+        surface_operator->set(*surface_matrix);
+        size_of_surface = surface_matrix->size() / c_K;
+      }
     matrix_free.compute_diagonal();
     is_assembled = false;
     ++n_updates;
@@ -64,7 +77,8 @@ namespace corotet
                         c_M,
                         mass_matrix.cell_masses(),
                         mass_matrix.is_lumped() ? &mass_matrix.diagonal() :
-                                                  nullptr);
+                                                  nullptr,
+                        surface_operator.get());
     is_assembled = true;
     return assembled->matrix();
   }

@@ -3,6 +3,7 @@
 
 #include <corotet/operators/elastic_sweeps.h>
 #include <corotet/operators/force_terms.h>
+#include <corotet/operators/surface_matrix.h>
 
 #include <algorithm>
 
@@ -23,6 +24,21 @@ namespace corotet
     {
       return term.role() == Role::load && !term.depends_on_time() &&
              !depends_on_motion(term);
+    }
+
+    // What changes in time is done from outside, and so is the work of it.
+    bool
+    is_elastic(const ForceTerm &term)
+    {
+      return term.role() == Role::elastic && !term.depends_on_time();
+    }
+
+    // Not scaled by load steps.
+    bool
+    is_support(const ForceTerm &term)
+    {
+      return term.role() == Role::support ||
+             (term.role() == Role::elastic && term.depends_on_time());
     }
 
     // Derivatives that are not symmetric are left to the exact tangent.
@@ -77,13 +93,11 @@ namespace corotet
     f.compress(dealii::VectorOperation::add);
     f += constant_load;
     f *= load_factor;
-    if (!any_of(terms, [](const ForceTerm &term) {
-          return term.role() == Role::support;
-        }))
+    if (!any_of(terms, is_support))
       return;
     scratch = 0;
     for (const auto &term : terms)
-      if (term->role() == Role::support)
+      if (is_support(*term))
         term->add_force(scratch, motion);
     scratch.compress(dealii::VectorOperation::add);
     f += scratch;
@@ -101,8 +115,46 @@ namespace corotet
   ForceTerms::follows_motion() const
   {
     return any_of(terms, [](const ForceTerm &term) {
-      return term.role() != Role::damping && depends_on_motion(term);
+      return term.role() != Role::damping && !is_elastic(term) &&
+             depends_on_motion(term);
     });
+  }
+
+  void
+  ForceTerms::elastic_force(Vector &f, const Motion &motion) const
+  {
+    f = 0;
+    for (const auto &term : terms)
+      if (is_elastic(*term))
+        term->add_force(f, motion);
+    f.compress(dealii::VectorOperation::add);
+    f *= -1.;
+  }
+
+  bool
+  ForceTerms::has_elastic() const
+  {
+    return any_of(terms, is_elastic);
+  }
+
+  double
+  ForceTerms::energy(const Motion &motion) const
+  {
+    double sum = 0;
+    for (const auto &term : terms)
+      if (term->role() == Role::elastic)
+        sum += term->energy(motion);
+    return sum;
+  }
+
+  double
+  ForceTerms::changing_energy(const Motion &motion) const
+  {
+    double sum = 0;
+    for (const auto &term : terms)
+      if (term->role() == Role::elastic && term->depends_on_time())
+        sum += term->energy(motion);
+    return sum;
   }
 
   void
@@ -143,6 +195,49 @@ namespace corotet
         sum.mass += shares.mass;
       }
     return sum;
+  }
+
+  bool
+  ForceTerms::has_surface_matrix() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      return term.has_surface_matrix();
+    });
+  }
+
+  bool
+  ForceTerms::has_surface_damping() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      return term.has_surface_matrix() && term.depends_on_velocity();
+    });
+  }
+
+  bool
+  ForceTerms::surface_matrix_depends_on_time() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      return term.has_surface_matrix() && term.depends_on_time();
+    });
+  }
+
+  void
+  ForceTerms::surface_matrix(SurfaceMatrix &S,
+                             const double   time,
+                             const double   c_u,
+                             const double   c_v) const
+  {
+    S.clear();
+    for (const auto &term : terms)
+      if (term->has_surface_matrix())
+        term->add_surface_matrix(S, time, c_u, c_v);
+  }
+
+  bool
+  ForceTerms::is_linear() const
+  {
+    return !any_of(terms,
+                   [](const ForceTerm &term) { return !term.is_linear(); });
   }
 
   bool

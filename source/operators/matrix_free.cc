@@ -45,6 +45,15 @@ namespace corotet
 
   template <typename T>
   void
+  MatrixFree<T>::set_surface(const SurfaceOperator<T> *surface)
+  {
+    this->surface = surface;
+    if (surface != nullptr && surface_product.size() == 0)
+      nodes().initialize_vector(surface_product);
+  }
+
+  template <typename T>
+  void
   MatrixFree<T>::compute_diagonal()
   {
     const FormData<T> &data = this->data;
@@ -60,6 +69,8 @@ namespace corotet
           y += lumped * load_as<decltype(y)>(lumped_mass->begin() + i);
         store_to(y, diagonal_of_A.begin() + i);
       });
+    if (surface != nullptr)
+      surface->add_diagonal(diagonal_of_A);
   }
 
   template <typename T>
@@ -74,7 +85,28 @@ namespace corotet
       [&](const auto first, const auto end, const T *source, T *sums) {
         sweep(data, first, end, source, sums);
       };
-    if (lumped_mass == nullptr)
+    if (surface != nullptr)
+      {
+        // Before the sweep, which may change the source.
+        const bool fetch = !src.has_ghost_elements();
+        if (fetch)
+          src.update_ghost_values();
+        surface->set_zero(surface_product);
+        surface->add(surface_product, src);
+        const T *const diagonal =
+          lumped_mass != nullptr ? lumped_mass->begin() : nullptr;
+        cell_loop.run(src, add, [&](const unsigned int i, const auto y) {
+          using V = decltype(y + y);
+          V sum   = y * scale + load_as<V>(surface_product.begin() + i);
+          if (diagonal != nullptr)
+            sum +=
+              lumped * load_as<V>(diagonal + i) * load_as<V>(src.begin() + i);
+          take(i, sum);
+        });
+        if (fetch)
+          src.zero_out_ghost_values();
+      }
+    else if (lumped_mass == nullptr)
       cell_loop.run(src, add, [&](const unsigned int i, const auto y) {
         take(i, y * scale);
       });

@@ -36,11 +36,13 @@ namespace corotet
   {
     const unsigned int n_owned     = src.locally_owned_size();
     const bool         with_forces = forces.has_linearization(tangent);
+    const bool         with_surface =
+      A.surface() != nullptr && !elasticity.is_by_cell(tangent);
     source.copy_locally_owned_data_from(src);
     for (const unsigned int i : prescribed)
       if (i < n_owned)
         source.local_element(i) = 0;
-    if (with_forces)
+    if (with_forces || with_surface)
       source.update_ghost_values();
     const Mass &mass = A.mass();
     if (elasticity.is_by_cell(tangent))
@@ -56,12 +58,13 @@ namespace corotet
                                      A.mass_factor() != 0 && mass.is_lumped() ?
                                        &mass.diagonal() :
                                        nullptr);
+    if (with_surface)
+      A.add_surface(dst, source);
     if (with_forces)
-      {
-        forces.subtract_linearized(
-          dst, source, load_factor, velocity_factor, tangent);
-        source.zero_out_ghost_values();
-      }
+      forces.subtract_linearized(
+        dst, source, load_factor, velocity_factor, tangent);
+    if (with_forces || with_surface)
+      source.zero_out_ghost_values();
     for (const unsigned int i : prescribed)
       if (i < n_owned)
         dst.local_element(i) =

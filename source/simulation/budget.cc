@@ -38,6 +38,8 @@ namespace corotet
     discretization.initialize_vector(momentum);
     system.evaluate(initial_state, time, load_factor);
     take_forces(last, initial_state);
+    initial_changing_energy = system.force_terms().changing_energy(
+      {time, system.displacement(), system.velocity()});
     record(initial, initial_state, time);
   }
 
@@ -55,6 +57,8 @@ namespace corotet
       {
         const unsigned int i             = prescribed[k];
         forces.external.local_element(i) = terms.internal.local_element(i);
+        if (system.force_terms().has_elastic())
+          forces.external.local_element(i) += terms.elastic.local_element(i);
         forces.carried[k] =
           terms.inertia.local_element(i) + terms.damping.local_element(i);
         forces.velocity[k] = state.v.local_element(i);
@@ -125,6 +129,9 @@ namespace corotet
       reaction[i % 3] +=
         terms.inertia.local_element(i) + terms.damping.local_element(i) +
         terms.internal.local_element(i) - terms.external.local_element(i);
+    if (system.force_terms().has_elastic())
+      for (const unsigned int i : system.prescribed_motion().unknowns())
+        reaction[i % 3] += terms.elastic.local_element(i);
     record.reaction = dealii::Utilities::MPI::sum(reaction, comm);
 
     const auto vector_at = [](const Vector &vector, const unsigned int n) {
@@ -162,9 +169,11 @@ namespace corotet
 
     const ElasticState elastic =
       system.elasticity().state(system.displacement());
-    if (!std::isfinite(elastic.energy + record.kinetic_energy))
+    const Motion motion{time, system.displacement(), system.velocity()};
+    record.elastic_energy =
+      elastic.energy + system.force_terms().energy(motion);
+    if (!std::isfinite(record.elastic_energy + record.kinetic_energy))
       throw ComputationError("the energy is not finite");
-    record.elastic_energy   = elastic.energy;
     record.min_det_F        = elastic.min_det_F;
     record.inverted_cells   = elastic.inverted_cells;
     record.degenerate_cells = elastic.degenerate_cells;
@@ -173,11 +182,14 @@ namespace corotet
                                      system.reference_element(),
                                      system.displacement());
 
+    const double external_work = work +
+                                 system.force_terms().changing_energy(motion) -
+                                 initial_changing_energy;
     record.time              = time;
-    record.external_work     = work;
+    record.external_work     = external_work;
     record.dissipated_energy = dissipation;
     record.energy_balance    = record.kinetic_energy + record.elastic_energy +
-                            dissipation - work - initial.kinetic_energy -
-                            initial.elastic_energy;
+                            dissipation - external_work -
+                            initial.kinetic_energy - initial.elastic_energy;
   }
 } // namespace corotet

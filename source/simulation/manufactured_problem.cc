@@ -48,14 +48,14 @@ namespace corotet
       {"Initial conditions/Velocity", parameters.initial_velocity, zero}};
     for (const ForceKind::GivenEntry &given : parameters.forces.given())
       data.push_back(given);
-    for (const auto &[entry, value, allowed] : data)
-      if (dealii::Utilities::trim(value) != allowed)
-        throw InputError(entry,
+    for (const ForceKind::GivenEntry &given : data)
+      if (dealii::Utilities::trim(given.value) != given.none)
+        throw InputError(given.entry,
                          fmt::format("found '{}', but the data are made from "
                                      "the exact solution; allowed: '{}', or "
                                      "Exact solution/Manufacture = false",
-                                     value,
-                                     allowed));
+                                     given.value,
+                                     given.none));
   }
 
   std::set<unsigned int>

@@ -42,6 +42,18 @@ namespace corotet
       return box;
     }
 
+    std::optional<SurfaceMatrix>
+    stiffness_of(const ForceTerms       &terms,
+                 const Discretization   &disc,
+                 const ReferenceElement &reference,
+                 const double            time)
+    {
+      std::optional<SurfaceMatrix> result;
+      if (terms.has_surface_matrix())
+        terms.surface_matrix(result.emplace(disc, reference), time, 1., 0.);
+      return result;
+    }
+
     std::vector<Vector>
     rigid_body_modes(const Discretization &disc, const RigidMotions &motions)
     {
@@ -80,9 +92,8 @@ namespace corotet
     , mesh(parameters.mesh, folder, comm, log, parameters.element().degree())
     , disc(mesh, parameters.element())
     , reference(disc.element())
-    , conditions(parameters.boundary_conditions,
-                 mesh.boundaries(),
-                 read_table_functions(parameters.tables, folder, comm))
+    , tables(read_table_functions(parameters.tables, folder, comm))
+    , conditions(parameters.boundary_conditions, mesh.boundaries(), tables)
     , mass(disc,
            reference,
            densities(parameters.material.materials(mesh.regions())),
@@ -91,9 +102,25 @@ namespace corotet
               reference,
               parameters.material.materials(mesh.regions()),
               linear_law())
+    , terms(parameters.forces.make_for_modes({disc,
+                                              reference,
+                                              mass,
+                                              elastic,
+                                              conditions,
+                                              tables,
+                                              log,
+                                              parameters.start_time}))
     , motion(disc, reference, conditions, 0.)
-    , rigid_motions(disc, motion)
-    , A(disc, elastic, mass, motion.is_prescribed())
+    , surface(stiffness_of(terms, disc, reference, parameters.start_time))
+    , rigid_motions(disc,
+                    motion,
+                    surface ? surface->springs() :
+                              std::vector<RigidMotions::Spring>())
+    , A(disc,
+        elastic,
+        mass,
+        motion.is_prescribed(),
+        surface ? &*surface : nullptr)
     , solver(A,
              parameters.linear_solver,
              0.1 * parameters.modes.tolerance,
@@ -206,7 +233,10 @@ namespace corotet
     mode.shape.update_ghost_values();
     // By the energy of the strain and not by phi . K phi: so that of a rigid
     // body mode is the square of its round-off, and never negative.
-    mode.eigenvalue = 2 * elastic.state(mode.shape).energy / mode.modal_mass;
+    const double energy =
+      elastic.state(mode.shape).energy +
+      terms.energy({parameters.start_time, mode.shape, mode.shape});
+    mode.eigenvalue        = 2 * energy / mode.modal_mass;
     mode.angular_frequency = std::sqrt(mode.eigenvalue);
     mode.frequency         = mode.angular_frequency / (2 * dealii::numbers::PI);
 

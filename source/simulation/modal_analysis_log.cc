@@ -14,9 +14,10 @@ namespace corotet
   void
   ModalAnalysis::note_what_is_ignored() const
   {
-    bool something = !conditions.tractions.empty() ||
-                     !conditions.pressures.empty() ||
-                     !parameters.forces.given().empty();
+    bool something =
+      !conditions.tractions.empty() || !conditions.pressures.empty();
+    for (const ForceKind::GivenEntry &given : parameters.forces.given())
+      something = something || !given.in_modes;
     for (const auto &condition : conditions.displacements)
       for (const auto &component : condition.components)
         something = something || (component && !component->is_zero());

@@ -40,17 +40,25 @@ namespace corotet
   }
 
   void
-  Simulation::check_supports() const
+  Simulation::check_supports()
   {
-    const std::string motions =
-      RigidMotions(disc, system.prescribed_motion()).description();
+    const SurfaceMatrix *springs = system.springs(parameters.start_time);
+    const std::string    motions =
+      RigidMotions(disc,
+                   system.prescribed_motion(),
+                   springs != nullptr ? springs->springs() :
+                                        std::vector<RigidMotions::Spring>())
+        .description();
     if (!motions.empty())
       throw InputError("Boundary conditions/Fixed",
                        fmt::format("statics needs a body that cannot move "
-                                   "without strain; found: {}; allowed: Fixed "
-                                   "and Displacement such that nothing of this "
+                                   "without strain; found: {}; allowed: {} "
+                                   "such that nothing of this "
                                    "is left, or another Time integration/Type",
-                                   motions));
+                                   motions,
+                                   springs != nullptr ?
+                                     "Fixed, Displacement and Supports" :
+                                     "Fixed and Displacement"));
   }
 
   void

@@ -93,7 +93,7 @@ namespace corotet
   {
     const StabilityControl &control = *integrator.stability();
     const double            stable =
-      integrator.stable_step(system.largest_frequency(present),
+      integrator.stable_step(system.largest_frequency(present, time(done)),
                              system.force_terms().damping_shares().stiffness);
     if (n_steps == 0)
       {

@@ -74,7 +74,8 @@ namespace corotet
                                     elastic,
                                     conditions,
                                     tables,
-                                    log}))
+                                    log,
+                                    parameters.start_time}))
     , motion(discretization,
              reference,
              conditions,
@@ -102,6 +103,10 @@ namespace corotet
                            &a_ghosted,
                            &positions})
       discretization.initialize_vector(*vector);
+    if (terms.has_elastic())
+      discretization.initialize_vector(forces.elastic);
+    if (terms.has_surface_matrix())
+      surface = std::make_unique<SurfaceMatrix>(discretization, reference);
 
     // Three unknowns of each node have its mass.
     mass_diagonal_sum =
@@ -177,6 +182,9 @@ namespace corotet
         known_time        = time;
       }
 
+    if (terms.has_elastic())
+      terms.elastic_force(forces.elastic, last_motion());
+
     // Without damping it is zero for good.
     if (terms.has_damping())
       terms.damping_force(forces.damping, last_motion());
@@ -210,8 +218,12 @@ namespace corotet
   StructuralSystem::make_operators()
   {
     ScopedTimer timer(wall_times.assembly);
-    effective_operator = std::make_unique<EffectiveOperator>(
-      discretization, elastic, mass_matrix, motion.is_prescribed());
+    effective_operator =
+      std::make_unique<EffectiveOperator>(discretization,
+                                          elastic,
+                                          mass_matrix,
+                                          motion.is_prescribed(),
+                                          surface.get());
     if (TangentOperator::is_needed(elastic, terms, wanted_tangent))
       tangent_operator =
         std::make_unique<TangentOperator>(*effective_operator, elastic, terms);

@@ -19,10 +19,12 @@ namespace corotet
                                        const double time,
                                        const double velocity_factor)
   {
-    // Of damping by mass, a part is in the velocity to come.
+    // Of damping by mass and on the surface, a part is in the velocity to come.
     const double c = velocity_factor * terms.damping_shares().mass;
-    StageReport  report;
-    if (mass_matrix.is_lumped())
+    const bool   has_surface_damping =
+      velocity_factor != 0 && terms.has_surface_damping();
+    StageReport report;
+    if (mass_matrix.is_lumped() && !has_surface_damping)
       {
         evaluate_forces(state, time, 1.);
         ScopedTimer          timer(wall_times.solve);
@@ -30,18 +32,22 @@ namespace corotet
         const double        *m             = mass_matrix.diagonal().begin();
         const double        *external      = forces.external.begin();
         const double        *internal      = forces.internal.begin();
-        double              *damping       = forces.damping.begin();
-        double              *inertia       = forces.inertia.begin();
-        double              *a             = state.a.begin();
-        double              *v             = state.v.begin();
-        const unsigned int   n             = state.a.locally_owned_size();
+        const double        *elastic =
+          terms.has_elastic() ? forces.elastic.begin() : nullptr;
+        double            *damping = forces.damping.begin();
+        double            *inertia = forces.inertia.begin();
+        double            *a       = state.a.begin();
+        double            *v       = state.v.begin();
+        const unsigned int n       = state.a.locally_owned_size();
         for (unsigned int i = 0; i < n; ++i)
           if (is_prescribed[i])
             inertia[i] = m[i] * a[i];
           else
             {
-              inertia[i] = (external[i] - internal[i] - damping[i]) / (1 + c);
-              a[i]       = inertia[i] / m[i];
+              const double e = elastic != nullptr ? elastic[i] : 0.;
+              inertia[i] =
+                (external[i] - internal[i] - damping[i] - e) / (1 + c);
+              a[i] = inertia[i] / m[i];
               v[i] += velocity_factor * a[i];
               damping[i] += c * inertia[i];
             }
@@ -62,11 +68,19 @@ namespace corotet
     r -= forces.internal;
     r -= forces.damping;
     r -= forces.inertia;
+    subtract_elastic(r);
     motion.set_zero(r);
 
-    ScopedTimer timer(wall_times.solve);
-    report.linear_iterations = mass_solver.solve(a, r);
-    a *= 1 / (1 + c);
+    ScopedTimer                    timer(wall_times.solve);
+    const SurfaceOperator<double> *C =
+      has_surface_damping ? &surface_damping(time, velocity_factor) : nullptr;
+    if (C != nullptr)
+      report.linear_iterations = mass_solver.solve(a, r, 1 + c, *C);
+    else
+      {
+        report.linear_iterations = mass_solver.solve(a, r);
+        a *= 1 / (1 + c);
+      }
     state.a += a;
     state.v.add(velocity_factor, a);
     copy_with_ghosts(a_ghosted, state.a);
@@ -77,14 +91,47 @@ namespace corotet
         mass_matrix.apply(r, a_ghosted);
         forces.damping.add(c, r);
       }
+    if (C != nullptr)
+      {
+        copy_with_ghosts(a_ghosted, a);
+        C->add(forces.damping, a_ghosted);
+      }
     return report;
+  }
+
+  const SurfaceOperator<double> &
+  StructuralSystem::surface_damping(const double time, const double factor)
+  {
+    if (!damping_operator)
+      damping_operator =
+        std::make_unique<SurfaceOperator<double>>(discretization);
+    if (factor != damping_factor ||
+        (time != damping_time && terms.surface_matrix_depends_on_time()))
+      {
+        damping_operator->set(surface_matrix(time, 0., factor));
+        damping_time   = time;
+        damping_factor = factor;
+      }
+    return *damping_operator;
+  }
+
+  const SurfaceMatrix &
+  StructuralSystem::surface_matrix(const double time,
+                                   const double c_u,
+                                   const double c_v)
+  {
+    // That of the stage is lost.
+    surface_factor = std::numeric_limits<double>::quiet_NaN();
+    terms.surface_matrix(*surface, time, c_u, c_v);
+    return *surface;
   }
 
   bool
   StructuralSystem::can_leap() const
   {
     return mass_matrix.is_lumped() && !terms.has_damping() &&
-           terms.is_constant() && known_load_factor == 1 && motion.is_at_rest();
+           !terms.has_elastic() && terms.is_constant() &&
+           known_load_factor == 1 && motion.is_at_rest();
   }
 
   bool
@@ -103,9 +150,12 @@ namespace corotet
   }
 
   double
-  StructuralSystem::largest_frequency(const State &state)
+  StructuralSystem::largest_frequency(const State &state, const double time)
   {
     set_state(state);
+    SurfaceOperator<double> springs(discretization);
+    if (surface)
+      springs.set(surface_matrix(time, 1., 0.));
     // The exact tangent where it is symmetric: tension stiffens.
     const Tangent tangent = elastic.is_symmetric(Tangent::consistent) ?
                               Tangent::consistent :
@@ -116,6 +166,8 @@ namespace corotet
       [&](Vector &f, const Vector &v) {
         copy_with_ghosts(a_ghosted, v);
         elastic.apply_stiffness(f, a_ghosted, tangent);
+        if (surface)
+          springs.add(f, a_ghosted);
         motion.set_zero(f);
       },
       [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },

@@ -44,9 +44,10 @@ namespace corotet
     // The solve before may have ended with the other one.
     use_definite_tangent(false);
     const TangentOperator *J = linearize();
-    // Without the derivatives of forces: it is a guess.
+    // Without the derivatives of loads: it is a guess.
     motion_of_supports.update_ghost_values();
     elastic.apply_stiffness(f, motion_of_supports, tangent);
+    effective_operator->add_surface(f, motion_of_supports);
     r -= f;
     motion.set_zero(r);
     unsigned int n_iterations = 0;
@@ -74,11 +75,13 @@ namespace corotet
     r -= forces.internal;
     r -= forces.damping;
     r -= forces.inertia;
+    subtract_elastic(r);
     motion.set_zero(r);
     force_scale = std::max({norm(forces.external),
                             norm(forces.internal),
                             norm(forces.damping),
-                            norm(forces.inertia)});
+                            norm(forces.inertia),
+                            terms.has_elastic() ? norm(forces.elastic) : 0.});
     // Far from the solution of a nonlinear problem forces may be of any size.
     if (is_linear())
       stage_scale = std::max(stage_scale, force_scale);
@@ -118,18 +121,32 @@ namespace corotet
   bool
   StructuralSystem::is_linear() const
   {
-    return elastic.law().is_linear();
+    return elastic.law().is_linear() && terms.is_linear();
+  }
+
+  bool
+  StructuralSystem::update_surface()
+  {
+    if (!surface || (surface_factor == stage.velocity_factor &&
+                     (surface_time == stage.time ||
+                      !terms.surface_matrix_depends_on_time())))
+      return false;
+    terms.surface_matrix(*surface, stage.time, 1., stage.velocity_factor);
+    surface_time   = stage.time;
+    surface_factor = stage.velocity_factor;
+    return true;
   }
 
   const TangentOperator *
   StructuralSystem::linearize()
   {
-    const MatrixShares damping = terms.damping_shares();
-    const double       c_K     = 1 + stage.velocity_factor * damping.stiffness;
+    const bool         has_new_surface = update_surface();
+    const MatrixShares damping         = terms.damping_shares();
+    const double       c_K = 1 + stage.velocity_factor * damping.stiffness;
     const double       c_M =
       stage.acceleration_factor + stage.velocity_factor * damping.mass;
     if (!elastic.law().is_linear() || c_K != operator_c_K ||
-        c_M != operator_c_M)
+        c_M != operator_c_M || has_new_surface)
       {
         ScopedTimer timer(wall_times.assembly);
         effective_operator->update(c_K, c_M);

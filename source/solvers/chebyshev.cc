@@ -21,7 +21,8 @@ namespace corotet
   }
 
   void
-  Chebyshev::update_diagonal(const FloatVector &diagonal)
+  Chebyshev::update_diagonal(const FloatVector            &diagonal,
+                             const SurfaceOperator<float> *surface)
   {
     const unsigned int n = inverse_diagonal.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
@@ -29,6 +30,94 @@ namespace corotet
     for (const unsigned int i : A.prescribed_unknowns())
       if (i < n)
         inverse_diagonal.local_element(i) = 0;
+    blocks.clear();
+    if (surface != nullptr)
+      find_blocks(diagonal, *surface);
+  }
+
+  void
+  Chebyshev::find_blocks(const FloatVector            &diagonal,
+                         const SurfaceOperator<float> &surface)
+  {
+    // Couplings below this part of the diagonal are none.
+    constexpr double weak  = 0.1;
+    const auto      &nodes = surface.owned_nodes();
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      {
+        NodeBlock block{nodes[k], {}, {}};
+        bool      is_coupled = false;
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            {
+              const unsigned int i = 3 * nodes[k] + a, j = 3 * nodes[k] + b;
+              if (inverse_diagonal.local_element(i) == 0 ||
+                  inverse_diagonal.local_element(j) == 0)
+                block.D[a][b] = a == b ? 1. : 0.;
+              else if (a == b)
+                block.D[a][a] = diagonal.local_element(i);
+              else
+                {
+                  block.D[a][b] = surface.diagonal_blocks()[k][a][b];
+                  is_coupled =
+                    is_coupled ||
+                    std::abs(block.D[a][b]) >
+                      weak * std::sqrt(double(diagonal.local_element(i) *
+                                              diagonal.local_element(j)));
+                }
+            }
+        if (!is_coupled)
+          continue;
+        block.inverse = invert(block.D);
+        for (unsigned int a = 0; a < 3; ++a)
+          if (inverse_diagonal.local_element(3 * nodes[k] + a) == 0)
+            block.D[a][a] = block.inverse[a][a] = 0;
+        blocks.push_back(block);
+      }
+    if (!blocks.empty() && residual.size() == 0)
+      for (FloatVector *vector : {&residual, &scaled_residual})
+        A.nodes().initialize_vector(*vector);
+  }
+
+  void
+  Chebyshev::scale(FloatVector &y, const FloatVector &x) const
+  {
+    for (unsigned int i = 0; i < y.locally_owned_size(); ++i)
+      y.local_element(i) =
+        inverse_diagonal.local_element(i) * x.local_element(i);
+    for (const NodeBlock &block : blocks)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          double sum = 0;
+          for (unsigned int b = 0; b < 3; ++b)
+            sum += block.inverse[a][b] * x.local_element(3 * block.node + b);
+          y.local_element(3 * block.node + a) = sum;
+        }
+  }
+
+  double
+  Chebyshev::norm(const FloatVector &x) const
+  {
+    double     sum = 0;
+    const auto add = [&](const unsigned int i, const unsigned int end) {
+      for (unsigned int j = i; j < end; ++j)
+        if (const double inverse = inverse_diagonal.local_element(j);
+            inverse != 0)
+          sum += x.local_element(j) * x.local_element(j) / inverse;
+    };
+    // Between the blocks, which are in ascending order.
+    unsigned int next = 0;
+    for (const NodeBlock &block : blocks)
+      {
+        add(next, 3 * block.node);
+        next = 3 * block.node + 3;
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            sum += block.D[a][b] * x.local_element(3 * block.node + a) *
+                   x.local_element(3 * block.node + b);
+      }
+    add(next, x.locally_owned_size());
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(sum, A.nodes().communicator()));
   }
 
   void
@@ -46,16 +135,6 @@ namespace corotet
           start.local_element(i) * std::sqrt(inverse_diagonal.local_element(i));
         previous.local_element(i) = 0;
       }
-    const auto norm = [&](const FloatVector &x) {
-      double sum = 0;
-      for (unsigned int i = 0; i < n; ++i)
-        if (const double inverse = inverse_diagonal.local_element(i);
-            inverse != 0)
-          sum += x.local_element(i) * x.local_element(i) / inverse;
-      return std::sqrt(
-        dealii::Utilities::MPI::sum(sum, A.nodes().communicator()));
-    };
-
     std::vector<double> alphas, betas;
     double              beta = norm(v);
     v *= 1 / beta;
@@ -67,11 +146,20 @@ namespace corotet
         for (unsigned int i = 0; i < n; ++i)
           alpha += double(v.local_element(i)) * w.local_element(i);
         alpha = dealii::Utilities::MPI::sum(alpha, A.nodes().communicator());
-        for (unsigned int i = 0; i < n; ++i)
-          w.local_element(i) =
-            inverse_diagonal.local_element(i) * w.local_element(i) -
-            float(alpha) * v.local_element(i) -
-            float(beta) * previous.local_element(i);
+        if (blocks.empty())
+          for (unsigned int i = 0; i < n; ++i)
+            w.local_element(i) =
+              inverse_diagonal.local_element(i) * w.local_element(i) -
+              float(alpha) * v.local_element(i) -
+              float(beta) * previous.local_element(i);
+        else
+          {
+            scale(scaled_residual, w);
+            for (unsigned int i = 0; i < n; ++i)
+              w.local_element(i) = scaled_residual.local_element(i) -
+                                   float(alpha) * v.local_element(i) -
+                                   float(beta) * previous.local_element(i);
+          }
         alphas.push_back(alpha);
         beta = norm(w);
         // The space is exhausted: a mesh with few free unknowns.
@@ -90,12 +178,22 @@ namespace corotet
   {
     // The first step needs no A.
     const float centre = max_eigenvalue * (1 + 1 / range) / 2;
-    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+    if (blocks.empty())
+      for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+        {
+          const float d =
+            inverse_diagonal.local_element(i) * b.local_element(i) / centre;
+          step.local_element(i) = d;
+          x.local_element(i)    = d;
+        }
+    else
       {
-        const float d =
-          inverse_diagonal.local_element(i) * b.local_element(i) / centre;
-        step.local_element(i) = d;
-        x.local_element(i)    = d;
+        scale(step, b);
+        for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+          {
+            step.local_element(i) /= centre;
+            x.local_element(i) = step.local_element(i);
+          }
       }
     remaining_steps(x, b);
   }
@@ -104,8 +202,29 @@ namespace corotet
   Chebyshev::smooth(FloatVector &x, const FloatVector &b) const
   {
     const float centre = max_eigenvalue * (1 + 1 / range) / 2;
-    A.chebyshev_step(x, step, b, inverse_diagonal, 0, 1 / centre);
+    make_step(x, b, 0, 1 / centre);
     remaining_steps(x, b);
+  }
+
+  void
+  Chebyshev::make_step(FloatVector       &x,
+                       const FloatVector &b,
+                       const float        beta,
+                       const float        alpha) const
+  {
+    if (blocks.empty())
+      {
+        A.chebyshev_step(x, step, b, inverse_diagonal, beta, alpha);
+        return;
+      }
+    A.residual(residual, b, x);
+    scale(scaled_residual, residual);
+    for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+      {
+        step.local_element(i) = beta * step.local_element(i) +
+                                alpha * scaled_residual.local_element(i);
+        x.local_element(i) += step.local_element(i);
+      }
   }
 
   void
@@ -118,8 +237,7 @@ namespace corotet
     for (unsigned int k = 1; k < degree; ++k)
       {
         const double next = 1 / (2 * sigma - rho);
-        A.chebyshev_step(
-          x, step, b, inverse_diagonal, next * rho, 2 * next / radius);
+        make_step(x, b, next * rho, 2 * next / radius);
         rho = next;
       }
   }

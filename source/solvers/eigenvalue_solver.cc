@@ -161,6 +161,7 @@ namespace corotet
   {
     copy_with_ghosts(ghosted, x);
     A.elasticity().apply_tangent(f, ghosted);
+    A.add_surface(f, ghosted);
     A.mass().apply(g, ghosted);
     set_zero(f);
     set_zero(g);

@@ -255,11 +255,15 @@ namespace corotet
     if (std::abs(A.mass_ratio() - built_mass_ratio) >
         same_mass_ratio * built_mass_ratio)
       is_built = false;
+    if (A.surface_size() > 2 * built_surface ||
+        built_surface > 2 * A.surface_size())
+      is_built = false;
     const bool first_solve = !is_built;
     if (first_solve)
       {
         preconditioner.selected().build(A, positions);
         built_mass_ratio = A.mass_ratio();
+        built_surface    = A.surface_size();
         ++n_builds;
       }
     else if (A.version() != known_version)

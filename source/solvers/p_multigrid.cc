@@ -244,6 +244,14 @@ namespace corotet
     for (unsigned int l = 0; l < levels.size(); ++l)
       {
         Level &level = *levels[l];
+        if (A.surface() != nullptr)
+          {
+            if (!level.surface)
+              level.surface =
+                std::make_unique<SurfaceOperator<float>>(level.A.nodes());
+            level.surface->set(*A.surface(), 1 / scale);
+          }
+        level.A.set_surface(level.surface.get());
         level.A.set_terms(1,
                           coefficients.data(),
                           A.mass_factor() * mass_unit / scale,
@@ -255,12 +263,13 @@ namespace corotet
         if (l == 0)
           {
             copy_scaled(level.residual, A.diagonal(), 1 / scale);
-            level.smoother.update_diagonal(level.residual);
+            level.smoother.update_diagonal(level.residual, level.surface.get());
           }
         else
           {
             level.A.compute_diagonal();
-            level.smoother.update_diagonal(level.A.diagonal());
+            level.smoother.update_diagonal(level.A.diagonal(),
+                                           level.surface.get());
           }
       }
   }
@@ -270,11 +279,20 @@ namespace corotet
                                   const Vector            &positions)
   {
     if (coarse_matrix)
-      coarse_matrix->update(1 / stiffness_unit,
-                            A.elasticity().coefficients(),
-                            A.mass_factor() / scale,
-                            A.mass().cell_masses(),
-                            nullptr);
+      {
+        std::unique_ptr<SurfaceOperator<double>> surface;
+        if (A.surface() != nullptr)
+          {
+            surface = std::make_unique<SurfaceOperator<double>>(*coarse_nodes);
+            surface->set(*A.surface(), 1 / scale);
+          }
+        coarse_matrix->update(1 / stiffness_unit,
+                              A.elasticity().coefficients(),
+                              A.mass_factor() / scale,
+                              A.mass().cell_masses(),
+                              nullptr,
+                              surface.get());
+      }
     const auto &matrix = coarse_matrix ? coarse_matrix->matrix() : A.matrix();
     coarse_solver      = coarse_type != "automatic" ? coarse_type :
                          3 * coarse_nodes->n_global_nodes() <= direct_limit ?

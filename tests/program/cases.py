@@ -32,6 +32,7 @@ SHORTER = {
     "gravity_corotational": (*LOAD_STEPS, "Loads/Gravity = 0; 0; -1"),
     "gravity_linear": LOAD_STEPS,
     "lame_sphere": LOAD_STEPS,
+    "machine_foundation": ("Time integration/End time = 0.02",),
     "plate_modes": ("Mesh/box/Cells = 4, 4, 1", "Modes/Number = 6"),
     "ring": (*LOAD_STEPS, "Boundary conditions/Pressure = x-max: 1e6 * (z - 0.025)"),
     "shaken_mast": ("Time integration/End time = 0.02",),

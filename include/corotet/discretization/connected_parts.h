@@ -37,6 +37,8 @@ namespace corotet
     unsigned int n_parts = 0;
     /// Of each owned node one of its parts.
     std::vector<unsigned int> part_of_node;
+    /// Of each owned cell.
+    std::vector<unsigned int> part_of_cell;
     /// For each further part of an owned node.
     std::vector<Joint> joints;
     /// Mean of the nodes' positions of each part [m].

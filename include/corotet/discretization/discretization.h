@@ -106,11 +106,25 @@ namespace corotet
       return J;
     }
 
+    /// deal.II's active_cell_index() of local cell @p cell.
+    unsigned int
+    active_cell_index(const unsigned int cell) const
+    {
+      return active_indices[cell];
+    }
+
     /// The surface, as far as it belongs to owned cells.
     const std::vector<BoundaryFace> &
     boundary_faces() const
     {
       return surface;
+    }
+
+    /// Those of ghost cells, where the boundary has a number in the mesh.
+    const std::vector<BoundaryFace> &
+    ghost_boundary_faces() const
+    {
+      return surface_of_ghosts;
     }
 
     /// Positions of the nodes at rest in m, ghosts included.
@@ -174,7 +188,9 @@ namespace corotet
     dealii::DoFHandler<3> dofs;
 
     std::vector<CellGeometry> geometries;
+    std::vector<unsigned int> active_indices;
     std::vector<BoundaryFace> surface;
+    std::vector<BoundaryFace> surface_of_ghosts;
     Vector                    positions;
     /// By local cell; empty if no cell of any rank is curved.
     std::vector<unsigned char> curved_cells;

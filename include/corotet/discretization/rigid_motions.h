@@ -19,19 +19,31 @@ namespace corotet
    *
    * Each of the ConnectedParts moves by u(x) = t + w x (x - c) / r, with its
    * centre c and radius r; the six numbers t, w of all parts are in the null
-   * space of the equations "prescribed unknowns are zero" and "parts agree at
-   * their joints". Motions of size one that move these by less than the square
-   * root of the machine precision (root mean square over the nodes concerned)
-   * count as free: the energy that resists them is round-off.
+   * space of the equations "prescribed unknowns are zero", "parts agree at
+   * their joints" and "what springs resist is zero". Motions of size one that
+   * move these by less than the square root of the machine precision (root mean
+   * square over the nodes concerned) count as free: the energy that resists
+   * them is round-off.
    *
    * The arguments of the constructor must outlive this object.
    */
   class RigidMotions
   {
   public:
+    /// A point of the body where something elastic resists displacements in a
+    /// direction.
+    struct Spring
+    {
+      /// The owned cell that has the point.
+      unsigned int         cell;
+      dealii::Point<3>     point;
+      dealii::Tensor<1, 3> direction;
+    };
+
     /// Collective.
-    RigidMotions(const Discretization   &discretization,
-                 const PrescribedMotion &motion);
+    RigidMotions(const Discretization      &discretization,
+                 const PrescribedMotion    &motion,
+                 const std::vector<Spring> &springs = {});
 
     /// How many there are, linearly independent.
     unsigned int

@@ -35,6 +35,8 @@ namespace corotet
     /// For expressions.
     const TableFunctions &tables;
     Log                  &log;
+    /// Of the run [s].
+    double start_time = 0;
   };
 
   /**
@@ -51,6 +53,8 @@ namespace corotet
       std::string value;
       /// What stands for no force.
       std::string none;
+      /// Whether it belongs to the stiffness at rest, which modes have.
+      bool in_modes = false;
     };
 
     virtual ~ForceKind() = default;
@@ -92,6 +96,11 @@ namespace corotet
     /// The terms of all kinds. Throws InputError. Collective.
     ForceTerms
     make(const ForceContext &context) const;
+
+    /// Those of the kinds that give a force to modes. Throws InputError.
+    /// Collective.
+    ForceTerms
+    make_for_modes(const ForceContext &context) const;
 
   private:
     std::vector<std::unique_ptr<ForceKind>> kinds;

@@ -78,6 +78,12 @@ namespace corotet
       return true;
     }
 
+    bool
+    is_linear() const override
+    {
+      return !depends_on_displacement();
+    }
+
     void
     add_force(Vector &f, const Motion &motion) const override;
 

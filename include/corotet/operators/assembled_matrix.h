@@ -9,6 +9,7 @@
 #include <corotet/discretization/reference_element.h>
 #include <corotet/operators/block_matrix.h>
 #include <corotet/operators/factored_kernel.h>
+#include <corotet/operators/surface_matrix.h>
 
 #include <deal.II/base/aligned_vector.h>
 
@@ -20,7 +21,8 @@
 namespace corotet
 {
   /**
-   * The matrix A = c_K K + c_M M of one element. Rows and columns of prescribed
+   * The matrix A = c_K K + c_M M of one element, with a matrix of the surface
+   * if there is one. Rows and columns of prescribed
    * unknowns are those of a diagonal matrix.
    *
    * The sparsity and the place of every block of every cell in it are found
@@ -38,13 +40,15 @@ namespace corotet
                     const std::vector<unsigned char> &is_prescribed);
 
     /// Computes A as MatrixFree::set_terms() takes it, from the coefficients of
-    /// all local cells. Not collective.
+    /// all local cells, and adds a matrix of the surface, if that is not null.
+    /// Not collective.
     void
     update(const double                                           c_K,
            const dealii::AlignedVector<CellCoefficients<double>> &coefficients,
            const double                                           c_M,
            const dealii::AlignedVector<CellMasses<double>>       &masses,
-           const Vector                                          *lumped_mass);
+           const Vector                                          *lumped_mass,
+           const SurfaceOperator<double> *surface = nullptr);
 
     const BlockMatrix &
     matrix() const

@@ -17,10 +17,11 @@ namespace corotet
   class ForceRoundOff;
 
   /**
-   * The linear operator of implicit steps, A = c_K K + c_M M, with the frozen
-   * rotations that the elasticity has at the moment of update(). Rows and
-   * columns of prescribed unknowns are those of a diagonal matrix, so A is
-   * symmetric and positive definite if c_M > 0 or enough is prescribed.
+   * The linear operator of implicit steps, A = c_K K + c_M M + S, with the
+   * frozen rotations that the elasticity has at the moment of update(), and a
+   * matrix S of the surface, if there is one. Rows and columns of prescribed
+   * unknowns are those of a diagonal matrix, so A is symmetric and positive
+   * definite if c_M > 0 or if enough is prescribed or supported by S.
    *
    * A is applied matrix-free; it is assembled for those who ask for the matrix.
    * The arguments of the constructor must outlive this object.
@@ -28,15 +29,18 @@ namespace corotet
   class EffectiveOperator
   {
   public:
-    /// @p is_prescribed: for each local unknown, ghosts included. Collective.
+    /// @p is_prescribed: for each local unknown, ghosts included. @p surface:
+    /// S, null if there is none. Collective.
     EffectiveOperator(const Discretization             &discretization,
                       const Elasticity                 &elasticity,
                       const Mass                       &mass,
-                      const std::vector<unsigned char> &is_prescribed);
+                      const std::vector<unsigned char> &is_prescribed,
+                      const SurfaceMatrix              *surface = nullptr);
 
     ~EffectiveOperator();
 
-    /// Takes the coefficients, c_K > 0, and the rotations. Collective.
+    /// Takes the coefficients, c_K > 0, the rotations, and the numbers of the
+    /// surface's matrix. Collective.
     void
     update(const double c_K, const double c_M);
 
@@ -58,6 +62,28 @@ namespace corotet
     /// call after it. Collective.
     const BlockMatrix &
     matrix() const;
+
+    /// f += S v for owned entries. v has ghost values.
+    void
+    add_surface(Vector &f, const Vector &v) const
+    {
+      if (surface_operator)
+        surface_operator->add(f, v);
+    }
+
+    /// Null if there is none.
+    const SurfaceMatrix *
+    surface() const
+    {
+      return surface_matrix;
+    }
+
+    /// Its SurfaceMatrix::size() over c_K at the last update [N/m].
+    double
+    surface_size() const
+    {
+      return size_of_surface;
+    }
 
     const Discretization &
     discretization() const
@@ -134,6 +160,10 @@ namespace corotet
     MatrixFree<double>                       matrix_free;
     mutable std::unique_ptr<AssembledMatrix> assembled;
     mutable bool                             is_assembled = false;
+
+    const SurfaceMatrix                     *surface_matrix  = nullptr;
+    double                                   size_of_surface = 0;
+    std::unique_ptr<SurfaceOperator<double>> surface_operator;
   };
 
   /// Numbers of those unknowns that are marked.

@@ -9,6 +9,7 @@
 namespace corotet
 {
   class ForceRoundOff;
+  class SurfaceMatrix;
 
   /**
    * Where and when forces are asked for.
@@ -39,18 +40,25 @@ namespace corotet
    *   M a + f_int(u) = sum of f(t, u, v).
    *
    * A force that depends on neither displacement nor velocity needs add_force()
-   * and depends_on_time() only.
+   * and depends_on_time() only. One that depends on them says so, whether it is
+   * linear, and has its derivative, by one of three ways: damping_shares(),
+   * add_surface_matrix(), or linearize() with add_linearized(). Preconditioners
+   * and assembled matrices have the first two; what is stiff must be there.
    */
   class ForceTerm
   {
   public:
     /// The work of loads and supports is external work, that of damping is
-    /// dissipated energy. Static load steps scale loads only.
+    /// dissipated energy, and elastic forces are those of an energy() that
+    /// counts as elastic energy: what they do is no work from outside, but that
+    /// of a change of their energy in time is. Static load steps scale loads
+    /// only.
     enum class Role
     {
       load,
       support,
-      damping
+      damping,
+      elastic
     };
 
     virtual ~ForceTerm() = default;
@@ -76,6 +84,22 @@ namespace corotet
       return Role::load;
     }
 
+    /// Whether the force is linear (or affine) in displacement and velocity, so
+    /// that one linear solve is all that a step of a linear body takes.
+    virtual bool
+    is_linear() const
+    {
+      return !depends_on_displacement() && !depends_on_velocity();
+    }
+
+    /// Of elastic forces [J]: the force is minus its derivative by the
+    /// displacement. Collective.
+    virtual double
+    energy(const Motion & /*motion*/) const
+    {
+      return 0;
+    }
+
     /// Adds the force to @p f, in any local entries: who calls compresses the
     /// sum. Collective.
     virtual void
@@ -89,7 +113,27 @@ namespace corotet
       return {};
     }
 
-    /// Whether add_linearized() has more to add than damping_shares().
+    /// Whether add_surface_matrix() adds anything.
+    virtual bool
+    has_surface_matrix() const
+    {
+      return false;
+    }
+
+    /// Adds - (@p c_u df/du + @p c_v df/dv) to @p S, where it is a symmetric,
+    /// positive semi-definite matrix of the surface that depends on nothing but
+    /// time: in steps of all kinds, preconditioners, stable steps, modes, and
+    /// in what holds a body in statics. Forces of elastic terms and of dampers
+    /// only. Throws ComputationError. Collective.
+    virtual void
+    add_surface_matrix(SurfaceMatrix & /*S*/,
+                       const double /*time*/,
+                       const double /*c_u*/,
+                       const double /*c_v*/) const
+    {}
+
+    /// Whether add_linearized() has more to add than damping_shares() and
+    /// add_surface_matrix().
     virtual bool
     has_linearization() const
     {
@@ -102,7 +146,8 @@ namespace corotet
     {}
 
     /// Adds (df/du + @p velocity_factor df/dv) w to @p f, in any local entries,
-    /// but for damping_shares(). w's ghosts are up to date. Not collective.
+    /// but for damping_shares() and add_surface_matrix(). w's ghosts are up to
+    /// date. Not collective.
     virtual void
     add_linearized(Vector & /*f*/,
                    const Vector & /*w*/,

@@ -13,6 +13,7 @@
 namespace corotet
 {
   enum class Tangent;
+  class SurfaceMatrix;
 
   /**
    * The sum of force terms. Loads that depend on neither time nor motion are
@@ -27,7 +28,8 @@ namespace corotet
     void
     add(std::unique_ptr<ForceTerm> term);
 
-    /// f = load_factor times the loads, and the supports' forces.
+    /// f = load_factor times the loads, and the forces of supports and of those
+    /// elastic terms that depend on time.
     void
     external_force(Vector       &f,
                    const Motion &motion,
@@ -40,6 +42,22 @@ namespace corotet
     /// Whether that depends on the motion.
     bool
     follows_motion() const;
+
+    /// f = minus the forces of the elastic terms that do not depend on time.
+    void
+    elastic_force(Vector &f, const Motion &motion) const;
+
+    /// Whether there are such terms.
+    bool
+    has_elastic() const;
+
+    /// Of all elastic terms [J].
+    double
+    energy(const Motion &motion) const;
+
+    /// Of those that depend on time.
+    double
+    changing_energy(const Motion &motion) const;
 
     /// f = minus the forces of damping.
     void
@@ -55,6 +73,29 @@ namespace corotet
     /// What the terms' - df/dv has of the body's matrices.
     MatrixShares
     damping_shares() const;
+
+    /// Whether surface_matrix() has anything.
+    bool
+    has_surface_matrix() const;
+
+    /// Whether it has for the velocity.
+    bool
+    has_surface_damping() const;
+
+    bool
+    surface_matrix_depends_on_time() const;
+
+    /// @p S = - (@p c_u df/du + @p c_v df/dv) of the terms that have such a
+    /// matrix. Throws ComputationError.
+    void
+    surface_matrix(SurfaceMatrix &S,
+                   const double   time,
+                   const double   c_u,
+                   const double   c_v) const;
+
+    /// Whether all terms are linear.
+    bool
+    is_linear() const;
 
     /// Whether there are derivatives, besides these shares, that belong to that
     /// tangent.

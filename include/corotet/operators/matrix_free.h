@@ -5,6 +5,7 @@
 #define corotet_operators_matrix_free_h
 
 #include <corotet/operators/cell_loop.h>
+#include <corotet/operators/surface_matrix.h>
 #include <corotet/operators/sweep.h>
 
 #include <vector>
@@ -13,8 +14,9 @@ namespace corotet
 {
   /**
    * The operator A = c_K K + c_M M of one element, applied cell by cell without
-   * a matrix, in numbers of type T. Rows and columns of prescribed unknowns are
-   * those of a diagonal matrix.
+   * a matrix, in numbers of type T, and a matrix of the surface, if there is
+   * one. Rows and columns of prescribed unknowns are those of a diagonal
+   * matrix.
    *
    * Vectors are those of the nodes. Ghost entries of sources are brought up to
    * date where they are not in use, and left as they came. Everything that the
@@ -42,7 +44,11 @@ namespace corotet
               const CellMasses<T>       *masses,
               const VectorType          *lumped_mass);
 
-    /// Computes the diagonal of A. To be called after set_terms() if anything
+    /// Adds that matrix to A; none if it is null. Not collective.
+    void
+    set_surface(const SurfaceOperator<T> *surface);
+
+    /// Computes the diagonal of A. To be called after set_*() if anything
     /// of the following is.
     void
     compute_diagonal();
@@ -103,6 +109,10 @@ namespace corotet
     T                 unit        = 0;
     const VectorType *lumped_mass = nullptr;
     VectorType        diagonal_of_A;
+
+    const SurfaceOperator<T> *surface = nullptr;
+    /// Its product with the source; zero everywhere else.
+    mutable VectorType surface_product;
   };
 } // namespace corotet
 

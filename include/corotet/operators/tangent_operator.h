@@ -14,7 +14,7 @@ namespace corotet
    * effective operator is not it but close to it: with a rotation for each
    * quadrature point, with derivatives of rotations, and with those of forces,
    *
-   *   J = K_T - sum (df/du + c_v df/dv) + (c_K - 1) K_frozen + c_M M.
+   *   J = K_T - sum (df/du + c_v df/dv) + (c_K - 1) K_frozen + c_M M + S.
    *
    * Rows and columns of prescribed unknowns are those of a diagonal matrix.
    * The arguments of the constructor must outlive this object.

@@ -24,6 +24,10 @@ namespace corotet
    *
    * Supports act by their reactions M a + C v + f_int - f_ext.
    *
+   * The energy of elastic force terms is elastic energy. The forces of those
+   * that depend on time count among the loads, and the change of their energy
+   * as work from outside: together that is the work of what changes them.
+   *
    * @p system must outlive this object. Members are collective.
    */
   class Budget
@@ -76,7 +80,7 @@ namespace corotet
     {
       double time;
       /// Work along the displacement: loads on free unknowns, elastic forces on
-      /// prescribed ones.
+      /// prescribed ones, those of force terms included.
       Vector external;
       /// Damping, on all unknowns.
       Vector damping;
@@ -94,11 +98,13 @@ namespace corotet
     const Discretization &discretization;
     const bool            is_staggered;
     /// Of the last step.
-    double     dt;
-    Forces     last, now;
-    Vector     momentum;
-    double     work        = 0;
-    double     dissipation = 0;
+    double dt;
+    Forces last, now;
+    Vector momentum;
+    double work = 0;
+    /// Energy of elastic terms that depend on time, at the start [J].
+    double     initial_changing_energy = 0;
+    double     dissipation             = 0;
     StepRecord initial;
     /// What dt, work and dissipation were before the last step.
     std::array<double, 3> before{};

@@ -12,6 +12,7 @@
 #include <corotet/solvers/eigenvalue_solver.h>
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,8 +48,9 @@ namespace corotet
   /**
    * The lowest modes of small vibrations of the body about its state at rest,
    * with linear elasticity: K phi = omega^2 M phi, phi = 0 where the
-   * displacement is prescribed. Loads, damping and values of prescribed
-   * displacements play no part.
+   * displacement is prescribed. K has the springs of elastic supports, at the
+   * start time. Loads, damping and values of prescribed displacements play no
+   * part.
    *
    * The constructor makes and checks everything that the parameters describe;
    * compute() computes. @p parameters, which have been read already, and @p
@@ -154,13 +156,17 @@ namespace corotet
     const Mesh               mesh;
     const Discretization     disc;
     const ReferenceElement   reference;
+    const TableFunctions     tables;
     const BoundaryConditions conditions;
     const Mass               mass;
-    const Elasticity         elastic;
+    Elasticity               elastic;
+    const ForceTerms         terms;
     const PrescribedMotion   motion;
-    const RigidMotions       rigid_motions;
-    EffectiveOperator        A;
-    EigenvalueSolver         solver;
+    /// The terms' matrix of the surface; empty if they have none.
+    const std::optional<SurfaceMatrix> surface;
+    const RigidMotions                 rigid_motions;
+    EffectiveOperator                  A;
+    EigenvalueSolver                   solver;
     /// Lower and upper corner of the body's bounding box, and its diagonal.
     const std::pair<dealii::Point<3>, dealii::Point<3>> box;
     const double                                        length;

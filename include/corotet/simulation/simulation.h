@@ -102,7 +102,7 @@ namespace corotet
   private:
     /// Throws InputError if supports leave the body a rigid motion.
     void
-    check_supports() const;
+    check_supports();
     /// Runs @p action. If that fails, observers are told so.
     void
     guarded(const std::function<void()> &action);

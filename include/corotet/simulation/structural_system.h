@@ -25,9 +25,9 @@
 namespace corotet
 {
   /**
-   * The body's equation of motion M a + C v + f_int(u) = f_ext(t, u), with
-   * Rayleigh damping C = alpha_M M + alpha_K K, as a SecondOrderSystem
-   * [seed, 2.71 and 2.75].
+   * The body's equation of motion M a + f_int(u) + f_d + f_e = f_ext as a
+   * SecondOrderSystem [seed, 2.71 and 2.75], with the force terms of damping
+   * f_d, the elastic ones f_e, and all others f_ext.
    *
    * Everything but the matrix is made by the constructor, which so checks all
    * input. The arguments must outlive this object.
@@ -42,6 +42,9 @@ namespace corotet
       Vector internal;
       Vector damping;
       Vector inertia;
+      /// Of the elastic terms that do not depend on time, as a resistance.
+      /// Empty if there are none.
+      Vector elastic;
     };
 
     /// Throws InputError. Collective.
@@ -80,6 +83,15 @@ namespace corotet
     solve_acceleration(State       &state,
                        const double time,
                        const double velocity_factor = 0) override;
+
+    /// The springs of all force terms at a time, as a matrix of the surface;
+    /// null if they have no such matrix. The next call overwrites it.
+    /// Collective.
+    const SurfaceMatrix *
+    springs(const double time)
+    {
+      return surface ? &surface_matrix(time, 1., 0.) : nullptr;
+    }
 
     /// Whether leap() is possible.
     bool
@@ -124,9 +136,10 @@ namespace corotet
 
     /// Estimate of the largest angular frequency of M^-1 K [rad/s], from above
     /// by less than 0.1 percent. K is the tangent at @p state, with frozen
-    /// rotations if the exact one is not symmetric. Collective.
+    /// rotations if the exact one is not symmetric, and the stiffness that
+    /// force terms have on the surface at @p time. Collective.
     double
-    largest_frequency(const State &state);
+    largest_frequency(const State &state, const double time = 0);
 
     /// Root mean square of a vector field over the body, weighted by mass.
     /// Collective.
@@ -234,6 +247,23 @@ namespace corotet
     /// linear iterations. Throws ComputationError.
     unsigned int
     solve_tangent_system(Vector &dx, const Vector &r, const TangentOperator *J);
+    /// Makes the matrix of the surface that of the stage. Returns whether it
+    /// has changed.
+    bool
+    update_surface();
+    /// What forces.elastic has in the residual.
+    void
+    subtract_elastic(Vector &r) const
+    {
+      if (terms.has_elastic())
+        r -= forces.elastic;
+    }
+    /// @p factor times the matrix of damping on the surface.
+    const SurfaceOperator<double> &
+    surface_damping(const double time, const double factor);
+    /// That of the terms, in the memory of the stage's.
+    const SurfaceMatrix &
+    surface_matrix(const double time, const double c_u, const double c_v);
     /// What round-off may make of the sum of the last evaluation's forces [N].
     double
     round_off() const;
@@ -275,6 +305,16 @@ namespace corotet
 
     std::unique_ptr<EffectiveOperator> effective_operator;
     std::unique_ptr<TangentOperator>   tangent_operator;
+
+    /// What force terms have of a matrix of the surface, and for which stage;
+    /// null if they have none.
+    std::unique_ptr<SurfaceMatrix> surface;
+    double surface_time   = std::numeric_limits<double>::quiet_NaN();
+    double surface_factor = std::numeric_limits<double>::quiet_NaN();
+    /// Work space of explicit steps with damping on the surface.
+    std::unique_ptr<SurfaceOperator<double>> damping_operator;
+    double damping_time   = std::numeric_limits<double>::quiet_NaN();
+    double damping_factor = std::numeric_limits<double>::quiet_NaN();
 
     // The stage that is being solved.
     State *stage_state = nullptr;

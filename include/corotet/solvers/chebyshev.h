@@ -14,6 +14,10 @@ namespace corotet
    * lie between the largest one and a fraction of it. Each step is one sweep
    * over the cells.
    *
+   * Where a matrix of the surface couples the unknowns of a node, D has these
+   * couplings, too: springs along a normal that is no axis are stiff in one
+   * direction only, which a point diagonal does not see.
+   *
    * @p A must outlive this object.
    */
   class Chebyshev
@@ -26,9 +30,11 @@ namespace corotet
               const unsigned int       degree,
               const double             range);
 
-    /// Takes the diagonal of A, with zero for prescribed unknowns. Collective.
+    /// Takes the diagonal of A, with zero for prescribed unknowns, and the
+    /// couplings of @p surface, if that is not null. Collective.
     void
-    update_diagonal(const FloatVector &diagonal);
+    update_diagonal(const FloatVector            &diagonal,
+                    const SurfaceOperator<float> *surface = nullptr);
 
     /// Estimates the largest eigenvalue of D^{-1} A by some Lanczos steps from
     /// D^{-1/2} times @p start, which must have no pattern. Collective.
@@ -51,6 +57,29 @@ namespace corotet
     smooth(FloatVector &x, const FloatVector &b) const;
 
   private:
+    /// D at a node with couplings, without its prescribed unknowns, and the
+    /// inverse of that.
+    struct NodeBlock
+    {
+      unsigned int         node;
+      dealii::Tensor<2, 3> D, inverse;
+    };
+
+    void
+    find_blocks(const FloatVector            &diagonal,
+                const SurfaceOperator<float> &surface);
+    /// y = D^{-1} x, another vector.
+    void
+    scale(FloatVector &y, const FloatVector &x) const;
+    /// The square root of x . D x without prescribed unknowns. Collective.
+    double
+    norm(const FloatVector &x) const;
+    /// One step as MatrixFree::chebyshev_step().
+    void
+    make_step(FloatVector       &x,
+              const FloatVector &b,
+              const float        beta,
+              const float        alpha) const;
     void
     remaining_steps(FloatVector &x, const FloatVector &b) const;
 
@@ -60,6 +89,9 @@ namespace corotet
     double                   max_eigenvalue = 1;
     FloatVector              inverse_diagonal;
     mutable FloatVector      step;
+    std::vector<NodeBlock>   blocks;
+    /// Work space where there are blocks.
+    mutable FloatVector residual, scaled_residual;
   };
 } // namespace corotet
 

@@ -41,7 +41,8 @@ namespace corotet
   {
   public:
     /**
-     * @p A is updated here, and must be the operator of a body at rest.
+     * @p A is updated here, and must be the operator of a body at rest. If it
+     * has a matrix of the surface, that is part of K.
      * @p tolerance: of the residuals of A^{-1} M x = x / (lambda + s), relative
      * to 1 / (lambda + s) in the norm of M. @p null_space: linearly independent
      * x with K x = 0, all that there are, without ghost values. @p progress is
@@ -85,8 +86,8 @@ namespace corotet
     Eigenpairs
     solve(const unsigned int n, const double shift);
 
-    /// f = K x and g = M x, zero where x is prescribed. Not for x with ghost
-    /// values.
+    /// f = K x, the operator's matrix of the surface included, and g = M x,
+    /// zero where x is prescribed. Not for x with ghost values.
     void
     apply(Vector &f, Vector &g, const Vector &x) const;
 

@@ -27,7 +27,8 @@ namespace corotet
    * and GMRES, which takes far more memory, goes on where these are slow.
    *
    * A preconditioner is made at the first solve, after the ratio of mass to
-   * stiffness in the operator changed by more than round-off, and when the
+   * stiffness in the operator changed by more than round-off, or that of the
+   * surface's matrix by more than a factor of two, and when the
    * iterations have grown past what it calls acceptable; until then it takes
    * over new rotations only as far as that is cheap.
    */
@@ -123,6 +124,7 @@ namespace corotet
 
     bool   is_built         = false;
     double built_mass_ratio = 0;
+    double built_surface    = 0;
 
     unsigned int n_builds = 0;
     /// Of the operator, when the preconditioner last heard of it.

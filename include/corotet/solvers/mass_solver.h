@@ -8,6 +8,7 @@
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/prescribed_motion.h>
 #include <corotet/operators/mass.h>
+#include <corotet/operators/surface_matrix.h>
 
 #include <deal.II/lac/diagonal_matrix.h>
 
@@ -37,6 +38,16 @@ namespace corotet
     unsigned int
     solve(Vector &a, const Vector &r) const;
 
+    /**
+     * Solves (@p c_M M + S) a = r by conjugate gradients. If the mass is
+     * lumped, they are about the nodes on which @p S acts alone.
+     */
+    unsigned int
+    solve(Vector                        &a,
+          const Vector                  &r,
+          const double                   c_M,
+          const SurfaceOperator<double> &S) const;
+
     /// 1 / M_ii, zero where prescribed.
     const Vector &
     inverse_diagonal_vector() const
@@ -49,11 +60,26 @@ namespace corotet
     vmult(Vector &dst, const Vector &src) const;
 
   private:
+    /// Calls @p function(i) for the owned unknowns that S couples: all of them
+    /// but with a lumped mass.
+    template <typename Function>
+    void
+    for_each_coupled(const SurfaceOperator<double> &S,
+                     const Function                &function) const;
+    /// product = (c_M M + S) x for these, zero where prescribed.
+    void
+    multiply(const Vector                  &x,
+             const double                   c_M,
+             const SurfaceOperator<double> &S) const;
+
     const Mass             &mass;
     const PrescribedMotion &motion;
     /// 1 / M_ii, zero where prescribed.
     dealii::DiagonalMatrix<Vector> inverse_diagonal;
     mutable Vector                 ghosted;
+    /// Work space with a matrix of the surface: residual, direction, product
+    /// and inverse diagonal.
+    mutable Vector residual, direction, product, inverse;
   };
 } // namespace corotet
 

@@ -79,6 +79,8 @@ namespace corotet
       FloatVector                x;
       FloatVector                b;
       FloatVector                residual;
+      /// The operator's matrix of the surface; null if it has none.
+      std::unique_ptr<SurfaceOperator<float>> surface;
     };
 
     void

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_forces_elastic_support_h
+#define corotet_forces_elastic_support_h
+
+#include <corotet/forces/force_kind.h>
+#include <corotet/operators/surface_matrix.h>
+
+#include <functional>
+
+namespace corotet
+{
+  /**
+   * A stiffness [N/m^3] or damping [N s/m^3] per area at rest on a boundary, a
+   * symmetric tensor D(x, t), as the matrix int N_i N_j D of the surface: by
+   * the rule for faces, exact on straight faces for D linear in x.
+   */
+  class SurfaceCoefficient
+  {
+  public:
+    enum class Direction
+    {
+      /// Three expressions, along x, y and z.
+      axes,
+      /// One, along the surface's normal at rest.
+      normal
+    };
+
+    /// @p text: expressions in x, y, z, t. @p entry: that which gives it.
+    /// Throws InputError, also if the values at the start are negative or not
+    /// finite. Collective.
+    SurfaceCoefficient(const ForceContext &context,
+                       const std::string  &boundary,
+                       const std::string  &text,
+                       const Direction     direction,
+                       const std::string  &entry);
+
+    bool
+    depends_on_time() const
+    {
+      return value.depends_on_time();
+    }
+
+    /// Whether it is zero always and everywhere.
+    bool
+    is_zero() const
+    {
+      return value.is_zero();
+    }
+
+    /// At that time. Throws ComputationError if values are negative or not
+    /// finite. Collective.
+    const SurfaceMatrix &
+    matrix(const double time) const;
+
+    const SurfaceOperator<double> &
+    operator_at(const double time) const;
+
+  private:
+    /// Throws what @p error makes of a message.
+    void
+    evaluate(const double                                    time,
+             const std::function<void(const std::string &)> &error) const;
+    double
+    checked_value(const dealii::Point<3>                         &x,
+                  const unsigned int                              component,
+                  const std::function<void(const std::string &)> &error) const;
+
+    const Discretization           &discretization;
+    const unsigned int              boundary;
+    const Expression                value;
+    const Direction                 direction;
+    const std::string               entry;
+    mutable double                  time;
+    mutable SurfaceMatrix           coefficients;
+    mutable SurfaceOperator<double> surface_operator;
+  };
+
+  /**
+   * Section Supports, entries Elastic and Elastic normal: springs between a
+   * boundary and the ground, f = - k u per area at rest, or - k (n . u) n with
+   * the normal n at rest.
+   */
+  class ElasticSupport : public ForceTerm
+  {
+  public:
+    explicit ElasticSupport(SurfaceCoefficient &&stiffness)
+      : stiffness(std::move(stiffness))
+    {}
+
+    Role
+    role() const override
+    {
+      return Role::elastic;
+    }
+
+    bool
+    depends_on_time() const override
+    {
+      return stiffness.depends_on_time();
+    }
+
+    bool
+    depends_on_displacement() const override
+    {
+      return true;
+    }
+
+    bool
+    is_linear() const override
+    {
+      return true;
+    }
+
+    void
+    add_force(Vector &f, const Motion &motion) const override;
+
+    double
+    energy(const Motion &motion) const override;
+
+    bool
+    has_surface_matrix() const override
+    {
+      return true;
+    }
+
+    void
+    add_surface_matrix(SurfaceMatrix &S,
+                       const double   time,
+                       const double   c_u,
+                       const double   c_v) const override;
+
+    double
+    round_off(const Motion        &motion,
+              const double         size,
+              const ForceRoundOff &noise) const override;
+
+  private:
+    const SurfaceCoefficient stiffness;
+  };
+
+  /**
+   * Section Supports, entry Dashpots: f = - c v per area at rest, to the
+   * ground.
+   */
+  class Dashpots : public ForceTerm
+  {
+  public:
+    explicit Dashpots(SurfaceCoefficient &&damping)
+      : damping(std::move(damping))
+    {}
+
+    Role
+    role() const override
+    {
+      return Role::damping;
+    }
+
+    bool
+    depends_on_time() const override
+    {
+      return damping.depends_on_time();
+    }
+
+    bool
+    depends_on_velocity() const override
+    {
+      return true;
+    }
+
+    bool
+    is_linear() const override
+    {
+      return true;
+    }
+
+    void
+    add_force(Vector &f, const Motion &motion) const override;
+
+    bool
+    has_surface_matrix() const override
+    {
+      return true;
+    }
+
+    void
+    add_surface_matrix(SurfaceMatrix &S,
+                       const double   time,
+                       const double   c_u,
+                       const double   c_v) const override;
+
+    double
+    round_off(const Motion        &motion,
+              const double         size,
+              const ForceRoundOff &noise) const override;
+
+  private:
+    const SurfaceCoefficient damping;
+  };
+
+  /**
+   * Section Supports.
+   */
+  class SupportsKind : public ForceKind
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    std::vector<GivenEntry>
+    given() const override;
+
+    void
+    add_to(ForceTerms &terms, const ForceContext &context) const override;
+
+  private:
+    std::string elastic, elastic_normal, dashpots;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_surface_matrix_h
+#define corotet_operators_surface_matrix_h
+
+#include <corotet/discretization/rigid_motions.h>
+#include <corotet/operators/surface.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <map>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * A symmetric, positive semi-definite matrix that acts on the surface of the
+   * body, of springs, say:
+   *
+   *   S_ij = sum over points q of N_i(x_q) N_j(x_q) D_q
+   *
+   * with the points of the rule for faces and a symmetric tensor D_q [N/m] for
+   * each. It is known by its points, so that it is one of any element on the
+   * same cells: SurfaceOperator applies it. Each rank knows the faces of its
+   * ghost cells, too, and with them all that its own rows consist of.
+   *
+   * The arguments of the constructor must outlive this object.
+   */
+  class SurfaceMatrix
+  {
+  public:
+    using Tensor = dealii::SymmetricTensor<2, 3>;
+
+    struct Face
+    {
+      /// Local cell, or a ghost.
+      unsigned int cell;
+      /// Number of the face in the cell.
+      unsigned int face;
+    };
+
+    SurfaceMatrix(const Discretization   &discretization,
+                  const ReferenceElement &reference);
+
+    /// Sets all D to zero; faces remain. Not collective, like all members but
+    /// size().
+    void
+    clear();
+
+    /// Adds @p per_area(SurfacePoint), a symmetric tensor [N/m^3], on a
+    /// boundary of the body at rest.
+    template <typename Function>
+    void
+    add(const unsigned int boundary, const Function &per_area);
+
+    /// Adds @p factor times another one.
+    void
+    add(const SurfaceMatrix &other, const double factor);
+
+    const std::vector<Face> &
+    faces() const
+    {
+      return all_faces;
+    }
+
+    unsigned int
+    points_per_face() const
+    {
+      return reference.face_rules[0].weights.size();
+    }
+
+    /// D_q [N/m], [face][point].
+    const std::vector<Tensor> &
+    tensors() const
+    {
+      return all_tensors;
+    }
+
+    /// The largest norm of a D_q [N/m] over all ranks. Collective.
+    double
+    size() const;
+
+    /// Where and in which directions S resists rigid motions: those directions
+    /// of all points in which D is not zero. Less than 1e-12 of size() is
+    /// round-off. Collective.
+    std::vector<RigidMotions::Spring>
+    springs() const;
+
+    /// The element whose rule it is.
+    const ReferenceElement &
+    reference_element() const
+    {
+      return reference;
+    }
+
+    const Discretization &
+    discretization() const
+    {
+      return disc;
+    }
+
+  private:
+    /// The first of a boundary's faces, which it adds if they are not there.
+    unsigned int
+    first_face(const unsigned int boundary);
+
+    const Discretization   &disc;
+    const ReferenceElement &reference;
+    std::vector<Face>       all_faces;
+    std::vector<Tensor>     all_tensors;
+    /// By boundary: its first face, and how many there are.
+    std::map<unsigned int, std::pair<unsigned int, unsigned int>> ranges;
+  };
+
+  template <typename Function>
+  void
+  SurfaceMatrix::add(const unsigned int boundary, const Function &per_area)
+  {
+    std::size_t at =
+      static_cast<std::size_t>(points_per_face()) * first_face(boundary);
+    for (const auto *faces :
+         {&disc.boundary_faces(), &disc.ghost_boundary_faces()})
+      for (const BoundaryFace &face : *faces)
+        if (face.boundary == boundary)
+          for_each_surface_point(
+            disc, reference, face, nullptr, [&](const SurfacePoint &point) {
+              all_tensors[at++] += point.area.norm() * per_area(point);
+            });
+  }
+
+  /**
+   * Applies a SurfaceMatrix to vectors of numbers of type T of an element: that
+   * of the matrix or a coarser one on the same cells. It computes in double
+   * precision: springs along a normal that is no axis are stiff in one
+   * direction, where a displacement across has nothing but round-off.
+   *
+   * @p nodes must outlive this object. Members are not collective but where
+   * they say so.
+   */
+  template <typename T>
+  class SurfaceOperator
+  {
+  public:
+    using VectorType = dealii::LinearAlgebra::distributed::Vector<T>;
+
+    explicit SurfaceOperator(const Nodes &nodes);
+
+    /// Takes @p factor times the numbers of @p matrix.
+    void
+    set(const SurfaceMatrix &matrix, const double factor = 1);
+
+    /// y += factor S x for owned entries. x has ghost values.
+    void
+    add(VectorType &y, const VectorType &x, const double factor = 1) const;
+
+    /// Sets the entries of y that add() changes to zero.
+    void
+    set_zero(VectorType &y) const;
+
+    /// d += the diagonal of S, owned entries.
+    void
+    add_diagonal(VectorType &d) const;
+
+    /// x . S x / 2. x has ghost values. Collective.
+    double
+    energy(const VectorType &x) const;
+
+    /// What round-off may make of S x, as a Euclidean norm. Collective.
+    double
+    round_off(const VectorType &x) const;
+
+    /// Calls @p function(cell, i, j, block) for the 3 x 3 blocks of all faces,
+    /// i <= j nodes of the cell: what the face contributes to S_ij.
+    template <typename Function>
+    void
+    for_each_block(const Function &function) const;
+
+    /// Owned nodes on which S acts, ascending.
+    const std::vector<unsigned int> &
+    owned_nodes() const
+    {
+      return rows;
+    }
+
+    /// Their S_ii.
+    const std::vector<SurfaceMatrix::Tensor> &
+    diagonal_blocks() const
+    {
+      return blocks;
+    }
+
+  private:
+    using Tensor = SurfaceMatrix::Tensor;
+
+    void
+    find_nodes(const SurfaceMatrix &matrix);
+
+    const Nodes           &nodes;
+    const ReferenceElement reference;
+    unsigned int           n_points     = 0;
+    unsigned int           n_face_nodes = 0;
+    /// N_k(x_q) on each face, [q][k].
+    std::array<std::vector<double>, 4> values;
+    std::vector<SurfaceMatrix::Face>   faces;
+    /// Local numbers, [face][k].
+    std::vector<unsigned int> face_nodes;
+    std::vector<Tensor>       tensors;
+
+    std::vector<unsigned int>          rows;
+    std::vector<SurfaceMatrix::Tensor> blocks;
+    /// Place in rows, [face][k]; meaningless for nodes that are not owned.
+    std::vector<unsigned int> places;
+  };
+
+  template <typename T>
+  template <typename Function>
+  void
+  SurfaceOperator<T>::for_each_block(const Function &function) const
+  {
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      {
+        const auto   &N     = values[faces[f].face];
+        const auto   &nodes = reference.face_nodes[faces[f].face];
+        const Tensor *D     = &tensors[f * n_points];
+        for (unsigned int k = 0; k < n_face_nodes; ++k)
+          for (unsigned int l = k; l < n_face_nodes; ++l)
+            {
+              Tensor block;
+              for (unsigned int q = 0; q < n_points; ++q)
+                block +=
+                  D[q] * (N[q * n_face_nodes + k] * N[q * n_face_nodes + l]);
+              function(faces[f].cell, nodes[k], nodes[l], block);
+            }
+      }
+  }
+} // namespace corotet
+
+#endif

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/named_values.h>
+#include <corotet/forces/elastic_support.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace corotet
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  SurfaceCoefficient::SurfaceCoefficient(const ForceContext &context,
+                                         const std::string  &boundary,
+                                         const std::string  &text,
+                                         const Direction     direction,
+                                         const std::string  &entry)
+    : discretization(context.discretization)
+    , boundary(discretization.mesh().boundaries().id(boundary, entry))
+    , value(text, direction == Direction::axes ? 3 : 1, entry, context.tables)
+    , direction(direction)
+    , entry(entry)
+    , time(context.start_time)
+    , coefficients(discretization, context.reference)
+    , surface_operator(discretization)
+  {
+    evaluate(time, [&](const std::string &message) {
+      throw InputError(entry, message);
+    });
+  }
+
+  double
+  SurfaceCoefficient::checked_value(
+    const Point<3>                                 &x,
+    const unsigned int                              component,
+    const std::function<void(const std::string &)> &error) const
+  {
+    const double k = value.value(x, time, component);
+    if (!(k >= 0) || !std::isfinite(k))
+      error(fmt::format("found the value {:g} at ({:.6g}, {:.6g}, {:.6g}) of "
+                        "boundary '{}' at t = {:g}; allowed: finite values, "
+                        "none below zero",
+                        k,
+                        x[0],
+                        x[1],
+                        x[2],
+                        discretization.mesh().boundaries().name(boundary),
+                        time));
+    return k;
+  }
+
+  void
+  SurfaceCoefficient::evaluate(
+    const double                                    time,
+    const std::function<void(const std::string &)> &error) const
+  {
+    this->time = time;
+    coefficients.clear();
+    on_all_ranks(discretization.communicator(), [&] {
+      coefficients.add(boundary, [&](const SurfacePoint &point) {
+        SurfaceMatrix::Tensor D;
+        if (direction == Direction::axes)
+          for (unsigned int a = 0; a < 3; ++a)
+            D[a][a] = checked_value(point.at_rest, a, error);
+        else
+          {
+            const Tensor<1, 3> n = point.area / point.area.norm();
+            D                    = checked_value(point.at_rest, 0, error) *
+                symmetrize(outer_product(n, n));
+          }
+        return D;
+      });
+    });
+    surface_operator.set(coefficients);
+  }
+
+  const SurfaceMatrix &
+  SurfaceCoefficient::matrix(const double time) const
+  {
+    if (depends_on_time() && time != this->time)
+      try
+        {
+          evaluate(time, [&](const std::string &message) {
+            throw ComputationError(entry + ": " + message);
+          });
+        }
+      catch (...)
+        {
+          // Numbers of no time.
+          this->time = std::numeric_limits<double>::quiet_NaN();
+          throw;
+        }
+    return coefficients;
+  }
+
+  const SurfaceOperator<double> &
+  SurfaceCoefficient::operator_at(const double time) const
+  {
+    matrix(time);
+    return surface_operator;
+  }
+
+  void
+  ElasticSupport::add_force(Vector &f, const Motion &motion) const
+  {
+    stiffness.operator_at(motion.time).add(f, motion.u, -1.);
+  }
+
+  double
+  ElasticSupport::energy(const Motion &motion) const
+  {
+    return stiffness.operator_at(motion.time).energy(motion.u);
+  }
+
+  void
+  ElasticSupport::add_surface_matrix(SurfaceMatrix &S,
+                                     const double   time,
+                                     const double   c_u,
+                                     const double) const
+  {
+    S.add(stiffness.matrix(time), c_u);
+  }
+
+  double
+  ElasticSupport::round_off(const Motion &motion,
+                            const double,
+                            const ForceRoundOff &) const
+  {
+    return stiffness.operator_at(motion.time).round_off(motion.u);
+  }
+
+  void
+  Dashpots::add_force(Vector &f, const Motion &motion) const
+  {
+    damping.operator_at(motion.time).add(f, motion.v, -1.);
+  }
+
+  void
+  Dashpots::add_surface_matrix(SurfaceMatrix &S,
+                               const double   time,
+                               const double,
+                               const double c_v) const
+  {
+    S.add(damping.matrix(time), c_v);
+  }
+
+  double
+  Dashpots::round_off(const Motion &motion,
+                      const double,
+                      const ForceRoundOff &) const
+  {
+    return damping.operator_at(motion.time).round_off(motion.v);
+  }
+
+  void
+  SupportsKind::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Supports");
+    prm.add_parameter(
+      "Elastic",
+      elastic,
+      "Springs between boundaries and the ground, by their stiffness per area "
+      "at rest [N/m^3]: 'name: k_x; k_y; k_z, ...', expressions in x, y, z, t, "
+      "not negative. Their energy counts as elastic energy; that of a change "
+      "of the stiffness in time as external work. Also on boundaries with "
+      "other conditions; where the displacement is prescribed, springs add to "
+      "the reaction only.");
+    prm.add_parameter(
+      "Elastic normal",
+      elastic_normal,
+      "The same along the surface's normal at rest: 'name: k, ...'.");
+    prm.add_parameter(
+      "Dashpots",
+      dashpots,
+      "Dashpots between boundaries and the ground, by their damping per area "
+      "at rest [N s/m^3]: 'name: c_x; c_y; c_z, ...', expressions in x, y, z, "
+      "t, not negative. What they take is dissipated energy; with c = rho "
+      "times the speed of a wave, one that comes along the normal leaves the "
+      "body. No part of statics and modes.");
+    prm.leave_subsection();
+  }
+
+  std::vector<ForceKind::GivenEntry>
+  SupportsKind::given() const
+  {
+    std::vector<GivenEntry> result;
+    const auto              add = [&](const std::string &name,
+                         const std::string &value,
+                         const bool         in_modes) {
+      if (!dealii::Utilities::trim(value).empty())
+        result.push_back({"Supports/" + name, value, "", in_modes});
+    };
+    add("Elastic", elastic, true);
+    add("Elastic normal", elastic_normal, true);
+    add("Dashpots", dashpots, false);
+    return result;
+  }
+
+  void
+  SupportsKind::add_to(ForceTerms &terms, const ForceContext &context) const
+  {
+    using Direction     = SurfaceCoefficient::Direction;
+    const auto for_each = [&](const std::string &name,
+                              const std::string &text,
+                              const Direction    direction,
+                              const auto        &add) {
+      const std::string     entry = "Supports/" + name;
+      std::set<std::string> known;
+      for (const auto &[boundary, value] : named_values(text, entry))
+        {
+          if (!known.insert(boundary).second)
+            throw InputError(entry,
+                             fmt::format("found boundary '{}' twice; allowed: "
+                                         "each boundary once",
+                                         boundary));
+          SurfaceCoefficient coefficient(
+            context, boundary, value, direction, entry);
+          if (!coefficient.is_zero())
+            add(std::move(coefficient));
+        }
+    };
+    const auto add_springs = [&](SurfaceCoefficient &&stiffness) {
+      terms.add(std::make_unique<ElasticSupport>(std::move(stiffness)));
+    };
+    for_each("Elastic", elastic, Direction::axes, add_springs);
+    for_each("Elastic normal", elastic_normal, Direction::normal, add_springs);
+    for_each("Dashpots",
+             dashpots,
+             Direction::axes,
+             [&](SurfaceCoefficient &&damping) {
+               terms.add(std::make_unique<Dashpots>(std::move(damping)));
+             });
+  }
+} // namespace corotet

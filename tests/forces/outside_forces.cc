@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// A force that a program adds: the example of CONTRIBUTING.md.
+
+#include <corotet/forces/force_kind.h>
+#include <corotet/time_integration/central_difference.h>
+#include <corotet/time_integration/implicit_midpoint.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Tensor;
+
+namespace
+{
+  // A force per mass that pulls back to the place at rest, - w^2 u: f = - w^2 M
+  // u, with the energy w^2 u . M u / 2. As K does not have it, its derivative
+  // is of the kind that is neither the body's nor the surface's.
+  class Pull : public corotet::ForceTerm
+  {
+  public:
+    Pull(const corotet::ForceContext &context, const double w)
+      : mass(context.mass)
+      , factor(w * w)
+    {
+      context.discretization.initialize_vector(product);
+    }
+
+    Role
+    role() const override
+    {
+      return Role::elastic;
+    }
+
+    bool
+    depends_on_time() const override
+    {
+      return false;
+    }
+
+    bool
+    depends_on_displacement() const override
+    {
+      return true;
+    }
+
+    bool
+    is_linear() const override
+    {
+      return true;
+    }
+
+    void
+    add_force(corotet::Vector &f, const corotet::Motion &motion) const override
+    {
+      add_linearized(f, motion.u, 0.);
+    }
+
+    double
+    energy(const corotet::Motion &motion) const override
+    {
+      mass.apply(product, motion.u);
+      double sum = 0;
+      for (unsigned int i = 0; i < product.locally_owned_size(); ++i)
+        sum += product.local_element(i) * motion.u.local_element(i);
+      return 0.5 * factor *
+             dealii::Utilities::MPI::sum(sum, product.get_mpi_communicator());
+    }
+
+    bool
+    has_linearization() const override
+    {
+      return true;
+    }
+
+    void
+    add_linearized(corotet::Vector       &f,
+                   const corotet::Vector &w,
+                   const double /*velocity_factor*/) const override
+    {
+      mass.apply(product, w);
+      for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
+        f.local_element(i) -= factor * product.local_element(i);
+    }
+
+  private:
+    const corotet::Mass    &mass;
+    const double            factor;
+    mutable corotet::Vector product;
+  };
+
+  class PullKind : public corotet::ForceKind
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      prm.enter_subsection("Loads");
+      prm.add_parameter("Pull", w, "Angular frequency w [rad/s] of - w^2 u.");
+      prm.leave_subsection();
+    }
+
+    std::vector<GivenEntry>
+    given() const override
+    {
+      if (w == 0)
+        return {};
+      return {{"Loads/Pull", std::to_string(w), "0"}};
+    }
+
+    void
+    add_to(corotet::ForceTerms         &terms,
+           const corotet::ForceContext &context) const override
+    {
+      if (w != 0)
+        terms.add(std::make_unique<Pull>(context, w));
+    }
+
+  private:
+    double w = 0;
+  };
+} // namespace
+
+// A free body that starts with v = 1 m/s in x, y and z swings with u = sin(w t)
+// / w; with w = 2 and t = 1. Implicit midpoint's phase is wrong by (w dt)^2 /
+// 12 of w t, 7e-5 of 2; that of central difference by half of that. One Newton
+// iteration is enough.
+TEST(OutsideForces, PullOfContributing)
+{
+  const AddedCandidate<ForceKind> added(candidate<ForceKind, PullKind>("pull"));
+  for (const bool is_explicit : {false, true})
+    {
+      Body body(box("1, 1, 1", "2, 2, 2"), R"(
+        subsection Discretization
+          set Mass = diagonal scaling
+        end
+        subsection Material
+          set Type            = linear
+          set Young's modulus = 1
+          set Density         = 1
+        end
+        subsection Loads
+          set Pull = 2
+        end)");
+      body.state.v = 1;
+      ImplicitMidpoint  implicit;
+      CentralDifference explicit_steps;
+      TimeIntegrator   &integrator =
+        is_explicit ? static_cast<TimeIntegrator &>(explicit_steps) : implicit;
+      const double dt = 0.01;
+      body.system.solve_acceleration(body.state, 0.);
+      for (unsigned int n = 0; n < 100; ++n)
+        {
+          const StageReport report =
+            integrator.step(body.system, {n * dt, dt, 0.01 * n}, body.state);
+          EXPECT_LE(report.newton_iterations, 1u);
+        }
+      EXPECT_NEAR(body.state.u.linfty_norm(), std::sin(2.) / 2, 5e-5);
+      Vector u(body.state.u);
+      u.update_ghost_values();
+      // Of a mass of 1 kg that moves along x, y and z.
+      EXPECT_NEAR(body.system.force_terms().energy({1., u, u}),
+                  1.5 * std::pow(std::sin(2.), 2),
+                  2e-4);
+    }
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Bodies on springs at rest: statics, what holds a body, stiff springs, modes.
+
+#include <corotet/time_integration/load_stepping.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../refusal.h"
+#include "modal.h"
+#include "supported_box.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Tensor;
+using dealii::numbers::PI;
+
+// A block of 2 kg on springs of 8 N/m^3 under its weight, 10 m/s^2: along x, y,
+// z the springs give by m g / (k A), of 1 m^2. Without lateral contraction only
+// z deforms the block, by g z (H - z / 2) rho / E, which with E = 1e9 is 2e-8
+// of it; across, shear does by as much. Elements of all kinds, both materials.
+TEST(ElasticSupports, BlockSinks)
+{
+  for (const std::string element :
+       {"set Degree = 1",
+        "set Degree = 2",
+        "set Degree = 3",
+        "set Degree = 2\n set Mass = nodal quadrature"})
+    for (const std::string type : {"linear", "corotational"})
+      {
+        // Corotational: no moments, which would turn the block.
+        const bool  is_linear = type == "linear";
+        CompleteRun run(supported_box("1, 1, 2", "1, 2, 2", 1e9, type) +
+                        "subsection Discretization\n " + element + "\nend\n" +
+                        supports("z-min: 4; 5; 8") +
+                        loads(is_linear ? "0; 0; -10" : "0; 0; -0.1") +
+                        statics);
+        ASSERT_EQ(run.run(), "");
+        const double expected = is_linear ? -2.5 : -0.025;
+        EXPECT_NEAR(mean_displacement(run, 2), expected, 1e-7);
+        const StepRecord &record = last_record(run);
+        // Half of the work of the weight, all of it in the springs.
+        EXPECT_NEAR(record.elastic_energy, 4 * expected * expected, 1e-6);
+        EXPECT_NEAR(record.energy_balance, 0, 1e-9 * record.elastic_energy);
+        if (is_linear)
+          {
+            EXPECT_EQ(record.newton_iterations, 1u);
+          }
+      }
+}
+
+// Statics knows what springs hold, and says what they do not.
+TEST(ElasticSupports, RigidMotions)
+{
+  const auto refusal_of = [](const std::string &text) {
+    return refusal([&] {
+      CompleteRun run(supported_box("1, 1, 1", "2, 2, 2", 1.) + text + statics);
+    });
+  };
+  const std::string begin =
+    "Boundary conditions/Fixed: statics needs a body that cannot move without "
+    "strain; found: the body can ";
+  const std::string end =
+    "; allowed: Fixed, Displacement and Supports such that nothing of this is "
+    "left, or another Time integration/Type";
+  const std::string nothing = "nothing was refused";
+  EXPECT_EQ(refusal_of(supports("z-min: 1e-3; 1; 1e3")), nothing);
+  EXPECT_EQ(refusal_of(supports("", "z-min: 1, x-min: 1, y-min: 1")), nothing);
+  EXPECT_EQ(refusal_of(supports("", "z-min: 1")),
+            begin +
+              "move along x and y and rotate about the axis through (0.5, "
+              "0.5, 0.5) along z" +
+              end);
+  EXPECT_EQ(refusal_of(supports("z-min: 0; 0; 1", "x-max: 2")),
+            begin + "move along y" + end);
+  // Springs where x > 1/2 only hold it as those of the whole side do.
+  EXPECT_EQ(refusal_of(supports("z-min: 1; 1; if(x > 0.5, 1, 0)")), nothing);
+  EXPECT_EQ(refusal_of(supports("", "z-min: 1") +
+                       "subsection Boundary conditions\n set Displacement = "
+                       "x-min: 0; 0; free\nend\n"),
+            nothing);
+  // Dashpots hold nothing.
+  EXPECT_EQ(refusal_of(supports("", "", "z-min: 1; 1; 1")),
+            begin + "move in any direction and rotate about any axis" + end);
+}
+
+// A support that is k times stiffer gives by 1/k of it: the difference to the
+// fixed bar, pulled by 1 Pa, is 1/k at its end, exactly.
+TEST(ElasticSupports, StiffSpringsFix)
+{
+  const std::string text = supported_box("2, 1, 1", "4, 2, 2", 1.) +
+                           "subsection Boundary conditions\n set Traction = "
+                           "x-max: 1; 0; 0\n";
+  for (const double k : {1e2, 1e4, 1e6})
+    {
+      CompleteRun run(text + "end\n" +
+                      supports(fmt::format("x-min: {0}; {0}; {0}", k)) +
+                      statics);
+      ASSERT_EQ(run.run(), "");
+      // Without springs: the mean of x / E is 1 m.
+      CompleteRun fixed(text + "set Fixed = x-min\nend\n" + statics);
+      ASSERT_EQ(fixed.run(), "");
+      EXPECT_NEAR(mean_displacement(run, 0) - mean_displacement(fixed, 0),
+                  1 / k,
+                  1e-11);
+    }
+}
+
+// The iterations of p-multigrid with springs from soft to stiff, 1e9 E / L, are
+// about those of the fixed body, whatever the element; each solve is the one of
+// a linear problem. Those of the other preconditioners, too.
+TEST(ElasticSupports, StiffSpringsDoNotStall)
+{
+  struct Case
+  {
+    std::string text;
+    std::string type = "p-multigrid";
+  };
+  for (const Case &c :
+       {Case{"set Degree = 1"},
+        Case{"set Degree = 2"},
+        Case{"set Degree = 3"},
+        Case{"set Degree = 2\n set Mass = nodal quadrature"},
+        Case{"set Degree = 2", "amg"},
+        Case{"set Degree = 2", "direct\n set Operator = assembled"}})
+    {
+      const std::string text =
+        supported_box("4, 1, 1", "8, 2, 2", 1e6) +
+        "subsection Linear solver\n set Tolerance = 1e-8\n set Type = " +
+        c.type +
+        "\nend\nsubsection Newton\n set Residual tolerance = 1e-8\nend\n"
+        "subsection Discretization\n " +
+        c.text +
+        "\nend\nsubsection Boundary conditions\n set Traction = x-max: 1e3; "
+        "200; 100\n";
+      CompleteRun fixed(text + "set Fixed = x-min\nend\n" + statics);
+      ASSERT_EQ(fixed.run(), "");
+      const unsigned int n    = last_record(fixed).linear_iterations;
+      unsigned int       most = 0;
+      for (const double k : {1e2, 1e5, 1e8, 1e11, 1e14})
+        {
+          CompleteRun run(text + "end\n" +
+                          supports(fmt::format("x-min: {0}; {0}; {0}", k)) +
+                          statics);
+          ASSERT_EQ(run.run(), "");
+          EXPECT_EQ(last_record(run).newton_iterations, 1u);
+          most = std::max(most, last_record(run).linear_iterations);
+        }
+      report(c.text + ", " + c.type + ": iterations when fixed", n);
+      report("  with springs, at most", most);
+      EXPECT_LE(most, n + n / 2 + 4);
+    }
+}
+
+// The same where the surfaces' normals are no axes: springs normal to three
+// sides of a block that is turned, which leave the sides free along them.
+TEST(ElasticSupports, StiffNormalSpringsDoNotStall)
+{
+  for (const unsigned int degree : {1, 2, 3})
+    for (const double k : {1., 1e3, 1e6, 1e9})
+      {
+        SerialMesh mesh = box("1, 1, 1", "4, 4, 4", 0.1);
+        const auto R    = rotation_about(Tensor<1, 3>({1, 2, 3}), 0.7);
+        for (auto &x : mesh.vertices)
+          x = dealii::Point<3>(R * x);
+        Body body(
+          mesh,
+          fmt::format("subsection Discretization\n set Degree = "
+                      "{}\nend\nsubsection Material\n set Type = "
+                      "linear\n set Young's modulus = 1\nend\n",
+                      degree) +
+            supports("", fmt::format("x-min: {0}, y-min: {0}, z-min: {0}", k)) +
+            "subsection Boundary conditions\n set Traction = x-max: "
+            "1; 2; -1\nend\n");
+        LoadStepping      integrator;
+        const StageReport stage =
+          integrator.step(body.system, {0., 1., 1.}, body.state);
+        EXPECT_EQ(stage.newton_iterations, 1u);
+        EXPECT_LE(stage.linear_iterations, 18u);
+        report(fmt::format("degree {}, k = {:g}: iterations", degree, k),
+               stage.linear_iterations);
+      }
+}
+
+// Modes of a bar along z with springs at its lower end: omega tan(omega L / c)
+// = k c / E, and waves across in the same way with the shear modulus E / 2
+// (nu = 0; but for the bar's rocking, which the square bar's high springs
+// leave: those are other modes). Eight cubic elements know the lowest mode to
+// 1e-9. With k L / E << 1 it is that of a rigid block, sqrt(k / (rho L)), times
+// 1 - k L / (6 E) to first order.
+TEST(ElasticSupports, BarOnASpring)
+{
+  for (const double k : {1e-4, 1., 30.})
+    {
+      double lower = 0, upper = PI / 2;
+      for (unsigned int i = 0; i < 100; ++i)
+        {
+          const double middle = 0.5 * (lower + upper);
+          (middle * std::tan(middle) < k ? lower : upper) = middle;
+        }
+      Analysis body(
+        box_body("0.2, 0.2, 1",
+                 "1, 1, 8",
+                 3,
+                 0.,
+                 6,
+                 supports(fmt::format("z-min: {0}; {0}; {1}", 1e6, k))));
+      const Mode *found = nullptr;
+      for (unsigned int i = 6; i > 0; --i)
+        if (body.mode(i).effective_mass[2] > 0.5 * 0.04)
+          found = &body.mode(i);
+      ASSERT_NE(found, nullptr);
+      EXPECT_NEAR(found->angular_frequency / lower, 1, 1e-7);
+      if (k < 1e-3)
+        {
+          EXPECT_NEAR(found->angular_frequency / std::sqrt(k),
+                      1 - k / 6,
+                      k * k);
+        }
+    }
+}
+
+// A free block on springs has no rigid body modes: the lowest three are its
+// translations, on equal springs all around, with sqrt(k_sum / m).
+TEST(ElasticSupports, BlockOnSoftSprings)
+{
+  const double k = 1e-5;
+  Analysis     body(box_body(
+    "1, 1, 1",
+    "2, 2, 2",
+    2,
+    0.3,
+    7,
+    supports(fmt::format("x-min: {0}; {0}; {0}, x-max: {0}; {0}; {0}", k))));
+  // The block gives by some k L / E of it.
+  for (unsigned int i = 1; i <= 3; ++i)
+    EXPECT_NEAR(body.mode(i).angular_frequency / std::sqrt(2 * k), 1, 2 * k);
+  for (unsigned int i = 4; i <= 6; ++i)
+    EXPECT_GT(body.mode(i).angular_frequency, std::sqrt(k));
+  EXPECT_GT(body.mode(7).angular_frequency, 1);
+}

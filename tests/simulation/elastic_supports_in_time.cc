@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Bodies on springs and dashpots in motion: stable steps, decay, waves that
+// leave, and the energy budget.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../integrators.h"
+#include "supported_box.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+// The stable step knows the springs: with those that are far stiffer than the
+// body the largest frequency grows as sqrt(k).
+TEST(ElasticSupports, StableStep)
+{
+  double omega[2];
+  for (const unsigned int i : {0, 1})
+    {
+      Body body(box("1, 1, 1", "2, 2, 2"),
+                "subsection Discretization\n set Degree = 2\n set Mass = nodal "
+                "quadrature\nend\nsubsection Material\n set Young's modulus = "
+                "1\nend\n" +
+                  supports(i == 0 ? "z-min: 1e8; 1e8; 1e8" :
+                                    "z-min: 4e8; 4e8; 4e8"));
+      omega[i] = body.system.largest_frequency(body.state, 0.);
+    }
+  EXPECT_NEAR(omega[1] / omega[0], 2, 2e-3);
+  EXPECT_GT(omega[0], 1e3);
+}
+
+// A stiff block of 1 kg, u = v = 0.1 m at the start on springs of 4 N/m and
+// critical dashpots, c = 2 sqrt(k m) = 4 N s/m: u = (u_0 + (v_0 + 2 u_0) t)
+// exp(-2 t). The trapezoidal rule's error is some (omega dt)^2 / 12 = 3e-6 of
+// it; central difference has half of that, its own dt, and another sign. The
+// block gives by 1e-6.
+TEST(ElasticSupports, CriticalDamping)
+{
+  for (const std::string method : {"implicit midpoint", "central difference"})
+    {
+      const bool  is_explicit = method == "central difference";
+      CompleteRun run(
+        supported_box("1, 1, 1", "1, 1, 1", is_explicit ? 4e3 : 4e6) +
+        "subsection Discretization\n set Degree = 2\n set Mass = nodal "
+        "quadrature\nend\n" +
+        supports("z-min: 4; 4; 4", "", "z-min: 4; 4; 4") +
+        "subsection Initial conditions\n set Displacement = 0; 0; 0.1\n set "
+        "Velocity = 0; 0; 0.1\nend\n" +
+        time_integration(method, 1, is_explicit ? 5e-4 : 2.5e-3));
+      ASSERT_EQ(run.run(), "");
+      EXPECT_NEAR(mean_displacement(run, 2),
+                  (0.1 + 0.3) * std::exp(-2),
+                  is_explicit ? 1e-4 : 1e-6);
+      const StepRecord &record = last_record(run);
+      EXPECT_NEAR(record.energy_balance, 0, 1e-12);
+      EXPECT_GT(record.dissipated_energy, 0.01);
+    }
+}
+
+// A wave f(x - c t) runs along a bar of c = 1 m/s, Z = rho c = 1 N s/m^3, into
+// dashpots of R Z: what comes back has the amplitude (Z - c_d) / (Z + c_d), so
+// the energy's part is its square. The pulse is sin^4 over a length of 1 m, of
+// which cells of 1/24 m know the energy to 1e-4; half a dozen of the wave's
+// errors make 1e-3.
+TEST(ElasticSupports, DashpotsAbsorbWaves)
+{
+  for (const std::string method : {"implicit midpoint", "central difference"})
+    for (const double damping : {1., 3., 0.5})
+      {
+        const std::string s = "max(0, min(1, x - 0.5))";
+        // u = -int f, v = f for sigma = E u', u' = -f.
+        CompleteRun run(
+          supported_box("2, 0.1, 0.1", "48, 1, 1", 1.) +
+          "subsection Discretization\n set Degree = 2\n set Mass = nodal "
+          "quadrature\nend\n" +
+          supports("", "", fmt::format("x-max: {}; 0; 0", damping)) +
+          fmt::format(
+            "subsection Initial conditions\n set Displacement = -(3 / 8 * ({0}) "
+            "- sin(2 * pi * ({0})) / (4 * pi) + sin(4 * pi * ({0})) / (32 * "
+            "pi)); 0; 0\n set Velocity = sin(pi * ({0}))^4; 0; 0\nend\n",
+            s) +
+          time_integration(method,
+                           1.75,
+                           method == "central difference" ? 0. : 0.0125));
+        ASSERT_EQ(run.run(), "");
+        const StepRecord &first  = run.recorder().records.front();
+        const StepRecord &record = last_record(run);
+        const double      energy = first.kinetic_energy + first.elastic_energy;
+        const double      left = record.kinetic_energy + record.elastic_energy;
+        const double      R    = (1 - damping) / (1 + damping);
+        EXPECT_NEAR(left / energy, R * R, 1e-3);
+        EXPECT_NEAR(record.dissipated_energy / energy, 1 - R * R, 1e-3);
+        EXPECT_NEAR(record.energy_balance, 0, 1e-11 * energy);
+      }
+}
+
+// Budgets close to round-off for all integrators that promise it, with springs
+// whose stiffness depends on time, and dashpots; and their energy is part of
+// the elastic one. Also beside supports that move.
+TEST(ElasticSupports, BudgetCloses)
+{
+  for (const std::string &name :
+       integrators_with([](const TimeIntegrator &integrator) {
+         return integrator.closes_budget();
+       }))
+    for (const std::string k : {"3; 5; 7", "3; 5; 7 * (1.5 + sin(9 * t))"})
+      for (const bool moves : {false, true})
+        {
+          const std::string motion =
+            moves ? "subsection Boundary conditions\n set Displacement = "
+                    "z-max: free; free; 0.1 * smooth_step(t, 0, 0.5)\nend\n" :
+                    "";
+          CompleteRun run(supported_box("1, 1, 1", "2, 2, 2", 100.) +
+                          "subsection Discretization\n set Degree = 2\nend\n" +
+                          supports("z-min: " + k + ", z-max: 2; 2; 2",
+                                   "x-max: 5",
+                                   "y-min: 0.1; 0.2; 0.3 * t, z-max: 1; 1; 1") +
+                          loads("1; 2; -10 * cos(4 * t)") + motion +
+                          time_integration(name, 1, 0.02));
+          ASSERT_EQ(run.run(), "");
+          const StepRecord &record = last_record(run);
+          const double      energy =
+            record.elastic_energy + record.dissipated_energy;
+          EXPECT_GT(energy, 0.1);
+          EXPECT_NEAR(record.energy_balance, 0, 1e-11 * energy) << name;
+        }
+}
+
+// A block of 1 kg on springs with k(t) A = 2 / (2 - t^2) N/m: u = 2 - t^2
+// solves u'' = - k u, from rest. What is fed in by the change of k is int k'
+// u^2 / 2 dt = t^2 J. The acceleration is constant, so the trapezoidal rule is
+// exact; the block gives by k L / E = 2e-7 of it.
+TEST(ElasticSupports, StiffnessThatChanges)
+{
+  CompleteRun run(supported_box("1, 1, 1", "1, 1, 1", 1e7) +
+                  supports("z-min: 1; 1; 2 / (2 - t^2)") +
+                  "subsection Initial conditions\n set Displacement = 0; 0; "
+                  "2\nend\n" +
+                  time_integration("Newmark", 1, 0.05));
+  ASSERT_EQ(run.run(), "");
+  const StepRecord &record = last_record(run);
+  EXPECT_NEAR(mean_displacement(run, 2), 1, 2e-7);
+  EXPECT_NEAR(record.external_work, 1, 2e-7);
+  EXPECT_NEAR(record.elastic_energy, 1, 4e-7);
+  EXPECT_NEAR(record.kinetic_energy, 2, 4e-7);
+}
+
+// Values that become wrong end the run with the place and the time.
+TEST(ElasticSupports, StiffnessThatBecomesNegative)
+{
+  CompleteRun       run(supported_box("1, 1, 1", "1, 1, 1", 10.) +
+                  supports("z-min: 1; 1; 1 - 2 * t") +
+                  time_integration("implicit midpoint", 1, 0.1));
+  const std::string message = run.run();
+  EXPECT_NE(message.find("Supports/Elastic: found the value -"),
+            std::string::npos)
+    << message;
+}
+
+// Explicit and implicit steps agree in the limit: differences fall with dt^2,
+// with corotational elasticity and large motion.
+TEST(ElasticSupports, ExplicitAndImplicitSteps)
+{
+  double difference[2];
+  for (const unsigned int i : {0, 1})
+    {
+      double u[2];
+      for (const bool is_explicit : {false, true})
+        {
+          CompleteRun run(
+            supported_box("1, 1, 1", "2, 1, 1", 100., "corotational") +
+            "subsection Discretization\n set Degree = 2\n set Mass = nodal "
+            "quadrature\nend\n" +
+            supports("x-min: 20; 30; 40", "", "x-min: 1; 1; 2") +
+            loads("0; 0; -3") +
+            time_integration(is_explicit ? "central difference" :
+                                           "implicit midpoint",
+                             1,
+                             i == 0 ? 0.004 : 0.002));
+          ASSERT_EQ(run.run(), "");
+          u[is_explicit] = mean_displacement(run, 2);
+        }
+      difference[i] = std::abs(u[1] - u[0]);
+      EXPECT_GT(std::abs(u[0]), 0.1);
+    }
+  EXPECT_LT(difference[0], 1e-4);
+  EXPECT_NEAR(difference[0] / difference[1], 4, 0.6);
+}
