@@ -227,6 +227,16 @@ namespace corotet
     apply(in_cells, in_cell);
   }
 
+  std::vector<unsigned char>
+  CoarserNodes::marks(const std::vector<unsigned char> &finer_marks) const
+  {
+    std::vector<unsigned char> result(3 * n_local_nodes());
+    for (unsigned int n = 0; n < n_local_nodes(); ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        result[3 * n + a] = finer_marks[3 * keys[n] + a];
+    return result;
+  }
+
   template <typename Number>
   void
   CoarserNodes::prolongate_add(

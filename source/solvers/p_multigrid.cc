@@ -15,18 +15,6 @@ namespace corotet
 {
   namespace
   {
-    // The same for the nodes of the next coarser element.
-    std::vector<unsigned char>
-    coarser_marks(const CoarserNodes               &coarser,
-                  const std::vector<unsigned char> &marks)
-    {
-      std::vector<unsigned char> result(3 * coarser.n_local_nodes());
-      for (unsigned int n = 0; n < coarser.n_local_nodes(); ++n)
-        for (unsigned int a = 0; a < 3; ++a)
-          result[3 * n + a] = marks[3 * coarser.key(n) + a];
-      return result;
-    }
-
     // target = factor source, for owned entries.
     template <typename To, typename From>
     void
@@ -135,7 +123,7 @@ namespace corotet
         levels.push_back(std::make_unique<Level>(
           *nodes, is_prescribed, smoother_degree, smoothing_range));
         const CoarserNodes &coarser = levels.back()->coarser;
-        is_prescribed               = coarser_marks(coarser, is_prescribed);
+        is_prescribed               = coarser.marks(is_prescribed);
         nodes                       = &coarser;
       }
     coarse_nodes      = nodes;

@@ -36,6 +36,11 @@ namespace corotet
       return keys[local_node];
     }
 
+    /// Marks of the finer local unknowns at the nodes that are here. Not
+    /// collective.
+    std::vector<unsigned char>
+    marks(const std::vector<unsigned char> &finer_marks) const;
+
     /// fine += P coarse. Ghost entries of @p coarse must be up to date. Not
     /// collective.
     template <typename Number>
