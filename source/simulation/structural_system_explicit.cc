@@ -14,6 +14,38 @@
 
 namespace corotet
 {
+  void
+  StructuralSystem::solve_lumped_acceleration(State       &state,
+                                              const double time,
+                                              const double velocity_factor,
+                                              const double c)
+  {
+    evaluate_forces(state, time, 1.);
+    ScopedTimer          timer(wall_times.solve);
+    const unsigned char *is_prescribed = motion.is_prescribed().data();
+    const double        *m             = mass_matrix.diagonal().begin();
+    const double        *external      = forces.external.begin();
+    const double        *internal      = forces.internal.begin();
+    const double        *elastic =
+      terms.has_elastic() ? forces.elastic.begin() : nullptr;
+    double            *damping = forces.damping.begin();
+    double            *inertia = forces.inertia.begin();
+    double            *a       = state.a.begin();
+    double            *v       = state.v.begin();
+    const unsigned int n       = state.a.locally_owned_size();
+    for (unsigned int i = 0; i < n; ++i)
+      if (is_prescribed[i])
+        inertia[i] = m[i] * a[i];
+      else
+        {
+          const double e = elastic != nullptr ? elastic[i] : 0.;
+          inertia[i] = (external[i] - internal[i] - damping[i] - e) / (1 + c);
+          a[i]       = inertia[i] / m[i];
+          v[i] += velocity_factor * a[i];
+          damping[i] += c * inertia[i];
+        }
+  }
+
   StageReport
   StructuralSystem::solve_acceleration(State       &state,
                                        const double time,
@@ -23,37 +55,13 @@ namespace corotet
     const double c = velocity_factor * terms.damping_shares().mass;
     const bool   has_surface_damping =
       velocity_factor != 0 && terms.has_surface_damping();
-    StageReport report;
     if (mass_matrix.is_lumped() && !has_surface_damping)
       {
-        evaluate_forces(state, time, 1.);
-        ScopedTimer          timer(wall_times.solve);
-        const unsigned char *is_prescribed = motion.is_prescribed().data();
-        const double        *m             = mass_matrix.diagonal().begin();
-        const double        *external      = forces.external.begin();
-        const double        *internal      = forces.internal.begin();
-        const double        *elastic =
-          terms.has_elastic() ? forces.elastic.begin() : nullptr;
-        double            *damping = forces.damping.begin();
-        double            *inertia = forces.inertia.begin();
-        double            *a       = state.a.begin();
-        double            *v       = state.v.begin();
-        const unsigned int n       = state.a.locally_owned_size();
-        for (unsigned int i = 0; i < n; ++i)
-          if (is_prescribed[i])
-            inertia[i] = m[i] * a[i];
-          else
-            {
-              const double e = elastic != nullptr ? elastic[i] : 0.;
-              inertia[i] =
-                (external[i] - internal[i] - damping[i] - e) / (1 + c);
-              a[i] = inertia[i] / m[i];
-              v[i] += velocity_factor * a[i];
-              damping[i] += c * inertia[i];
-            }
-        return report;
+        solve_lumped_acceleration(state, time, velocity_factor, c);
+        return {};
       }
 
+    StageReport report;
     if (free_residual.size() == 0)
       for (Vector *vector : {&free_residual, &free_acceleration})
         discretization.initialize_vector(*vector);

@@ -199,6 +199,27 @@ TEST_P(MatrixFreeTest, SinglePrecision)
             1e-6 * A.diagonal().linfty_norm());
 }
 
+namespace
+{
+  // Cells by the unknowns of their vertices, as the order of deal.II is another
+  // one.
+  std::map<std::array<dealii::types::global_dof_index, 4>, unsigned int>
+  cells_by_vertices(const Discretization &discretization)
+  {
+    std::map<std::array<dealii::types::global_dof_index, 4>, unsigned int>
+      number;
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      {
+        std::array<dealii::types::global_dof_index, 4> key;
+        for (unsigned int i = 0; i < 4; ++i)
+          key[i] =
+            3 * discretization.global_node(discretization.cell_nodes(c)[i]);
+        number[key] = c;
+      }
+    return number;
+  }
+} // namespace
+
 // Internal force, tangent and inertia against integrals by FEValues.
 TEST_P(MatrixFreeTest, EqualsFEValues)
 {
@@ -224,15 +245,7 @@ TEST_P(MatrixFreeTest, EqualsFEValues)
   std::vector<Tensor<1, 3>> accelerations(rule.size());
   std::vector<dealii::types::global_dof_index> dofs(fe.dofs_per_cell);
 
-  // Cells by their vertices, as the order of deal.II is another one.
-  std::map<std::array<dealii::types::global_dof_index, 4>, unsigned int> number;
-  for (unsigned int c = 0; c < disc.n_owned_cells(); ++c)
-    {
-      std::array<dealii::types::global_dof_index, 4> key;
-      for (unsigned int i = 0; i < 4; ++i)
-        key[i] = 3 * disc.global_node(disc.cell_nodes(c)[i]);
-      number[key] = c;
-    }
+  const auto number = cells_by_vertices(disc);
   for (const auto &cell : disc.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
       {

@@ -274,6 +274,13 @@ namespace corotet
     /// with p-multigrid and those of slow ones before tell so.
     void
     advise_direct_solver(const unsigned int n_iterations);
+    /// Accelerations with a lumped mass, without damping on the surface; @p c
+    /// is the part of damping by mass that is in the velocity to come.
+    void
+    solve_lumped_acceleration(State       &state,
+                              const double time,
+                              const double velocity_factor,
+                              const double c);
     /// All terms but inertia.
     void
     evaluate_forces(const State &state,
