@@ -46,7 +46,7 @@ namespace corotet::benchmarks
 
   private:
     dealii::AlignedVector<CellCoefficients<float>> cells;
-    MatrixFree<float>                              stiffness;
+    CellwiseOperator<float>                        stiffness;
 
   public:
     dealii::LinearAlgebra::distributed::Vector<float> x;

@@ -113,8 +113,8 @@ namespace corotet
           mpi::min(location.outside == outside ? rank : nobody, comm);
         if (owner == rank)
           {
-            const auto nodes = discretization.cell_nodes(location.cell);
-            Located    probe;
+            const auto  nodes = discretization.cell_nodes(location.cell);
+            ProbeInCell probe;
             probe.probe = probe_names.size();
             probe.nodes.assign(nodes.begin(), nodes.end());
             for (unsigned int i = 0; i < nodes.size(); ++i)
@@ -130,7 +130,7 @@ namespace corotet
   {
     // Zero but on the rank that evaluates, so the sum is exact.
     std::vector<double> values(3 * probe_names.size(), 0.);
-    for (const Located &probe : located)
+    for (const ProbeInCell &probe : located)
       for (unsigned int i = 0; i < probe.nodes.size(); ++i)
         for (unsigned int c = 0; c < 3; ++c)
           values[3 * probe.probe + c] +=

@@ -49,7 +49,7 @@ namespace corotet
     // For each probe and material: six sums over cells, and their number.
     const unsigned int  n_materials = field.law().n_materials();
     std::vector<double> sums(7 * n_materials * probe_names.size(), 0.);
-    for (const Located &probe : located)
+    for (const StressProbeInCell &probe : located)
       {
         const SymmetricTensor<2, 3> sigma =
           raw ? field.raw(probe.cell, probe.point) :

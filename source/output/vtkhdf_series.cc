@@ -76,7 +76,7 @@ namespace corotet
   std::string
   VtkhdfSeries::result_file(const unsigned int step) const
   {
-    return directory + "/" + name + "/" + Block{0, step, 1}.file_name();
+    return directory + "/" + name + "/" + DataBlock{0, step, 1}.file_name();
   }
 
   void
@@ -100,7 +100,7 @@ namespace corotet
   }
 
   std::string
-  VtkhdfSeries::Block::file_name() const
+  VtkhdfSeries::DataBlock::file_name() const
   {
     if (level == 0)
       return fmt::format("step_{:06}.h5", step);
@@ -117,9 +117,9 @@ namespace corotet
            blocks[blocks.size() - n_joined].level == blocks.back().level)
       {
         const std::size_t first = blocks.size() - n_joined;
-        const Block       joined{blocks[first].level + 1,
-                           blocks[first].step,
-                           blocks[first].n_results * n_joined};
+        const DataBlock   joined{blocks[first].level + 1,
+                               blocks[first].step,
+                               blocks[first].n_results * n_joined};
         Hdf5File file(directory + "/" + name + "/" + joined.file_name(),
                       MPI_COMM_SELF);
         write_references(file, first, "", "");
@@ -211,7 +211,7 @@ namespace corotet
     const std::size_t     n = times.size();
     std::vector<Hdf5Part> parts;
     std::size_t           n_in_blocks = 0;
-    for (const Block &block : blocks)
+    for (const DataBlock &block : blocks)
       if (block.level > 0)
         {
           parts.push_back({name + "/" + block.file_name(), block.n_results});

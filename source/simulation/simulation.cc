@@ -63,7 +63,7 @@ namespace corotet
 
   void
   Simulation::run(const std::vector<std::unique_ptr<Observer>> &observers,
-                  const Recording                              &recording)
+                  const OutputTimes                            &recording)
   {
     start(observers, recording);
     while (!is_done())
@@ -94,7 +94,7 @@ namespace corotet
 
   void
   Simulation::start(const std::vector<std::unique_ptr<Observer>> &observers,
-                    const Recording                              &recording)
+                    const OutputTimes                            &recording)
   {
     this->observers = &observers;
     guarded([&] {

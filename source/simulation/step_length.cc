@@ -4,14 +4,14 @@
 // How long steps are, and how many.
 
 #include <corotet/base/exceptions.h>
-#include <corotet/simulation/stepper.h>
+#include <corotet/simulation/time_loop.h>
 
 #include <fmt/format.h>
 
 namespace corotet
 {
   void
-  Stepper::check_parameters() const
+  TimeLoop::check_parameters() const
   {
     const std::string section = "Time integration/";
     if (!(parameters.end_time > parameters.start_time))
@@ -48,7 +48,7 @@ namespace corotet
   }
 
   void
-  Stepper::choose_step()
+  TimeLoop::choose_step()
   {
     const double duration = parameters.end_time - parameters.start_time;
     if (parameters.adaptive_step.enabled)
@@ -89,7 +89,7 @@ namespace corotet
   }
 
   void
-  Stepper::follow_stable_step()
+  TimeLoop::follow_stable_step()
   {
     const StabilityControl &control = *integrator.stability();
     const double            stable =
@@ -134,7 +134,7 @@ namespace corotet
   }
 
   void
-  Stepper::warn_of_steps(const double n, const double dt)
+  TimeLoop::warn_of_steps(const double n, const double dt)
   {
     constexpr double many = 1e7;
     if (!(n > many) || has_warned)

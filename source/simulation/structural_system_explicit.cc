@@ -135,7 +135,7 @@ namespace corotet
   }
 
   bool
-  StructuralSystem::can_leap() const
+  StructuralSystem::can_step_many() const
   {
     return mass_matrix.is_lumped() && !terms.has_damping() &&
            !terms.has_elastic() && terms.is_constant() &&
@@ -143,9 +143,11 @@ namespace corotet
   }
 
   bool
-  StructuralSystem::leap(State &state, const double dt, const unsigned int n)
+  StructuralSystem::step_many(State             &state,
+                              const double       dt,
+                              const unsigned int n)
   {
-    if (!can_leap())
+    if (!can_step_many())
       return false;
     ScopedTimer timer(wall_times.assembly);
     for (unsigned int i = 0; i < n; ++i)
@@ -197,7 +199,7 @@ namespace corotet
   }
 
   double
-  StructuralSystem::mean_size(const Vector &field) const
+  StructuralSystem::root_mean_square(const Vector &field) const
   {
     double sum = 0;
     for (unsigned int i = 0; i < field.locally_owned_size(); ++i)

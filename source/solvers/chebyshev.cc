@@ -9,9 +9,9 @@
 
 namespace corotet
 {
-  Chebyshev::Chebyshev(const MatrixFree<float> &A,
-                       const unsigned int       degree,
-                       const double             range)
+  Chebyshev::Chebyshev(const CellwiseOperator<float> &A,
+                       const unsigned int             degree,
+                       const double                   range)
     : A(A)
     , degree(degree)
     , range(range)

@@ -72,10 +72,12 @@ namespace corotet
   /**
    * The state of one solve.
    */
-  class Newton::Search
+  class Newton::Iteration
   {
   public:
-    Search(const Newton &newton, NewtonProblem &problem, NewtonReport &report)
+    Iteration(const Newton  &newton,
+              NewtonProblem &problem,
+              NewtonReport  &report)
       : newton(newton)
       , problem(problem)
       , report(report)
@@ -377,6 +379,6 @@ namespace corotet
     if (r.get_partitioner() != prototype.get_partitioner())
       for (Vector *vector : {&r, &dx, &best_dx})
         vector->reinit(prototype);
-    Search(*this, problem, report).run();
+    Iteration(*this, problem, report).run();
   }
 } // namespace corotet

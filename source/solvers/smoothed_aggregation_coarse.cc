@@ -13,7 +13,7 @@ namespace corotet
 {
   using Modes [[gnu::vector_size(64)]] = double;
 
-  struct SmoothedAggregation::Block
+  struct SmoothedAggregation::ProlongationBlock
   {
     std::array<Modes, 3> rows{};
   };
@@ -24,11 +24,11 @@ namespace corotet
   {
     struct Aggregate
     {
-      Block
+      ProlongationBlock
       at(const dealii::Tensor<1, 3> &x) const
       {
-        const auto r = x - centre;
-        Block      block(translation);
+        const auto        r = x - centre;
+        ProlongationBlock block(translation);
         for (int a = 0; a < 3; ++a)
           {
             const int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -39,11 +39,11 @@ namespace corotet
 
       dealii::Tensor<1, 3> centre;
       /// Of the centre, and about it.
-      Block translation, rotation;
+      ProlongationBlock translation, rotation;
     };
 
-    std::vector<Block>     nodes;
-    std::vector<Aggregate> aggregates;
+    std::vector<ProlongationBlock> nodes;
+    std::vector<Aggregate>         aggregates;
   };
 
   namespace
@@ -94,9 +94,9 @@ namespace corotet
     /// Makes the columns of the first n blocks orthonormal, in Gram and
     /// Schmidt's way, and combines those of the others likewise; what is left
     /// of a dependent column is zero.
-    template <typename Block>
+    template <typename ProlongationBlock>
     void
-    make_orthonormal(std::vector<Block> &blocks, const int n)
+    make_orthonormal(std::vector<ProlongationBlock> &blocks, const int n)
     {
       const auto product = [&](const int m, const int l) {
         double sum = 0;
@@ -111,23 +111,26 @@ namespace corotet
           for (int l = 0; l < m; ++l)
             {
               const double part = product(m, l);
-              for (Block &block : blocks)
+              for (ProlongationBlock &block : blocks)
                 for (Modes &row : block.rows)
                   row[m] -= part * row[l];
             }
           const double after = product(m, m);
           const double scale =
             after > 1e-8 * before ? 1 / std::sqrt(after) : 0.;
-          for (Block &block : blocks)
+          for (ProlongationBlock &block : blocks)
             for (Modes &row : block.rows)
               row[m] *= scale;
         }
     }
 
     /// target += the block of the matrix from column k on times b.
-    template <typename Block>
+    template <typename ProlongationBlock>
     void
-    add_product(Block &target, const Rows &rows, const int k, const Block &b)
+    add_product(ProlongationBlock       &target,
+                const Rows              &rows,
+                const int                k,
+                const ProlongationBlock &b)
     {
       for (int a = 0; a < 3; ++a)
         target.rows[a] += rows[a][k] * b.rows[0] + rows[a][k + 1] * b.rows[1] +
@@ -142,7 +145,8 @@ namespace corotet
     std::vector<double> all_positions(positions, positions + 3 * n_nodes);
     all_positions.resize(3 * pattern->exchange().n_items());
     pattern->exchange().update(all_positions.data(), 3);
-    std::vector<Block> prolongation(prolongation_pattern.columns.size());
+    std::vector<ProlongationBlock> prolongation(
+      prolongation_pattern.columns.size());
     smooth_motions(prolongation,
                    A,
                    rigid_motions(all_positions),
@@ -161,7 +165,7 @@ namespace corotet
     Motions   motions;
     motions.nodes.resize(n_nodes);
     motions.aggregates.resize(n_own);
-    std::vector<Block> blocks;
+    std::vector<ProlongationBlock> blocks;
     for (int g = 0; g < n_own; ++g)
       {
         const int *begin =
@@ -200,10 +204,11 @@ namespace corotet
   /// eigenvalue; D is that of A / unit. A ghost moves with the aggregate of the
   /// row.
   void
-  SmoothedAggregation::smooth_motions(std::vector<Block>        &prolongation,
-                                      const BlockMatrix         &A,
-                                      const Motions             &motions,
-                                      const std::vector<double> &positions)
+  SmoothedAggregation::smooth_motions(
+    std::vector<ProlongationBlock> &prolongation,
+    const BlockMatrix              &A,
+    const Motions                  &motions,
+    const std::vector<double>      &positions)
   {
     const double     omega = 4. / 3 / largest_eigenvalue / unit;
     const NodeGraph &graph = pattern->graph();
@@ -231,8 +236,8 @@ namespace corotet
         const float *inverse = &inverse_diagonal[9 * i];
         for (int k = begin; k < end; ++k)
           {
-            const Block product = prolongation[k];
-            Block      &block   = prolongation[k];
+            const ProlongationBlock product = prolongation[k];
+            ProlongationBlock      &block   = prolongation[k];
             for (int a = 0; a < 3; ++a)
               {
                 block.rows[a] = -omega * (inverse[a] * product.rows[0] +
@@ -249,19 +254,20 @@ namespace corotet
 
   /// P^T A P / unit, lower triangle.
   void
-  SmoothedAggregation::fill_coarse(const BlockMatrix        &A,
-                                   const std::vector<Block> &prolongation)
+  SmoothedAggregation::fill_coarse(
+    const BlockMatrix                    &A,
+    const std::vector<ProlongationBlock> &prolongation)
   {
     const NodeGraph                  &graph = pattern->graph();
     std::vector<std::array<Modes, 6>> matrix(coarse_pattern.columns.size());
     std::vector<int>                  place(n_aggregates());
-    std::vector<Block>                row_blocks;
+    std::vector<ProlongationBlock>    row_blocks;
     for (int i = 0; i < n_nodes; ++i)
       {
         const int *columns =
           &product_pattern.columns[product_pattern.starts[i]];
         const int n = product_pattern.starts[i + 1] - product_pattern.starts[i];
-        row_blocks.assign(n, Block());
+        row_blocks.assign(n, ProlongationBlock());
         for (int k = 0; k < n; ++k)
           place[columns[k]] = k;
         const Rows rows = A.rows(i);
@@ -280,16 +286,16 @@ namespace corotet
              l < prolongation_pattern.starts[i + 1];
              ++l)
           {
-            const int I     = prolongation_pattern.columns[l];
-            Block     p     = prolongation[l];
-            int       entry = coarse_pattern.starts[I - first_aggregate];
+            const int         I = prolongation_pattern.columns[l];
+            ProlongationBlock p = prolongation[l];
+            int entry           = coarse_pattern.starts[I - first_aggregate];
             for (Modes &row : p.rows)
               row /= unit;
             for (int k = 0; k < n && columns[k] <= I; ++k)
               {
                 while (coarse_pattern.columns[entry] != columns[k])
                   ++entry;
-                const Block &s = row_blocks[k];
+                const ProlongationBlock &s = row_blocks[k];
                 for (int m = 0; m < 6; ++m)
                   matrix[entry][m] += p.rows[0][m] * s.rows[0] +
                                       p.rows[1][m] * s.rows[1] +

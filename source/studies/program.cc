@@ -3,7 +3,7 @@
 
 #include <corotet/base/mpi.h>
 #include <corotet/studies/program.h>
-#include <corotet/studies/recorded_run.h>
+#include <corotet/studies/run_command.h>
 
 #include <csignal>
 #include <iostream>
@@ -24,7 +24,7 @@ namespace corotet
 
       ParameterFile file;
       with_places(command, file, [&] {
-        recorded_run(command, file, MPI_COMM_WORLD);
+        run_command(command, file, MPI_COMM_WORLD);
       });
     }
   } // namespace

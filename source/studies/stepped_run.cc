@@ -7,7 +7,7 @@
 #include <corotet/output/observers.h>
 #include <corotet/output/output_directory.h>
 #include <corotet/simulation/simulation.h>
-#include <corotet/studies/recorded_run.h>
+#include <corotet/studies/run_command.h>
 #include <corotet/studies/run_parameters.h>
 #include <corotet/studies/stepped_run.h>
 

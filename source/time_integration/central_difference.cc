@@ -50,7 +50,7 @@ namespace corotet
     if (n > 2)
       {
         state.v.add(-0.5 * first.dt, state.a);
-        if (system.leap(state, first.dt, n))
+        if (system.step_many(state, first.dt, n))
           return system.solve_acceleration(state,
                                            first.time + n * first.dt,
                                            0.5 * first.dt);

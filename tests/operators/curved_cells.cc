@@ -247,8 +247,8 @@ TEST_P(CurvedCells, CoarserForms)
   // The mass of bubbles is diagonal, that of coarser elements is not.
   const double c_M = element.has_bubbles() ? 0 : 500;
 
-  MatrixFree<double> fine(body.discretization, {}), coarse(coarser, {});
-  for (MatrixFree<double> *A : {&fine, &coarse})
+  CellwiseOperator<double> fine(body.discretization, {}), coarse(coarser, {});
+  for (CellwiseOperator<double> *A : {&fine, &coarse})
     A->set_terms(1.,
                  elastic.coefficients().data(),
                  c_M,

@@ -112,10 +112,10 @@ TEST_P(MatrixFreeTest, EqualsMatrix)
 TEST_P(MatrixFreeTest, SmootherSteps)
 {
   A.update(0.7, 3e3);
-  const auto        &mass = body.system.mass();
-  MatrixFree<double> fused(body.discretization,
-                           marked_unknowns(
-                             body.system.prescribed_motion().is_prescribed()));
+  const auto              &mass = body.system.mass();
+  CellwiseOperator<double> fused(
+    body.discretization,
+    marked_unknowns(body.system.prescribed_motion().is_prescribed()));
   fused.set_terms(0.7,
                   body.system.elasticity().coefficients().data(),
                   3e3,
@@ -178,9 +178,9 @@ TEST_P(MatrixFreeTest, SinglePrecision)
     body.discretization.initialize_vector(*vector);
   x.copy_locally_owned_data_from(body.state.a);
   lumped.copy_locally_owned_data_from(body.system.mass().diagonal());
-  MatrixFree<float> single(body.discretization,
-                           marked_unknowns(
-                             body.system.prescribed_motion().is_prescribed()));
+  CellwiseOperator<float> single(
+    body.discretization,
+    marked_unknowns(body.system.prescribed_motion().is_prescribed()));
   single.set_terms(0.7,
                    cells.data(),
                    3e3,

@@ -89,7 +89,7 @@ namespace corotet::tests
 
     /// Returns why the computation failed; an empty text if it did not.
     std::string
-    run(const Recording &recording = {})
+    run(const OutputTimes &recording = {})
     {
       try
         {

@@ -3,7 +3,7 @@
 
 // Dynamics against conservation laws and exact motions.
 
-#include <corotet/simulation/budget.h>
+#include <corotet/simulation/energy_budget.h>
 #include <corotet/time_integration/backward_euler.h>
 #include <corotet/time_integration/generalized_alpha.h>
 #include <corotet/time_integration/newmark.h>
@@ -27,8 +27,8 @@ namespace
     integrator.reset();
     body.system.prescribe(body.state, 0., 1.);
     body.system.solve_acceleration(body.state, 0.);
-    Budget     budget(body.system, body.discretization, body.state, 0., 1.);
-    StepRecord record = budget.initial_record();
+    EnergyBudget budget(body.system, body.discretization, body.state, 0., 1.);
+    StepRecord   record = budget.initial_record();
     for (unsigned int i = 0; i < n; ++i)
       {
         integrator.step(body.system,

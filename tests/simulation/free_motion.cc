@@ -4,7 +4,7 @@
 // A free body that spins and vibrates: what the laws with an energy conserve,
 // and what one rotation per cell does not.
 
-#include <corotet/simulation/budget.h>
+#include <corotet/simulation/energy_budget.h>
 #include <corotet/time_integration/generalized_alpha.h>
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ namespace
     integrator.spectral_radius = 1;
     const double end           = 1;
     body.system.solve_acceleration(body.state, 0.);
-    Budget budget(body.system, body.discretization, body.state, 0., 1.);
+    EnergyBudget budget(body.system, body.discretization, body.state, 0., 1.);
     const StepRecord start  = budget.initial_record();
     StepRecord       record = start;
     Drift            drift;

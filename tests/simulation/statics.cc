@@ -4,7 +4,7 @@
 // Static linear elasticity against exact solutions: orders of convergence and
 // reactions.
 
-#include <corotet/simulation/budget.h>
+#include <corotet/simulation/energy_budget.h>
 #include <corotet/time_integration/load_stepping.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -106,7 +106,8 @@ TEST(Statics, Reactions)
             "1e-12\nend\nsubsection Linear solver\n set Type = direct\n "
             "set Tolerance = 1e-12\nend\n" +
             load);
-        Budget budget(body.system, body.discretization, body.state, 0., 0.);
+        EnergyBudget budget(
+          body.system, body.discretization, body.state, 0., 0.);
         solve_static(body);
         StepRecord record;
         budget.account(body.state, 1., 1.);
@@ -130,7 +131,7 @@ TEST(Statics, Reactions)
 // with E eps A; volume grows by the stretch.
 TEST(Statics, PrescribedStretch)
 {
-  Body   body(box("2, 1, 1", "4, 2, 2", 0.1), R"(
+  Body         body(box("2, 1, 1", "4, 2, 2", 0.1), R"(
     subsection Material
       set Young's modulus = 1000
       set Poisson's ratio = 0
@@ -138,7 +139,7 @@ TEST(Statics, PrescribedStretch)
     subsection Boundary conditions
       set Displacement = x-min: 0; 0; 0, x-max: 0.2; free; free
     end)");
-  Budget budget(body.system, body.discretization, body.state, 0., 0.);
+  EnergyBudget budget(body.system, body.discretization, body.state, 0., 0.);
   solve_static(body);
   StepRecord record;
   budget.account(body.state, 1., 1.);

@@ -196,10 +196,10 @@ TEST(Supports, SingularMatrixEndsStatics)
           set Type             = static
           set Maximum halvings = 8
         end)");
-      Stepper     stepper(body.parameters,
-                      body.discretization,
-                      body.system,
-                      body.log);
+      TimeLoop    stepper(body.parameters,
+                       body.discretization,
+                       body.system,
+                       body.log);
       StepRecord  record = stepper.start({});
       std::string message;
       try

@@ -153,10 +153,10 @@ namespace corotet
    */
   template <typename Function>
   COROTET_ALWAYS_INLINE void
-  for_each_kind(const CellBatches &batches,
-                const unsigned int first,
-                const unsigned int end,
-                const Function    &function)
+  for_straight_and_curved(const CellBatches &batches,
+                          const unsigned int first,
+                          const unsigned int end,
+                          const Function    &function)
   {
     const CurvedBatches *const curved = batches.curved();
     if (curved == nullptr)

@@ -39,9 +39,9 @@ namespace corotet
     AssembledMatrix(const Nodes                      &nodes,
                     const std::vector<unsigned char> &is_prescribed);
 
-    /// Computes A as MatrixFree::set_terms() takes it, from the coefficients of
-    /// all local cells, and adds a matrix of the surface, if that is not null.
-    /// Not collective.
+    /// Computes A as CellwiseOperator::set_terms() takes it, from the
+    /// coefficients of all local cells, and adds a matrix of the surface, if
+    /// that is not null. Not collective.
     void
     update(const double                                           c_K,
            const dealii::AlignedVector<CellCoefficients<double>> &coefficients,

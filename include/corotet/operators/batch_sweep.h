@@ -38,14 +38,13 @@ namespace corotet
       if constexpr (requires { Operation::ignores_curvature; })
         run_batches(std::false_type(), data, first, end, source, sums);
       else
-        for_each_kind(data.batches,
-                      first,
-                      end,
-                      [&](const auto begin,
-                          const auto stop,
-                          const auto is_curved) {
-                        run_batches(is_curved, data, begin, stop, source, sums);
-                      });
+        for_straight_and_curved(
+          data.batches,
+          first,
+          end,
+          [&](const auto begin, const auto stop, const auto is_curved) {
+            run_batches(is_curved, data, begin, stop, source, sums);
+          });
     }
 
   private:

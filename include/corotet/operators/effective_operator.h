@@ -5,9 +5,9 @@
 #define corotet_operators_effective_operator_h
 
 #include <corotet/operators/assembled_matrix.h>
+#include <corotet/operators/cellwise_operator.h>
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/mass.h>
-#include <corotet/operators/matrix_free.h>
 
 #include <memory>
 #include <vector>
@@ -157,7 +157,7 @@ namespace corotet
     unsigned int                      n_updates = 0;
 
     std::unique_ptr<const ForceRoundOff>     noise;
-    MatrixFree<double>                       matrix_free;
+    CellwiseOperator<double>                 matrix_free;
     mutable std::unique_ptr<AssembledMatrix> assembled;
     mutable bool                             is_assembled = false;
 

@@ -52,7 +52,7 @@ namespace corotet
 
   private:
     /// A probe that this rank evaluates.
-    struct Located
+    struct ProbeInCell
     {
       unsigned int              probe;
       std::vector<unsigned int> nodes;
@@ -61,7 +61,7 @@ namespace corotet
 
     MPI_Comm                 comm;
     std::vector<std::string> probe_names;
-    std::vector<Located>     located;
+    std::vector<ProbeInCell> located;
   };
 } // namespace corotet
 

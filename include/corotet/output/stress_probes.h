@@ -43,17 +43,17 @@ namespace corotet
 
   private:
     /// A probe in an owned cell.
-    struct Located
+    struct StressProbeInCell
     {
       unsigned int                  probe;
       unsigned int                  cell;
       ReferenceElement::PointValues point;
     };
 
-    MPI_Comm                 comm;
-    bool                     raw;
-    std::vector<std::string> probe_names;
-    std::vector<Located>     located;
+    MPI_Comm                       comm;
+    bool                           raw;
+    std::vector<std::string>       probe_names;
+    std::vector<StressProbeInCell> located;
   };
 } // namespace corotet
 

@@ -102,7 +102,7 @@ namespace corotet
   private:
     /// A file in the folder that has or refers to the numbers of @p n_results
     /// results in a row; @p step is the step of the first.
-    struct Block
+    struct DataBlock
     {
       unsigned int level;
       unsigned int step;
@@ -145,8 +145,8 @@ namespace corotet
     std::size_t n_joined;
 
     /// Of all results so far.
-    std::vector<double> times;
-    std::vector<Block>  blocks;
+    std::vector<double>    times;
+    std::vector<DataBlock> blocks;
   };
 } // namespace corotet
 

@@ -6,8 +6,8 @@
 
 #include <corotet/base/log.h>
 #include <corotet/simulation/observer.h>
-#include <corotet/simulation/stepper.h>
 #include <corotet/simulation/structural_system.h>
+#include <corotet/simulation/time_loop.h>
 
 #include <chrono>
 #include <functional>
@@ -59,14 +59,14 @@ namespace corotet
      */
     void
     run(const std::vector<std::unique_ptr<Observer>> &observers,
-        const Recording                              &recording = {});
+        const OutputTimes                            &recording = {});
 
     /// The same step by step: start(), then step() until is_done() or as long
     /// as it is wanted, then finish(). The observers must live until then.
     /// After a ComputationError, which they are told of, nothing may follow.
     void
     start(const std::vector<std::unique_ptr<Observer>> &observers,
-          const Recording                              &recording = {});
+          const OutputTimes                            &recording = {});
 
     /// Goes on to the next step that is to be recorded.
     void
@@ -139,7 +139,7 @@ namespace corotet
     const Mesh            mesh;
     const Discretization  disc;
     StructuralSystem      system;
-    Stepper               stepper;
+    TimeLoop              stepper;
     StepRecord            last_record;
     bool                  is_started = false;
 

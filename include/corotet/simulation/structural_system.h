@@ -93,12 +93,12 @@ namespace corotet
       return surface ? &surface_matrix(time, 1., 0.) : nullptr;
     }
 
-    /// Whether leap() is possible.
+    /// Whether step_many() is possible.
     bool
-    can_leap() const;
+    can_step_many() const;
 
     bool
-    leap(State &state, const double dt, const unsigned int n) override;
+    step_many(State &state, const double dt, const unsigned int n) override;
 
     /// Evaluates all terms at a state, with the rotations of its displacement.
     /// Collective.
@@ -144,7 +144,7 @@ namespace corotet
     /// Root mean square of a vector field over the body, weighted by mass.
     /// Collective.
     double
-    mean_size(const Vector &field) const;
+    root_mean_square(const Vector &field) const;
 
     /// Displacement and velocity of the last evaluation, or of the last
     /// set_state(), with ghost entries.

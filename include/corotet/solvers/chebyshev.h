@@ -4,7 +4,7 @@
 #ifndef corotet_solvers_chebyshev_h
 #define corotet_solvers_chebyshev_h
 
-#include <corotet/operators/matrix_free.h>
+#include <corotet/operators/cellwise_operator.h>
 
 namespace corotet
 {
@@ -26,9 +26,9 @@ namespace corotet
     using FloatVector = dealii::LinearAlgebra::distributed::Vector<float>;
 
     /// @p degree: steps; @p range: largest over smallest eigenvalue to damp.
-    Chebyshev(const MatrixFree<float> &A,
-              const unsigned int       degree,
-              const double             range);
+    Chebyshev(const CellwiseOperator<float> &A,
+              const unsigned int             degree,
+              const double                   range);
 
     /// Takes the diagonal of A, with zero for prescribed unknowns, and the
     /// couplings of @p surface, if that is not null. Collective.
@@ -74,7 +74,7 @@ namespace corotet
     /// The square root of x . D x without prescribed unknowns. Collective.
     double
     norm(const FloatVector &x) const;
-    /// One step as MatrixFree::chebyshev_step().
+    /// One step as CellwiseOperator::chebyshev_step().
     void
     make_step(FloatVector       &x,
               const FloatVector &b,
@@ -83,13 +83,13 @@ namespace corotet
     void
     remaining_steps(FloatVector &x, const FloatVector &b) const;
 
-    const MatrixFree<float> &A;
-    unsigned int             degree;
-    double                   range;
-    double                   max_eigenvalue = 1;
-    FloatVector              inverse_diagonal;
-    mutable FloatVector      step;
-    std::vector<NodeBlock>   blocks;
+    const CellwiseOperator<float> &A;
+    unsigned int                   degree;
+    double                         range;
+    double                         max_eigenvalue = 1;
+    FloatVector                    inverse_diagonal;
+    mutable FloatVector            step;
+    std::vector<NodeBlock>         blocks;
     /// Work space where there are blocks.
     mutable FloatVector residual, scaled_residual;
   };

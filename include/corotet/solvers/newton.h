@@ -129,7 +129,7 @@ namespace corotet
     bool         always_log          = false;
 
   private:
-    class Search;
+    class Iteration;
 
     mutable Vector r;
     mutable Vector dx;

@@ -72,7 +72,7 @@ namespace corotet
             const double                      smoothing_range);
 
       std::vector<unsigned char> is_prescribed;
-      MatrixFree<float>          A;
+      CellwiseOperator<float>    A;
       Chebyshev                  smoother;
       CoarserNodes               coarser;
       FloatVector                lumped_mass;

@@ -60,7 +60,7 @@ namespace corotet
 
   private:
     /// Three rows of a block with a column per rigid motion, and two of zeros.
-    struct Block;
+    struct ProlongationBlock;
     struct Motions;
 
     void
@@ -76,12 +76,13 @@ namespace corotet
     Motions
     rigid_motions(const std::vector<double> &positions) const;
     void
-    smooth_motions(std::vector<Block>        &prolongation,
-                   const BlockMatrix         &A,
-                   const Motions             &motions,
-                   const std::vector<double> &positions);
+    smooth_motions(std::vector<ProlongationBlock> &prolongation,
+                   const BlockMatrix              &A,
+                   const Motions                  &motions,
+                   const std::vector<double>      &positions);
     void
-    fill_coarse(const BlockMatrix &A, const std::vector<Block> &prolongation);
+    fill_coarse(const BlockMatrix                    &A,
+                const std::vector<ProlongationBlock> &prolongation);
 
     void
     apply(float *y, float *x) const;

@@ -111,7 +111,7 @@ namespace corotet
      * damping. Returns whether it is so; if not, nothing has changed.
      */
     virtual bool
-    leap(State & /*state*/, const double /*dt*/, const unsigned int /*n*/)
+    step_many(State & /*state*/, const double /*dt*/, const unsigned int /*n*/)
     {
       return false;
     }

@@ -3,7 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/operators/surface.h>
-#include <corotet/simulation/budget.h>
+#include <corotet/simulation/energy_budget.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,12 +13,12 @@ namespace corotet
 {
   using dealii::Tensor;
 
-  Budget::Budget(StructuralSystem     &system,
-                 const Discretization &discretization,
-                 const State          &initial_state,
-                 const double          time,
-                 const double          load_factor,
-                 const double          staggered_step)
+  EnergyBudget::EnergyBudget(StructuralSystem     &system,
+                             const Discretization &discretization,
+                             const State          &initial_state,
+                             const double          time,
+                             const double          load_factor,
+                             const double          staggered_step)
     : system(system)
     , discretization(discretization)
     , is_staggered(staggered_step > 0)
@@ -26,7 +26,7 @@ namespace corotet
   {
     const std::size_t n_prescribed =
       system.prescribed_motion().unknowns().size();
-    for (Forces *forces : {&last, &now})
+    for (StepForces *forces : {&last, &now})
       {
         discretization.initialize_vector(forces->external);
         if (system.force_terms().has_damping())
@@ -44,12 +44,12 @@ namespace corotet
   }
 
   void
-  Budget::take_forces(Forces &forces, const State &state) const
+  EnergyBudget::take_forces(StepForces &forces, const State &state) const
   {
     const StructuralSystem::Forces &terms = system.last_forces();
-    forces.time                           = system.last_time();
-    forces.external                       = terms.external;
-    forces.displacement                   = state.u;
+    forces.time                               = system.last_time();
+    forces.external                           = terms.external;
+    forces.displacement                       = state.u;
     if (system.force_terms().has_damping())
       forces.damping = terms.damping;
     const auto &prescribed = system.prescribed_motion().unknowns();
@@ -66,7 +66,7 @@ namespace corotet
   }
 
   void
-  Budget::account(const State &state, const double time, const double dt)
+  EnergyBudget::account(const State &state, const double time, const double dt)
   {
     take_forces(now, state);
     // Forces at the middle: c of now, 1 - c of last.
@@ -109,7 +109,7 @@ namespace corotet
   }
 
   void
-  Budget::take_back()
+  EnergyBudget::take_back()
   {
     std::swap(last, now);
     dt          = before[0];
@@ -118,10 +118,12 @@ namespace corotet
   }
 
   void
-  Budget::record(StepRecord &record, const State &state, const double time)
+  EnergyBudget::record(StepRecord  &record,
+                       const State &state,
+                       const double time)
   {
     const StructuralSystem::Forces &terms = system.last_forces();
-    const MPI_Comm                  comm  = discretization.communicator();
+    const MPI_Comm                      comm  = discretization.communicator();
 
     // Where the equation of motion holds.
     Tensor<1, 3> reaction;

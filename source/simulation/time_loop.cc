@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/simulation/stepper.h>
+#include <corotet/simulation/time_loop.h>
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@
 
 namespace corotet
 {
-  Stepper::Stepper(SimulationParameters &parameters,
-                   const Discretization &discretization,
-                   StructuralSystem     &system,
-                   Log                  &log)
+  TimeLoop::TimeLoop(SimulationParameters &parameters,
+                     const Discretization &discretization,
+                     StructuralSystem     &system,
+                     Log                  &log)
     : parameters(parameters)
     , discretization(discretization)
     , system(system)
@@ -32,7 +32,7 @@ namespace corotet
   }
 
   double
-  Stepper::end_of_step(const unsigned int step, const unsigned int ahead) const
+  TimeLoop::end_of_step(const unsigned int step, const unsigned int ahead) const
   {
     if (n_steps > 0)
       return static_cast<double>(step) / n_steps;
@@ -60,7 +60,7 @@ namespace corotet
   }
 
   double
-  Stepper::duration(const double part) const
+  TimeLoop::duration(const double part) const
   {
     if (n_steps == 0)
       return part * (parameters.end_time - parameters.start_time);
@@ -70,9 +70,9 @@ namespace corotet
   }
 
   bool
-  Stepper::is_recorded(const unsigned int step,
-                       const double       from,
-                       const double       to) const
+  TimeLoop::is_recorded(const unsigned int step,
+                        const double       from,
+                        const double       to) const
   {
     const double interval = recording.time_between_results;
     const auto   results  = [&](const double part) {
@@ -83,7 +83,7 @@ namespace corotet
   }
 
   const StepRecord &
-  Stepper::start(const Recording &wanted)
+  TimeLoop::start(const OutputTimes &wanted)
   {
     recording               = wanted;
     const double start_time = parameters.start_time;
@@ -97,21 +97,20 @@ namespace corotet
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
                                "gradients a step",
                                report.linear_iterations));
-        if (!std::isfinite(system.mean_size(present.a)))
+        if (!std::isfinite(system.root_mean_square(present.a)))
           throw ComputationError("the forces at the start are not finite");
       }
     else
       present.v = 0;
-    budget =
-      std::make_unique<Budget>(system,
-                               discretization,
-                               present,
-                               start_time,
-                               integrator.load_factor(0.),
-                               integrator.is_staggered() ?
-                                 end_of_step(1) * (parameters.end_time -
-                                                   parameters.start_time) :
-                                 0.);
+    budget = std::make_unique<EnergyBudget>(
+      system,
+      discretization,
+      present,
+      start_time,
+      integrator.load_factor(0.),
+      integrator.is_staggered() ?
+        end_of_step(1) * (parameters.end_time - parameters.start_time) :
+        0.);
     const StepRecord &record = budget->initial_record();
     energy_supply            = record.kinetic_energy + record.elastic_energy;
     good_state               = present;
@@ -119,7 +118,7 @@ namespace corotet
   }
 
   void
-  Stepper::next(StepRecord &record)
+  TimeLoop::next(StepRecord &record)
   {
     StepRecord next = record;
     do
@@ -178,13 +177,13 @@ namespace corotet
   }
 
   void
-  Stepper::advance_explicitly(StepRecord &record)
+  TimeLoop::advance_explicitly(StepRecord &record)
   {
     // If the work of many steps is as easy to tell as that of one: all steps up
     // to one that is recorded or that an estimate follows.
     unsigned int n  = 1;
     double       to = end_of_step(record.step);
-    while (system.can_leap() && !is_recorded(record.step, from, to) &&
+    while (system.can_step_many() && !is_recorded(record.step, from, to) &&
            !is_stable_step_due(record.step))
       {
         ++record.step;
@@ -204,10 +203,10 @@ namespace corotet
   }
 
   void
-  Stepper::advance(const double       from,
-                   const double       to,
-                   const unsigned int halvings,
-                   StepRecord        &record)
+  TimeLoop::advance(const double       from,
+                    const double       to,
+                    const unsigned int halvings,
+                    StepRecord        &record)
   {
     good_state   = present;
     bool is_made = false;
@@ -240,7 +239,7 @@ namespace corotet
   }
 
   void
-  Stepper::advance_adaptively(StepRecord &record)
+  TimeLoop::advance_adaptively(StepRecord &record)
   {
     const double duration = parameters.end_time - parameters.start_time;
     good_state            = present;
@@ -260,8 +259,8 @@ namespace corotet
             acceleration_change = present.a;
             acceleration_change -= good_state.a;
             const double error = integrator.error_constant() * dt * dt *
-                                 system.mean_size(acceleration_change);
-            if (adaptive->accept(dt, error, system.mean_size(present.u)))
+                                 system.root_mean_square(acceleration_change);
+            if (adaptive->accept(dt, error, system.root_mean_square(present.u)))
               {
                 finish_step(done, to, record);
                 record.rejected_steps = adaptive->n_rejected();
@@ -286,10 +285,10 @@ namespace corotet
   }
 
   void
-  Stepper::integrate(const double       from,
-                     const double       to,
-                     StepRecord        &record,
-                     const unsigned int n)
+  TimeLoop::integrate(const double       from,
+                      const double       to,
+                      StepRecord        &record,
+                      const unsigned int n)
   {
     TimeStep first = {time(from), duration((to - from) / n), to};
     if (n == 1)
@@ -300,10 +299,10 @@ namespace corotet
   }
 
   void
-  Stepper::account(const double       from,
-                   const double       to,
-                   StepRecord        &record,
-                   const unsigned int n)
+  TimeLoop::account(const double       from,
+                    const double       to,
+                    StepRecord        &record,
+                    const unsigned int n)
   {
     const double dt = duration((to - from) / n);
     budget->account(present, time(to), dt);
@@ -313,7 +312,7 @@ namespace corotet
   }
 
   void
-  Stepper::finish_step(const double from, const double to, StepRecord &record)
+  TimeLoop::finish_step(const double from, const double to, StepRecord &record)
   {
     StepRecord finished = record;
     account(from, to, finished);
@@ -331,7 +330,7 @@ namespace corotet
   }
 
   void
-  Stepper::check_growth(const StepRecord &record)
+  TimeLoop::check_growth(const StepRecord &record)
   {
     // Far more than the errors of a stable step may make of what was put in,
     // and no noise of a body at rest.

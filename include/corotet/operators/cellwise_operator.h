@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_operators_matrix_free_h
-#define corotet_operators_matrix_free_h
+#ifndef corotet_operators_cellwise_operator_h
+#define corotet_operators_cellwise_operator_h
 
 #include <corotet/operators/cell_loop.h>
 #include <corotet/operators/surface_matrix.h>
@@ -24,13 +24,13 @@ namespace corotet
    * object. Members but those marked are collective.
    */
   template <typename T>
-  class MatrixFree
+  class CellwiseOperator
   {
   public:
     using VectorType = dealii::LinearAlgebra::distributed::Vector<T>;
 
     /// @p prescribed: local unknowns, ghosts included.
-    MatrixFree(const Nodes &nodes, std::vector<unsigned int> prescribed);
+    CellwiseOperator(const Nodes &nodes, std::vector<unsigned int> prescribed);
 
     /**
      * Sets A = c_K K + c_M M with c_K > 0. With @p lumped_mass that vector is
@@ -93,9 +93,9 @@ namespace corotet
     }
 
   private:
-    template <typename Take>
+    template <typename Store>
     void
-    apply(const VectorType &src, const Take &take) const;
+    apply(const VectorType &src, const Store &store) const;
 
     CellLoop<T>               cell_loop;
     std::vector<unsigned int> prescribed;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_studies_recorded_run_h
-#define corotet_studies_recorded_run_h
+#ifndef corotet_studies_run_command_h
+#define corotet_studies_run_command_h
 
 #include <corotet/base/parameter_file.h>
 #include <corotet/simulation/command_line.h>
@@ -22,9 +22,9 @@ namespace corotet
    * the place that @p file knows. Collective.
    */
   void
-  recorded_run(const CommandLine &command,
-               ParameterFile     &file,
-               const MPI_Comm     comm);
+  run_command(const CommandLine &command,
+              ParameterFile     &file,
+              const MPI_Comm     comm);
 
   /**
    * Runs @p action. An InputError that it throws with an entry is thrown with

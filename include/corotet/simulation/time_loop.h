@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_simulation_stepper_h
-#define corotet_simulation_stepper_h
+#ifndef corotet_simulation_time_loop_h
+#define corotet_simulation_time_loop_h
 
 #include <corotet/base/log.h>
 #include <corotet/simulation/adaptive_step.h>
-#include <corotet/simulation/budget.h>
+#include <corotet/simulation/energy_budget.h>
 #include <corotet/simulation/structural_system.h>
 #include <corotet/solvers/singular_matrix_error.h>
 
@@ -19,7 +19,7 @@ namespace corotet
   /**
    * Which steps are shown to observers, beside the last one.
    */
-  struct Recording
+  struct OutputTimes
   {
     /// Every so many steps.
     unsigned int steps_between_rows = 1;
@@ -36,18 +36,18 @@ namespace corotet
    * The arguments of the constructor must outlive this object. Members are
    * collective.
    */
-  class Stepper
+  class TimeLoop
   {
   public:
     /// Throws InputError.
-    Stepper(SimulationParameters &parameters,
-            const Discretization &discretization,
-            StructuralSystem     &system,
-            Log                  &log);
+    TimeLoop(SimulationParameters &parameters,
+             const Discretization &discretization,
+             StructuralSystem     &system,
+             Log                  &log);
 
     /// Makes the initial state complete. Returns its record.
     const StepRecord &
-    start(const Recording &recording);
+    start(const OutputTimes &recording);
 
     /**
      * Goes on to the next step that is to be recorded. @p record, that of the
@@ -193,14 +193,14 @@ namespace corotet
     /// Fits in the counter of steps.
     static constexpr unsigned int largest_number_of_steps = 4000000000;
 
-    SimulationParameters   &parameters;
-    const Discretization   &discretization;
-    StructuralSystem       &system;
-    Log                    &log;
-    TimeIntegrator         &integrator;
-    Recording               recording;
-    State                   present;
-    std::unique_ptr<Budget> budget;
+    SimulationParameters         &parameters;
+    const Discretization         &discretization;
+    StructuralSystem             &system;
+    Log                          &log;
+    TimeIntegrator               &integrator;
+    OutputTimes                   recording;
+    State                         present;
+    std::unique_ptr<EnergyBudget> budget;
     /// Parts of the run that the present state has reached, and that the last
     /// step started from.
     double done = 0;

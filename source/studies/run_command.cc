@@ -11,7 +11,7 @@
 #include <corotet/output/output_directory.h>
 #include <corotet/simulation/simulation.h>
 #include <corotet/studies/convergence_study.h>
-#include <corotet/studies/recorded_run.h>
+#include <corotet/studies/run_command.h>
 #include <corotet/studies/run_parameters.h>
 
 #include <nlohmann/json.hpp>
@@ -64,9 +64,9 @@ namespace corotet
   }
 
   void
-  recorded_run(const CommandLine &command,
-               ParameterFile     &file,
-               const MPI_Comm     comm)
+  run_command(const CommandLine &command,
+              ParameterFile     &file,
+              const MPI_Comm     comm)
   {
     RunParameters parameters;
     parameters.declare_parameters(file.handler());

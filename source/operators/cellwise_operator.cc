@@ -2,13 +2,13 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/discretization/curved_batches.h>
-#include <corotet/operators/matrix_free.h>
+#include <corotet/operators/cellwise_operator.h>
 
 namespace corotet
 {
   template <typename T>
-  MatrixFree<T>::MatrixFree(const Nodes              &nodes,
-                            std::vector<unsigned int> prescribed)
+  CellwiseOperator<T>::CellwiseOperator(const Nodes              &nodes,
+                                        std::vector<unsigned int> prescribed)
     : cell_loop(nodes)
     , prescribed(std::move(prescribed))
     , saved(this->prescribed.size())
@@ -22,11 +22,11 @@ namespace corotet
 
   template <typename T>
   void
-  MatrixFree<T>::set_terms(const double               c_K,
-                           const CellCoefficients<T> *coefficients,
-                           const double               c_M,
-                           const CellMasses<T>       *masses,
-                           const VectorType          *lumped_mass)
+  CellwiseOperator<T>::set_terms(const double               c_K,
+                                 const CellCoefficients<T> *coefficients,
+                                 const double               c_M,
+                                 const CellMasses<T>       *masses,
+                                 const VectorType          *lumped_mass)
   {
     const Element element    = nodes().element();
     const bool    consistent = c_M != 0 && lumped_mass == nullptr;
@@ -45,7 +45,7 @@ namespace corotet
 
   template <typename T>
   void
-  MatrixFree<T>::set_surface(const SurfaceOperator<T> *surface)
+  CellwiseOperator<T>::set_surface(const SurfaceOperator<T> *surface)
   {
     this->surface = surface;
     if (surface != nullptr && surface_product.size() == 0)
@@ -54,7 +54,7 @@ namespace corotet
 
   template <typename T>
   void
-  MatrixFree<T>::compute_diagonal()
+  CellwiseOperator<T>::compute_diagonal()
   {
     const FormData<T> &data = this->data;
     diagonal_of_A.zero_out_ghost_values();
@@ -74,9 +74,9 @@ namespace corotet
   }
 
   template <typename T>
-  template <typename Take>
+  template <typename Store>
   void
-  MatrixFree<T>::apply(const VectorType &src, const Take &take) const
+  CellwiseOperator<T>::apply(const VectorType &src, const Store &store) const
   {
     FormData<T> data = this->data;
     data.mass_factor *=
@@ -101,27 +101,27 @@ namespace corotet
           if (diagonal != nullptr)
             sum +=
               lumped * load_as<V>(diagonal + i) * load_as<V>(src.begin() + i);
-          take(i, sum);
+          store(i, sum);
         });
         if (fetch)
           src.zero_out_ghost_values();
       }
     else if (lumped_mass == nullptr)
       cell_loop.run(src, add, [&](const unsigned int i, const auto y) {
-        take(i, y * scale);
+        store(i, y * scale);
       });
     else
       cell_loop.run(src, add, [&](const unsigned int i, const auto y) {
         using V = decltype(y + y);
-        take(i,
-             y * scale + lumped * load_as<V>(lumped_mass->begin() + i) *
-                           load_as<V>(src.begin() + i));
+        store(i,
+              y * scale + lumped * load_as<V>(lumped_mass->begin() + i) *
+                            load_as<V>(src.begin() + i));
       });
   }
 
   template <typename T>
   void
-  MatrixFree<T>::vmult(VectorType &dst, const VectorType &src) const
+  CellwiseOperator<T>::vmult(VectorType &dst, const VectorType &src) const
   {
     // Prescribed entries of the source are out of the way for a moment.
     T *const source = const_cast<VectorType &>(src).begin();
@@ -146,9 +146,9 @@ namespace corotet
 
   template <typename T>
   void
-  MatrixFree<T>::residual(VectorType       &r,
-                          const VectorType &b,
-                          const VectorType &x) const
+  CellwiseOperator<T>::residual(VectorType       &r,
+                                const VectorType &b,
+                                const VectorType &x) const
   {
     T *const       result = r.begin();
     const T *const rhs    = b.begin();
@@ -163,12 +163,12 @@ namespace corotet
 
   template <typename T>
   void
-  MatrixFree<T>::chebyshev_step(VectorType       &x,
-                                VectorType       &d,
-                                const VectorType &b,
-                                const VectorType &inverse_diagonal,
-                                const T           beta,
-                                const T           alpha) const
+  CellwiseOperator<T>::chebyshev_step(VectorType       &x,
+                                      VectorType       &d,
+                                      const VectorType &b,
+                                      const VectorType &inverse_diagonal,
+                                      const T           beta,
+                                      const T           alpha) const
   {
     T *const       X       = x.begin();
     T *const       D       = d.begin();
@@ -183,6 +183,6 @@ namespace corotet
     });
   }
 
-  template class MatrixFree<double>;
-  template class MatrixFree<float>;
+  template class CellwiseOperator<double>;
+  template class CellwiseOperator<float>;
 } // namespace corotet

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_simulation_budget_h
-#define corotet_simulation_budget_h
+#ifndef corotet_simulation_energy_budget_h
+#define corotet_simulation_energy_budget_h
 
 #include <corotet/simulation/observer.h>
 #include <corotet/simulation/structural_system.h>
@@ -30,18 +30,18 @@ namespace corotet
    *
    * @p system must outlive this object. Members are collective.
    */
-  class Budget
+  class EnergyBudget
   {
   public:
     /// @p staggered_step: if not zero, the step [s] of an integrator that keeps
     /// the kinetic energy v_-1/2 . M v_1/2 / 2 = v . M v / 2 - dt^2 a . M a / 8
     /// with the velocities half a step before and after.
-    Budget(StructuralSystem     &system,
-           const Discretization &discretization,
-           const State          &initial_state,
-           const double          time,
-           const double          load_factor,
-           const double          staggered_step = 0);
+    EnergyBudget(StructuralSystem     &system,
+                 const Discretization &discretization,
+                 const State          &initial_state,
+                 const double          time,
+                 const double          load_factor,
+                 const double          staggered_step = 0);
 
     /**
      * Accounts for the work of the step of length @p dt that led to @p state at
@@ -76,7 +76,7 @@ namespace corotet
   private:
     /// Forces at the time of a step for which the equation of motion holds;
     /// owned entries.
-    struct Forces
+    struct StepForces
     {
       double time;
       /// Work along the displacement: loads on free unknowns, elastic forces on
@@ -92,16 +92,16 @@ namespace corotet
     };
 
     void
-    take_forces(Forces &forces, const State &state) const;
+    take_forces(StepForces &forces, const State &state) const;
 
     StructuralSystem     &system;
     const Discretization &discretization;
     const bool            is_staggered;
     /// Of the last step.
-    double dt;
-    Forces last, now;
-    Vector momentum;
-    double work = 0;
+    double     dt;
+    StepForces last, now;
+    Vector     momentum;
+    double     work = 0;
     /// Energy of elastic terms that depend on time, at the start [J].
     double     initial_changing_energy = 0;
     double     dissipation             = 0;
