@@ -47,9 +47,9 @@ namespace corotet
   EnergyBudget::take_forces(StepForces &forces, const State &state) const
   {
     const StructuralSystem::Forces &terms = system.last_forces();
-    forces.time                               = system.last_time();
-    forces.external                           = terms.external;
-    forces.displacement                       = state.u;
+    forces.time                           = system.last_time();
+    forces.external                       = terms.external;
+    forces.displacement                   = state.u;
     if (system.force_terms().has_damping())
       forces.damping = terms.damping;
     const auto &prescribed = system.prescribed_motion().unknowns();
@@ -123,7 +123,7 @@ namespace corotet
                        const double time)
   {
     const StructuralSystem::Forces &terms = system.last_forces();
-    const MPI_Comm                      comm  = discretization.communicator();
+    const MPI_Comm                  comm  = discretization.communicator();
 
     // Where the equation of motion holds.
     Tensor<1, 3> reaction;
