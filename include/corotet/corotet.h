@@ -20,7 +20,7 @@
 #include <corotet/forces/dead_load.h>
 #include <corotet/forces/force_kind.h>
 #include <corotet/laws/law_kind.h>
-#include <corotet/laws/point_law.h>
+#include <corotet/material/point_law.h>
 #include <corotet/mesh/mesh_source.h>
 #include <corotet/time_integration/time_integrator.h>
 

@@ -9,10 +9,16 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
 namespace corotet
 {
   std::vector<std::pair<std::string, std::string>>
-  named_values(const std::string &text, const std::string &entry)
+  named_values(const std::string &text,
+               const std::string &entry,
+               const std::string &allowed)
   {
     std::vector<std::pair<std::string, std::string>> pairs;
     if (dealii::Utilities::trim(text).empty())
@@ -21,13 +27,31 @@ namespace corotet
       {
         const std::size_t colon = item.find(':');
         if (colon == std::string::npos)
-          throw InputError(entry,
-                           fmt::format("found '{}'; allowed: 'boundary: "
-                                       "value, boundary: value'",
-                                       item));
+          throw InputError(
+            entry, fmt::format("found '{}'; allowed: {}", item, allowed));
         pairs.emplace_back(dealii::Utilities::trim(item.substr(0, colon)),
                            dealii::Utilities::trim(item.substr(colon + 1)));
       }
     return pairs;
+  }
+
+  std::optional<dealii::Point<3>>
+  point_of(const std::string &text)
+  {
+    std::istringstream stream(text);
+    dealii::Point<3>   point;
+    unsigned int       n = 0;
+    for (std::string word; stream >> word; ++n)
+      {
+        if (n == 3)
+          return {};
+        const char *end          = word.data() + word.size();
+        const auto [stop, error] = std::from_chars(word.data(), end, point[n]);
+        if (error != std::errc() || stop != end || !std::isfinite(point[n]))
+          return {};
+      }
+    if (n != 3)
+      return {};
+    return point;
   }
 } // namespace corotet

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/base/text.h>
+#include <corotet/base/named_values.h>
 #include <corotet/forces/point_forces.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,27 +18,11 @@ namespace corotet
   using dealii::Tensor;
 
   PointForce::PointForce(const Discretization &discretization,
-                         const std::string    &text,
-                         const TableFunctions &tables,
+                         const Point<3>       &target,
+                         const Expression     &value,
                          Log                  &log)
+    : value(value)
   {
-    const std::string   entry = "Loads/Point forces";
-    const std::size_t   colon = text.find(':');
-    std::vector<double> coordinates;
-    try
-      {
-        coordinates = dealii::Utilities::string_to_double(
-          dealii::Utilities::split_string_list(text.substr(0, colon), ' '));
-      }
-    catch (const dealii::ExceptionBase &)
-      {}
-    if (colon == std::string::npos || coordinates.size() != 3)
-      throw InputError(entry,
-                       fmt::format("found '{}'; allowed: 'x y z: fx; fy; fz'",
-                                   text));
-    const Point<3> target(coordinates[0], coordinates[1], coordinates[2]);
-    value.emplace(text.substr(colon + 1), 3, entry, tables);
-
     // The nearest node; of several the one with the lowest number.
     double distance = std::numeric_limits<double>::infinity();
     for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
@@ -79,7 +63,7 @@ namespace corotet
   {
     if (!is_owned)
       return;
-    const Tensor<1, 3> now = value->vector_value(position, motion.time);
+    const Tensor<1, 3> now = value.vector_value(position, motion.time);
     for (unsigned int a = 0; a < 3; ++a)
       f.local_element(3 * node + a) += now[a];
   }
@@ -107,10 +91,20 @@ namespace corotet
   void
   PointForcesKind::add_to(ForceTerms &terms, const ForceContext &context) const
   {
-    if (dealii::Utilities::trim(forces).empty())
-      return;
-    for (const std::string &item : split_outside_brackets(forces, ','))
-      terms.add(std::make_unique<PointForce>(
-        context.discretization, item, context.tables, context.log));
+    const std::string entry   = "Loads/Point forces",
+                      allowed = "'x y z: fx; fy; fz'";
+    for (const auto &[place, force] : named_values(forces, entry, allowed))
+      {
+        const auto target = point_of(place);
+        if (!target)
+          throw InputError(
+            entry,
+            fmt::format("found '{}: {}'; allowed: {}", place, force, allowed));
+        terms.add(std::make_unique<PointForce>(
+          context.discretization,
+          *target,
+          Expression(force, 3, entry, context.tables),
+          context.log));
+      }
   }
 } // namespace corotet

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/base/text.h>
+#include <corotet/base/named_values.h>
 #include <corotet/laws/material_parameters.h>
 
 #include <deal.II/base/utilities.h>
@@ -47,20 +47,11 @@ namespace corotet
             values[id] = value;
           return values;
         }
-      for (const std::string &item : split_outside_brackets(text, ','))
+      for (const auto &[region, number] : named_values(
+             text, entry, "a number for all regions, or 'region: number, ...'"))
         {
-          const std::size_t colon = item.find(':');
-          if (colon == std::string::npos)
-            throw InputError(entry,
-                             fmt::format("found '{}'; allowed: a number for "
-                                         "all regions, or 'region: number, "
-                                         "...'",
-                                         item));
-          const unsigned int id =
-            regions.id(dealii::Utilities::trim(item.substr(0, colon)), entry);
-          const double value =
-            parse_number(dealii::Utilities::trim(item.substr(colon + 1)),
-                         entry);
+          const unsigned int id    = regions.id(region, entry);
+          const double       value = parse_number(number, entry);
           if (!values.emplace(id, value).second)
             throw InputError(entry,
                              fmt::format("region '{}' has two values",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/laws/point_law.h>
+#include <corotet/laws/law_kind.h>
 #include <corotet/operators/law_sweeps.h>
 
 namespace corotet

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/output/output_parameters.h>
 
@@ -10,45 +11,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <set>
-#include <sstream>
 
 namespace corotet
 {
   namespace
   {
-    // The numbers of "X Y Z"; throws if these are not three.
-    dealii::Point<3>
-    parse_position(const std::string &entry,
-                   const std::string &name,
-                   const std::string &text)
-    {
-      std::istringstream       stream(text);
-      std::vector<std::string> words;
-      for (std::string word; stream >> word;)
-        words.push_back(word);
-      dealii::Point<3> position;
-      bool             good = words.size() == 3;
-      for (unsigned int c = 0; good && c < 3; ++c)
-        {
-          const char *end = words[c].data() + words[c].size();
-          const auto [stop, error] =
-            std::from_chars(words[c].data(), end, position[c]);
-          good =
-            error == std::errc() && stop == end && std::isfinite(position[c]);
-        }
-      if (!good)
-        throw InputError(entry,
-                         fmt::format("probe '{}' is at '{}'; its position must "
-                                     "be three numbers (x y z, in m)",
-                                     name,
-                                     text));
-      return position;
-    }
-
     void
     check_name(const std::string &entry, const std::string &name)
     {
@@ -81,28 +50,25 @@ namespace corotet
     parse_probes(const std::string &entry, const std::string &probes)
     {
       std::vector<ProbePoint> points;
-      if (split_outside_brackets(probes, ',') == std::vector<std::string>{""})
-        return points;
-      std::set<std::string> names;
-      for (const std::string &probe : split_outside_brackets(probes, ','))
+      std::set<std::string>   names;
+      for (const auto &[name, place] : named_values(
+             probes, entry, "a list of NAME: X Y Z, separated by commas"))
         {
-          const std::vector<std::string> parts =
-            split_outside_brackets(probe, ':');
-          if (parts.size() != 2)
-            throw InputError(
-              entry,
-              fmt::format("'{}' is no probe; a list of NAME: X Y "
-                          "Z, separated by commas, is allowed",
-                          probe));
-          check_name(entry, parts[0]);
-          if (!names.insert(parts[0]).second)
+          check_name(entry, name);
+          if (!names.insert(name).second)
             throw InputError(
               entry,
               fmt::format("two probes are called '{}'; each name "
                           "must be used once",
-                          parts[0]));
-          points.push_back(
-            {parts[0], parse_position(entry, parts[0], parts[1])});
+                          name));
+          const auto position = point_of(place);
+          if (!position)
+            throw InputError(entry,
+                             fmt::format("probe '{}' is at '{}'; its position "
+                                         "must be three numbers (x y z, in m)",
+                                         name,
+                                         place));
+          points.push_back({name, *position});
         }
       return points;
     }

@@ -4,7 +4,7 @@
 #ifndef quadratic_volume_h
 #define quadratic_volume_h
 
-#include <corotet/laws/point_law.h>
+#include <corotet/material/point_law.h>
 
 /**
  * A hyperelastic law with the energy

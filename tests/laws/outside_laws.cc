@@ -4,7 +4,7 @@
 // A law of the test's own, written at a point and registered from outside: what
 // the library has of the same law, the number of digits of which it must have.
 
-#include <corotet/laws/point_law.h>
+#include <corotet/laws/law_kind.h>
 #include <corotet/operators/elasticity.h>
 
 #include <gtest/gtest.h>

@@ -56,11 +56,12 @@ TEST(OutputParameters, ProbesAreRead)
 TEST(OutputParameters, WrongProbesAreRefused)
 {
   EXPECT_EQ(probes_refusal("1 2 3"),
-            "Output/Probes: '1 2 3' is no probe; a list of NAME: X Y Z, "
-            "separated by commas, is allowed");
-  EXPECT_EQ(probes_refusal("tip: 0 0 0,"),
-            "Output/Probes: '' is no probe; a list of NAME: X Y Z, separated "
-            "by commas, is allowed");
+            "Output/Probes: found '1 2 3'; allowed: a list of NAME: X Y Z, "
+            "separated by commas");
+  EXPECT_EQ(
+    probes_refusal("tip: 0 0 0,"),
+    "Output/Probes: found ''; allowed: a list of NAME: X Y Z, separated "
+    "by commas");
   EXPECT_EQ(probes_refusal("2nd: 1 2 3"),
             "Output/Probes: '2nd' cannot be a probe's name; letters, digits "
             "and _ are allowed, no digit first");

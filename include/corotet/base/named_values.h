@@ -4,6 +4,9 @@
 #ifndef corotet_base_named_values_h
 #define corotet_base_named_values_h
 
+#include <deal.II/base/point.h>
+
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,10 +16,18 @@ namespace corotet
   /**
    * The pairs of a list "name: value, name: value", separated by commas outside
    * of brackets; none if @p text is empty. Throws an InputError that blames @p
-   * entry for an item without colon.
+   * entry for an item without colon and says what is @p allowed.
    */
   std::vector<std::pair<std::string, std::string>>
-  named_values(const std::string &text, const std::string &entry);
+  named_values(
+    const std::string &text,
+    const std::string &entry,
+    const std::string &allowed = "'boundary: value, boundary: value'");
+
+  /// The point whose coordinates @p text is, "x y z"; none if it is anything
+  /// but three finite numbers.
+  std::optional<dealii::Point<3>>
+  point_of(const std::string &text);
 } // namespace corotet
 
 #endif

@@ -4,9 +4,10 @@
 #ifndef corotet_forces_point_forces_h
 #define corotet_forces_point_forces_h
 
+#include <corotet/base/expression.h>
 #include <corotet/forces/force_kind.h>
 
-#include <optional>
+#include <deal.II/base/point.h>
 
 namespace corotet
 {
@@ -16,25 +17,25 @@ namespace corotet
   class PointForce : public ForceTerm
   {
   public:
-    /// At the node nearest to a point of the body at rest. @p text: "x y z: fx;
-    /// fy; fz". Throws InputError. Collective.
-    PointForce(const Discretization &discretization,
-               const std::string    &text,
-               const TableFunctions &tables,
-               Log                  &log);
+    /// @p value [N], three components, at the node nearest to a point of the
+    /// body at rest. Collective.
+    PointForce(const Discretization   &discretization,
+               const dealii::Point<3> &target,
+               const Expression       &value,
+               Log                    &log);
 
     bool
     depends_on_time() const override
     {
-      return value->depends_on_time();
+      return value.depends_on_time();
     }
 
     void
     add_force(Vector &f, const Motion &motion) const override;
 
   private:
-    std::optional<Expression> value;
-    dealii::Point<3>          position;
+    const Expression value;
+    dealii::Point<3> position;
     /// Local number; used only where the node is owned.
     unsigned int node = 0;
     bool         is_owned;

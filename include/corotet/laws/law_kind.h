@@ -45,6 +45,11 @@ namespace corotet
   std::vector<Candidate<LawKind>>
   law_kinds();
 
+  /// The law of a program, written at a point, as the library's own ones are:
+  /// law_candidate() registers it.
+  std::shared_ptr<const MaterialLaw>
+  material_law(const std::shared_ptr<const PointLaw> &law);
+
   /// A kind whose law is made by a function without arguments.
   inline Candidate<LawKind>
   law_candidate(const std::string                                         &name,

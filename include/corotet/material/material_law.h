@@ -5,9 +5,7 @@
 #define corotet_material_material_law_h
 
 #include <corotet/discretization/element.h>
-#include <corotet/material/isotropic.h>
-
-#include <deal.II/base/tensor.h>
+#include <corotet/material/point_law.h>
 
 #include <span>
 
@@ -18,14 +16,12 @@ namespace corotet
   /**
    * A law of elasticity that is chosen at run time. Laws are written as a Law,
    * at a point, and become this by MaterialLawOf. All members but sweeps() are
-   * for single points: for output and for data. H is grad u [component]
-   * [direction].
+   * for single points, of a body with the same gradient all over: for output
+   * and for data.
    */
-  class MaterialLaw
+  class MaterialLaw : public PointLaw
   {
   public:
-    virtual ~MaterialLaw() = default;
-
     /// Whether forces are linear in the displacement.
     virtual bool
     is_linear() const = 0;
@@ -44,22 +40,6 @@ namespace corotet
     {
       return true;
     }
-
-    /// First Piola-Kirchhoff stress [Pa] of a body with this gradient all over.
-    virtual dealii::Tensor<2, 3>
-    stress(const IsotropicMaterial    &material,
-           const dealii::Tensor<2, 3> &H) const = 0;
-
-    /// Its derivative in the direction @p dF.
-    virtual dealii::Tensor<2, 3>
-    stress_derivative(const IsotropicMaterial    &material,
-                      const dealii::Tensor<2, 3> &H,
-                      const dealii::Tensor<2, 3> &dF) const = 0;
-
-    /// Elastic energy per volume at rest [J/m^3] of such a body.
-    virtual double
-    energy_density(const IsotropicMaterial    &material,
-                   const dealii::Tensor<2, 3> &H) const = 0;
 
     /**
      * The stress that is shown [Pa] at points of a cell with gradients @p H,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_laws_point_law_h
-#define corotet_laws_point_law_h
+#ifndef corotet_material_point_law_h
+#define corotet_material_point_law_h
 
-#include <corotet/material/material_law.h>
+#include <corotet/material/isotropic.h>
 
-#include <memory>
+#include <deal.II/base/tensor.h>
 
 namespace corotet
 {
@@ -44,9 +44,6 @@ namespace corotet
     energy_density(const IsotropicMaterial    &material,
                    const dealii::Tensor<2, 3> &H) const = 0;
   };
-
-  std::shared_ptr<const MaterialLaw>
-  material_law(const std::shared_ptr<const PointLaw> &law);
 } // namespace corotet
 
 #endif
