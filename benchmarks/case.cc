@@ -24,6 +24,7 @@ main(int argc, char **argv)
     ->delimiter(',');
   application.add_option("--mesh", which.mesh, "Mesh instead of the beam");
   application.add_option("--element-size", which.element_size);
+  application.add_option("--clamped", which.clamped, "Its boundary at x = 0");
   application.add_option("--poissons-ratio", which.poissons_ratio);
   application.add_option("--jump", which.jump, "Ratio of stiffnesses");
   application.add_option("--bend", which.bend, "Angle [rad]");

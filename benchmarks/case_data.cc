@@ -30,10 +30,8 @@ namespace corotet::benchmarks
     if (!the_operator)
       {
         Problem &p   = problem();
-        the_operator = std::make_unique<EffectiveOperator>(p.discretization,
-                                                           p.elasticity,
-                                                           p.mass,
-                                                           p.is_prescribed);
+        the_operator = std::make_unique<EffectiveOperator>(
+          p.discretization, p.elasticity, p.mass, p.motion.is_prescribed());
         the_operator->update(1., 0.);
       }
     return *the_operator;

@@ -103,7 +103,7 @@ namespace corotet::benchmarks
   void
   add_operators(CaseData &data);
 
-  /// The same by deal.II's CellwiseOperator, of straight bodies.
+  /// The same by deal.II's MatrixFree, of straight bodies.
   void
   add_deal_matrix_free(CaseData &data);
 

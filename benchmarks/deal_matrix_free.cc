@@ -57,8 +57,8 @@ namespace corotet::benchmarks
         dealii::AffineConstraints<double> constraints(
           unknowns.locally_owned_range(),
           dealii::DoFTools::extract_locally_relevant_dofs(dofs));
-        for (unsigned int i = 0; i < problem.is_prescribed.size(); ++i)
-          if (problem.is_prescribed[i])
+        for (unsigned int i = 0; i < problem.motion.is_prescribed().size(); ++i)
+          if (problem.motion.is_prescribed()[i])
             constraints.constrain_dof_to_zero(unknowns.local_to_global(i));
         constraints.close();
 

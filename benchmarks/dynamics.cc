@@ -21,18 +21,14 @@ namespace corotet::benchmarks
     struct Run
     {
       Run(const Case &c, const std::string &solver, const double dt)
-        : log(MPI_COMM_WORLD, true)
-        , mesh(serial_mesh(c), 0, 1., MPI_COMM_WORLD, log)
+        : input(text(c, solver, dt))
+        , body(input.parameters, serial_mesh(c), MPI_COMM_WORLD, input.log)
+        , system(body, input.parameters, wall_times, input.log)
+        , integrator(input.parameters.time_integrator.make())
       {
-        parameters.declare_parameters(prm);
-        prm.parse_input_from_string(text(c, solver, dt));
-        discretization =
-          std::make_unique<Discretization>(mesh, parameters.degree);
-        system = std::make_unique<StructuralSystem>(
-          *discretization, parameters, tables, wall_times, log);
-        system->initialize(state);
-        system->prescribe(state, 0, 1);
-        system->solve_acceleration(state, 0);
+        system.initialize(state);
+        system.prescribe(state, 0, 1);
+        system.solve_acceleration(state, 0);
       }
 
       static std::string
@@ -42,14 +38,7 @@ namespace corotet::benchmarks
                             const std::string &entries) {
           return "subsection " + section + "\n" + entries + "\nend\n";
         };
-        return set("Discretization", fmt::format("set Degree = {}", c.degree)) +
-               set("Material",
-                   fmt::format("set Young's modulus = {}\n"
-                               "set Poisson's ratio = {}\nset Density = {}",
-                               youngs_modulus,
-                               poissons_ratio,
-                               density)) +
-               set("Boundary conditions", "set Fixed = x-min") +
+        return body_text(c) +
                set("Loads",
                    fmt::format("set Gravity = 0; 0; {}", -standard_fall)) +
                set("Time integration",
@@ -70,22 +59,20 @@ namespace corotet::benchmarks
       StageReport
       step()
       {
-        const StageReport report = parameters.time_integrator.selected().step(
-          *system, {time, parameters.time_step, 0.5}, state);
-        time += parameters.time_step;
+        const double      dt = input.parameters.time_step;
+        const StageReport report =
+          integrator->step(system, {time, dt, 0.5}, state);
+        time += dt;
         return report;
       }
 
-      Log                               log;
-      dealii::ParameterHandler          prm;
-      SimulationParameters              parameters;
-      Mesh                              mesh;
-      std::unique_ptr<Discretization>   discretization;
-      const TableFunctions              tables;
-      WallTimes                         wall_times;
-      std::unique_ptr<StructuralSystem> system;
-      State                             state;
-      double                            time = 0;
+      ProblemInput                          input;
+      WallTimes                             wall_times;
+      Body                                  body;
+      StructuralSystem                      system;
+      const std::unique_ptr<TimeIntegrator> integrator;
+      State                                 state;
+      double                                time = 0;
     };
 
     /// Time of a Newton iteration, all that belongs to it included; the first
@@ -112,7 +99,7 @@ namespace corotet::benchmarks
               {"step_s", time / n_steps},
               {"newton_iterations", newton / n_steps},
               {"linear_iterations", total.linear_iterations / newton},
-              {"unknowns", 3. * run.discretization->n_global_nodes()}};
+              {"unknowns", 3. * run.body.discretization.n_global_nodes()}};
     }
 
     /**

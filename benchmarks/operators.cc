@@ -81,10 +81,8 @@ namespace corotet::benchmarks
       add_application(data, "matrix_free_mass", [&data](Application &a) {
         const Problem &p  = data.problem();
         const double   dt = first_period() / 100;
-        const auto     A = std::make_shared<EffectiveOperator>(p.discretization,
-                                                           p.elasticity,
-                                                           p.mass,
-                                                           p.is_prescribed);
+        const auto     A  = std::make_shared<EffectiveOperator>(
+          p.discretization, p.elasticity, p.mass, p.motion.is_prescribed());
         A->update(1., 4 / (dt * dt));
         Vector inertia(a.x);
         p.mass.apply(inertia, a.x);

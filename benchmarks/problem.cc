@@ -3,7 +3,6 @@
 
 #include "problem.h"
 
-#include <corotet/laws/corotational.h>
 #include <corotet/mesh/box_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
 
@@ -89,17 +88,6 @@ namespace corotet::benchmarks
 
   namespace
   {
-    std::map<unsigned int, IsotropicMaterial>
-    materials_of(const Case &c)
-    {
-      return {{0,
-               isotropic_material(youngs_modulus, c.poissons_ratio, density)},
-              {1,
-               isotropic_material(youngs_modulus * c.jump,
-                                  c.poissons_ratio,
-                                  density)}};
-    }
-
     SerialMesh
     mesh_and_memory(const Case &c, double &memory)
     {
@@ -141,27 +129,42 @@ namespace corotet::benchmarks
     }
   } // namespace
 
-  Problem::Problem(const Case &c)
+  ProblemInput::ProblemInput(const std::string &text)
     : log(MPI_COMM_WORLD, true)
-    , mesh(mesh_and_memory(c, memory_at_start), 0, 1., MPI_COMM_WORLD, log)
-    , discretization(mesh, c.degree)
-    , reference(c.degree)
-    , materials(materials_of(c))
-    , mass(discretization,
-           reference,
-           {{0, density}, {1, density}},
-           MassType::consistent)
-    , elasticity(discretization,
-                 reference,
-                 materials,
-                 corotational_law(Rotation::cell_centre))
-    , is_prescribed(3 * discretization.n_local_nodes(), 0)
+  {
+    parameters.declare_parameters(prm);
+    prm.parse_input_from_string(text);
+  }
+
+  std::string
+  body_text(const Case &c)
+  {
+    return fmt::format(R"(
+      subsection Discretization
+        set Degree = {}
+      end
+      subsection Material
+        set Young's modulus = clamped: {}, free: {}
+        set Poisson's ratio = {}
+        set Density         = {}
+      end
+      subsection Boundary conditions
+        set Fixed = {}
+      end
+    )",
+                       c.degree,
+                       youngs_modulus,
+                       youngs_modulus * c.jump,
+                       c.poissons_ratio,
+                       density,
+                       c.clamped);
+  }
+
+  Problem::Problem(const Case &c)
+    : ProblemInput(body_text(c))
+    , Body(parameters, mesh_and_memory(c, memory_at_start), MPI_COMM_WORLD, log)
     , state(bent(c.bend))
   {
-    for (unsigned int n = 0; n < discretization.n_local_nodes(); ++n)
-      if (discretization.node_position(n)[0] < 1e-10)
-        for (unsigned int a = 0; a < 3; ++a)
-          is_prescribed[3 * n + a] = 1;
     reset_rotations();
   }
 
@@ -186,7 +189,7 @@ namespace corotet::benchmarks
   Problem::clamp(Vector &v) const
   {
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-      if (is_prescribed[i])
+      if (motion.is_prescribed()[i])
         v.local_element(i) = 0;
   }
 

@@ -4,13 +4,11 @@
 #ifndef corotet_benchmarks_problem_h
 #define corotet_benchmarks_problem_h
 
-#include <corotet/base/log.h>
-#include <corotet/discretization/discretization.h>
-#include <corotet/operators/elasticity.h>
-#include <corotet/operators/mass.h>
+#include <corotet/simulation/body.h>
+
+#include <deal.II/base/parameter_handler.h>
 
 #include <array>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -20,7 +18,6 @@ namespace corotet::benchmarks
   constexpr double length         = 1;
   constexpr double height         = 0.1;
   constexpr double youngs_modulus = 4e6;
-  constexpr double poissons_ratio = 0.3;
   constexpr double density        = 1000;
   constexpr double standard_fall  = 9.81;
 
@@ -36,7 +33,9 @@ namespace corotet::benchmarks
     /// Not empty: a mesh that gmsh reads or makes, instead of the beam, with
     /// elements of that size [m] if it is not 0.
     std::string mesh;
-    double      element_size   = 0;
+    double      element_size = 0;
+    /// The boundary where x = 0.
+    std::string clamped        = "x-min";
     double      poissons_ratio = 0.3;
     /// Stiffness of the half that is not clamped, over that of the other.
     double jump = 1;
@@ -57,12 +56,30 @@ namespace corotet::benchmarks
   double
   first_period();
 
+  /// What bodies of benchmarks are made of beside their meshes.
+  struct ProblemInput
+  {
+    /// @p text: as a parameter file has it.
+    explicit ProblemInput(const std::string &text);
+
+    Log                      log;
+    dealii::ParameterHandler prm;
+    SimulationParameters     parameters;
+    /// Resident memory when the serial mesh had been made, and nothing else
+    /// [bytes, of all ranks].
+    double memory_at_start = 0;
+  };
+
+  /// The entries of element, material and supports.
+  std::string
+  body_text(const Case &c);
+
   /**
    * A cantilever, clamped where x = 0, with everything that linear and
    * corotational operators are made of but no matrix. Rotations are those of
    * the state of solves.
    */
-  struct Problem
+  struct Problem : public ProblemInput, public Body
   {
     explicit Problem(const Case &c);
 
@@ -110,17 +127,6 @@ namespace corotet::benchmarks
       return 3. * discretization.n_global_nodes();
     }
 
-    Log log;
-    /// Resident memory when the serial mesh had been made, and nothing else
-    /// [bytes, of all ranks].
-    double                                          memory_at_start = 0;
-    Mesh                                            mesh;
-    Discretization                                  discretization;
-    ReferenceElement                                reference;
-    const std::map<unsigned int, IsotropicMaterial> materials;
-    Mass                                            mass;
-    Elasticity                                      elasticity;
-    std::vector<unsigned char>                      is_prescribed;
     /// The displacement of solves, ghosts included.
     Vector state;
   };

@@ -42,7 +42,7 @@ def command(run, options, output):
         if case.cells:
             words += ["--cells", ",".join(map(str, case.cells))]
         else:
-            words += ["--mesh", plan.BRACKET, "--element-size", str(case.element_size)]
+            words += ["--mesh", plan.BRACKET, "--clamped", "wall", "--element-size", str(case.element_size)]
     words += [f"--benchmark_filter=^{run.what.replace('.', '[.]')}/({pattern})(/iterations:|$)", f"--benchmark_out={output}",
               "--benchmark_out_format=json"]
     if run.ranks > 1:

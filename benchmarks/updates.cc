@@ -134,7 +134,9 @@ namespace corotet::benchmarks
                           MassType::diagonal_scaling);
         for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
           inverse_mass.local_element(i) =
-            p.is_prescribed[i] ? 0 : 1 / lumped.diagonal().local_element(i);
+            p.motion.is_prescribed()[i] ?
+              0 :
+              1 / lumped.diagonal().local_element(i);
       }
 
       Vector u, v, g, inverse_mass;

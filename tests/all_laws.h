@@ -31,21 +31,16 @@ namespace corotet::tests
       for (const Candidate<LawKind> &candidate : law_kinds())
         {
           const auto kind = candidate.make();
-          const auto add  = [&](const std::string &placement) {
-            result.push_back(
-              {candidate.name + (placement.empty() ? "" : ", " + placement),
-               " set Type = " + candidate.name + "\n" +
-                 (placement.empty() ? "" :
-                                       " set Rotation = " + placement + "\n"),
-               kind->make(placement)});
-          };
           if (kind->has_rotations())
-            for (const std::string placement : {"cell centre",
-                                                "quadrature points",
-                                                "cell centre, variational"})
-              add(placement);
+            for (const auto &[name, rotation] : rotations)
+              result.push_back({candidate.name + ", " + name,
+                                " set Type = " + candidate.name +
+                                  "\n set Rotation = " + name + "\n",
+                                kind->make(rotation)});
           else
-            add("");
+            result.push_back({candidate.name,
+                              " set Type = " + candidate.name + "\n",
+                              kind->make(Rotation::cell_centre)});
         }
       return result;
     }();

@@ -87,19 +87,31 @@ namespace corotet::tests
            "\nend\n";
   }
 
-  /**
-   * A body made of a mesh and parameters, without the driver.
-   */
-  struct Body
+  /// What a body is made of beside its mesh.
+  struct BodyInput
   {
-    Body(const SerialMesh  &serial_mesh,
-         const std::string &text,
-         const MPI_Comm     comm = MPI_COMM_WORLD)
+    BodyInput(const std::string &text, const MPI_Comm comm)
       : log(comm, true)
       , parameters(text)
-      , mesh(serial_mesh, 0, 1., comm, log, parameters.element().degree())
-      , discretization(mesh, parameters.element())
-      , system(discretization, parameters, tables, wall_times, log)
+    {}
+
+    Log        log;
+    Parameters parameters;
+    WallTimes  wall_times;
+  };
+
+  /**
+   * A body made of a mesh and parameters, with its equation of motion and its
+   * initial state, without the driver.
+   */
+  struct MovingBody : public BodyInput, public corotet::Body
+  {
+    MovingBody(const SerialMesh  &serial_mesh,
+               const std::string &text,
+               const MPI_Comm     comm = MPI_COMM_WORLD)
+      : BodyInput(text, comm)
+      , corotet::Body(parameters, serial_mesh, comm, log)
+      , system(*this, parameters, wall_times, log)
     {
       system.initialize(state);
     }
@@ -121,13 +133,6 @@ namespace corotet::tests
       u.update_ghost_values();
       return u;
     }
-
-    Log            log;
-    Parameters     parameters;
-    TableFunctions tables;
-    Mesh           mesh;
-    Discretization discretization;
-    WallTimes      wall_times;
 
     StructuralSystem system;
     State            state;

@@ -15,22 +15,35 @@
 
 namespace corotet
 {
+  std::vector<std::pair<std::string, std::optional<std::string>>>
+  names_and_values(const std::string &text)
+  {
+    using dealii::Utilities::trim;
+    std::vector<std::pair<std::string, std::optional<std::string>>> items;
+    if (trim(text).empty())
+      return items;
+    for (const std::string &item : split_outside_brackets(text, ','))
+      {
+        const std::size_t colon = item.find(':');
+        items.emplace_back(trim(item.substr(0, colon)), std::nullopt);
+        if (colon != std::string::npos)
+          items.back().second = trim(item.substr(colon + 1));
+      }
+    return items;
+  }
+
   std::vector<std::pair<std::string, std::string>>
   named_values(const std::string &text,
                const std::string &entry,
                const std::string &allowed)
   {
     std::vector<std::pair<std::string, std::string>> pairs;
-    if (dealii::Utilities::trim(text).empty())
-      return pairs;
-    for (const std::string &item : split_outside_brackets(text, ','))
+    for (const auto &[name, value] : names_and_values(text))
       {
-        const std::size_t colon = item.find(':');
-        if (colon == std::string::npos)
+        if (!value)
           throw InputError(
-            entry, fmt::format("found '{}'; allowed: {}", item, allowed));
-        pairs.emplace_back(dealii::Utilities::trim(item.substr(0, colon)),
-                           dealii::Utilities::trim(item.substr(colon + 1)));
+            entry, fmt::format("found '{}'; allowed: {}", name, allowed));
+        pairs.emplace_back(name, *value);
       }
     return pairs;
   }

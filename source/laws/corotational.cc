@@ -140,11 +140,8 @@ namespace corotet
   }
 
   std::shared_ptr<const MaterialLaw>
-  CorotationalKind::make(const std::string &rotation) const
+  CorotationalKind::make(const Rotation rotation) const
   {
-    return corotational_law(
-      rotation == "cell centre"       ? Rotation::cell_centre :
-      rotation == "quadrature points" ? Rotation::quadrature_points :
-                                        Rotation::cell_centre_variational);
+    return corotational_law(rotation);
   }
 } // namespace corotet

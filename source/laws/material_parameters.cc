@@ -98,21 +98,20 @@ namespace corotet
       "without strong compression, in which it softens; 'neo-Hookean', "
       "mu / 2 (tr C - 3) - mu ln J + lambda / 2 (ln J)^2, for large strains: "
       "no cell can be turned inside out. All are the same at small strains.");
-    prm.add_parameter("Rotation",
-                      rotation,
-                      "Where the rotation of corotational elasticity is taken: "
-                      "'cell centre', one per cell, which recovers best from "
-                      "crushed states; 'quadrature points', for thin parts "
-                      "that bend or twist far and for long motions: it "
-                      "conserves energy and angular momentum and keeps the "
-                      "full order at large rotations; 'cell centre, "
-                      "variational', one per cell with the true gradient of "
-                      "the energy. For degree 1 all are the same. Otherwise "
-                      "the log says at the end how far rotations differ "
-                      "inside of cells, and warns above 0.005 rad.",
-                      dealii::Patterns::Selection(
-                        "cell centre|quadrature points|cell centre, "
-                        "variational"));
+    add_enumeration(prm,
+                    "Rotation",
+                    rotation,
+                    rotations,
+                    "Where the rotation of corotational elasticity is taken: "
+                    "'cell centre', one per cell, which recovers best from "
+                    "crushed states; 'quadrature points', for thin parts "
+                    "that bend or twist far and for long motions: it "
+                    "conserves energy and angular momentum and keeps the "
+                    "full order at large rotations; 'cell centre, "
+                    "variational', one per cell with the true gradient of "
+                    "the energy. For degree 1 all are the same. Otherwise "
+                    "the log says at the end how far rotations differ "
+                    "inside of cells, and warns above 0.005 rad.");
     const std::string by_region =
       " One number, or 'region: number, ...' with every region.";
     prm.add_parameter("Young's modulus",

@@ -22,18 +22,18 @@ namespace corotet
     const Mass                       &mass,
     const std::vector<unsigned char> &is_prescribed,
     const SurfaceMatrix              *surface)
-    : disc(discretization)
+    : CellwiseOperator<double>(discretization, marked_unknowns(is_prescribed))
+    , disc(discretization)
     , elastic(elasticity)
     , mass_matrix(mass)
     , prescribed(is_prescribed)
     , noise(std::make_unique<ForceRoundOff>(discretization, elasticity))
-    , matrix_free(discretization, marked_unknowns(is_prescribed))
     , surface_matrix(surface)
   {
     if (surface == nullptr)
       return;
     surface_operator = std::make_unique<SurfaceOperator<double>>(disc);
-    matrix_free.set_surface(surface_operator.get());
+    set_surface(surface_operator.get());
   }
 
   EffectiveOperator::~EffectiveOperator() = default;
@@ -50,18 +50,17 @@ namespace corotet
   {
     this->c_K = c_K;
     this->c_M = c_M;
-    matrix_free.set_terms(c_K,
-                          elastic.coefficients().data(),
-                          c_M,
-                          mass_matrix.cell_masses().data(),
-                          mass_matrix.is_lumped() ? &mass_matrix.diagonal() :
-                                                    nullptr);
+    set_terms(c_K,
+              elastic.coefficients().data(),
+              c_M,
+              mass_matrix.cell_masses().data(),
+              mass_matrix.is_lumped() ? &mass_matrix.diagonal() : nullptr);
     if (surface_matrix != nullptr)
       {
         surface_operator->set(*surface_matrix);
         size_of_surface = surface_matrix->size() / c_K;
       }
-    matrix_free.compute_diagonal();
+    compute_diagonal();
     is_assembled = false;
     ++n_updates;
   }

@@ -233,6 +233,17 @@ namespace corotet
         term->add_surface_matrix(S, time, c_u, c_v);
   }
 
+  std::unique_ptr<SurfaceMatrix>
+  ForceTerms::springs(const ReferenceElement &reference,
+                      const double            time) const
+  {
+    if (!has_surface_matrix())
+      return nullptr;
+    auto S = std::make_unique<SurfaceMatrix>(discretization, reference);
+    surface_matrix(*S, time, 1., 0.);
+    return S;
+  }
+
   bool
   ForceTerms::is_linear() const
   {

@@ -11,15 +11,6 @@
 
 namespace corotet
 {
-  MassType
-  mass_type(const std::string &name)
-  {
-    return name == "consistent"       ? MassType::consistent :
-           name == "diagonal scaling" ? MassType::diagonal_scaling :
-           name == "row sum"          ? MassType::row_sum :
-                                        MassType::nodal_quadrature;
-  }
-
   std::vector<double>
   lumped_shares(const ReferenceElement &reference, const MassType type)
   {

@@ -11,7 +11,6 @@ namespace corotet
     : A(A)
     , elasticity(elasticity)
     , forces(forces)
-    , prescribed(marked_unknowns(A.is_prescribed()))
   {
     A.discretization().initialize_vector(source);
   }
@@ -39,7 +38,7 @@ namespace corotet
     const bool         with_surface =
       A.surface() != nullptr && !elasticity.is_by_cell(tangent);
     source.copy_locally_owned_data_from(src);
-    for (const unsigned int i : prescribed)
+    for (const unsigned int i : A.prescribed_unknowns())
       if (i < n_owned)
         source.local_element(i) = 0;
     if (with_forces || with_surface)
@@ -65,7 +64,7 @@ namespace corotet
         dst, source, load_factor, velocity_factor, tangent);
     if (with_forces || with_surface)
       source.zero_out_ghost_values();
-    for (const unsigned int i : prescribed)
+    for (const unsigned int i : A.prescribed_unknowns())
       if (i < n_owned)
         dst.local_element(i) =
           A.diagonal().local_element(i) * src.local_element(i);

@@ -64,11 +64,11 @@ namespace corotet
                            ModalAnalysis          &analysis)
     : directory(directory)
     , analysis(analysis)
-    , probes(parameters.probe_points(), analysis.discretization())
+    , probes(parameters.probe_points(), analysis.body().discretization)
     , stress_probes(parameters.stress_probe_points(),
-                    analysis.discretization(),
-                    parameters.has_raw_stress_at_probes())
-    , stress(analysis.stress_field())
+                    analysis.body().discretization,
+                    parameters.raw_stress_at_probes)
+    , stress(analysis.body().stress_field())
     , with_stress_at_nodes(parameters.has_stress_at_nodes())
     , with_stress_at_points(parameters.has_stress_at_points())
   {}
@@ -94,7 +94,7 @@ namespace corotet
     write_summary(directory,
                   summary,
                   results,
-                  analysis.discretization().communicator());
+                  analysis.body().discretization.communicator());
   }
 
   void
@@ -121,7 +121,7 @@ namespace corotet
           text += csv_line(row, true);
         text += csv_line(row, false);
       }
-    on_root(analysis.discretization().communicator(), [&] {
+    on_root(analysis.body().discretization.communicator(), [&] {
       const std::string path = directory + "/modes.csv";
       std::ofstream     file(path);
       file << text << std::flush;
@@ -150,15 +150,14 @@ namespace corotet
         velocity *= mode.angular_frequency;
         velocity.update_ghost_values();
         stress.set_displacement(mode.shape);
-        const Snapshot snapshot{analysis.discretization(),
-                                record,
-                                mode.shape,
-                                velocity,
-                                [&] {
-                                  return analysis.cell_results(mode.shape);
-                                },
-                                i + 1 == analysis.modes().size(),
-                                [&]() -> StressField & { return stress; }};
+        const Snapshot snapshot{
+          analysis.body().discretization,
+          record,
+          mode.shape,
+          velocity,
+          [&] { return analysis.body().elasticity.cell_results(mode.shape); },
+          i + 1 == analysis.modes().size(),
+          [&]() -> StressField & { return stress; }};
         for (const auto &writer : writers)
           if (i == 0)
             writer->start(snapshot);

@@ -21,7 +21,7 @@ namespace corotet
     if (const auto points = parameters.stress_probe_points(); !points.empty())
       stress_probes.emplace(points,
                             discretization,
-                            parameters.has_raw_stress_at_probes());
+                            parameters.raw_stress_at_probes);
     auto history =
       std::make_unique<HistoryWriter>(directory,
                                       Probes(parameters.probe_points(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/enumeration.h>
 #include <corotet/base/exceptions.h>
 #include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
@@ -118,27 +119,32 @@ namespace corotet
       "history.csv: NAME: X Y Z, separated by commas, for example "
       "'tip: 1 0.05 0.05, middle: 0.5 0.05 0.05'.",
       dealii::Patterns::Anything());
-    prm.add_parameter(
+    add_enumeration<StressOutput>(
+      prm,
       "Stress",
       stress,
+      {{"none", StressOutput::none},
+       {"nodes", StressOutput::nodes},
+       {"quadrature points", StressOutput::quadrature_points},
+       {"both", StressOutput::both}},
       "Where stress and strain are written [-]: 'none'; 'nodes', recovered, "
       "with the estimated error of each cell, in solution.vtkhdf; 'quadrature "
       "points', as computed, in stress_points.vtkhdf; 'both'. Results with it "
-      "are some times larger.",
-      dealii::Patterns::Selection("none|nodes|quadrature points|both"));
+      "are some times larger.");
     prm.add_parameter(
       "Stress probes",
       stress_probes,
       "Points of the undeformed body [m] whose stress goes into history.csv; "
       "written like 'Probes'.",
       dealii::Patterns::Anything());
-    prm.add_parameter(
+    add_enumeration<bool>(
+      prm,
       "Stress at probes",
-      stress_at_probes,
+      raw_stress_at_probes,
+      {{"recovered", false}, {"raw", true}},
       "Which stress 'Stress probes' show [-]: 'recovered', which is smooth and "
       "in general more accurate; 'raw', that of the displacement in the cells "
-      "that have the point, their mean if there are several.",
-      dealii::Patterns::Selection("recovered|raw"));
+      "that have the point, their mean if there are several.");
   }
 
   std::vector<ProbePoint>

@@ -13,51 +13,50 @@ namespace corotet
 {
   using dealii::Tensor;
 
-  EnergyBudget::EnergyBudget(StructuralSystem     &system,
-                             const Discretization &discretization,
-                             const State          &initial_state,
-                             const double          time,
-                             const double          load_factor,
-                             const double          staggered_step)
-    : system(system)
-    , discretization(discretization)
+  EnergyBudget::EnergyBudget(EquationOfMotion &equation,
+                             const State      &initial_state,
+                             const double      time,
+                             const double      load_factor,
+                             const double      staggered_step)
+    : equation(equation)
+    , body(equation.body)
+    , force_terms(equation.terms)
     , is_staggered(staggered_step > 0)
     , dt(staggered_step)
   {
-    const std::size_t n_prescribed =
-      system.prescribed_motion().unknowns().size();
+    const std::size_t n_prescribed = body.motion.unknowns().size();
     for (StepForces *forces : {&last, &now})
       {
-        discretization.initialize_vector(forces->external);
-        if (system.force_terms().has_damping())
-          discretization.initialize_vector(forces->damping);
-        discretization.initialize_vector(forces->displacement);
+        body.discretization.initialize_vector(forces->external);
+        if (force_terms.has_damping())
+          body.discretization.initialize_vector(forces->damping);
+        body.discretization.initialize_vector(forces->displacement);
         forces->carried.resize(n_prescribed);
         forces->velocity.resize(n_prescribed);
       }
-    discretization.initialize_vector(momentum);
-    system.evaluate(initial_state, time, load_factor);
+    body.discretization.initialize_vector(momentum);
+    equation.evaluate(initial_state, time, load_factor);
     take_forces(last, initial_state);
-    initial_changing_energy = system.force_terms().changing_energy(
-      {time, system.displacement(), system.velocity()});
+    initial_changing_energy = force_terms.changing_energy(
+      {time, equation.displacement(), equation.velocity()});
     record(initial, initial_state, time);
   }
 
   void
   EnergyBudget::take_forces(StepForces &forces, const State &state) const
   {
-    const StructuralSystem::Forces &terms = system.last_forces();
-    forces.time                           = system.last_time();
+    const EquationOfMotion::Forces &terms = equation.last_forces();
+    forces.time                           = equation.last_time();
     forces.external                       = terms.external;
     forces.displacement                   = state.u;
-    if (system.force_terms().has_damping())
+    if (force_terms.has_damping())
       forces.damping = terms.damping;
-    const auto &prescribed = system.prescribed_motion().unknowns();
+    const auto &prescribed = body.motion.unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
         const unsigned int i             = prescribed[k];
         forces.external.local_element(i) = terms.internal.local_element(i);
-        if (system.force_terms().has_elastic())
+        if (force_terms.has_elastic())
           forces.external.local_element(i) += terms.elastic.local_element(i);
         forces.carried[k] =
           terms.inertia.local_element(i) + terms.damping.local_element(i);
@@ -82,24 +81,25 @@ namespace corotet
     const unsigned int n = state.u.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
       sums[0] += middle(now.external, last.external, i) * du(i);
-    if (system.force_terms().has_damping())
+    if (force_terms.has_damping())
       for (unsigned int i = 0; i < n; ++i)
         sums[1] += middle(now.damping, last.damping, i) * du(i);
     // What is prescribed moves with its own velocity.
-    const auto &prescribed = system.prescribed_motion().unknowns();
+    const auto &prescribed = body.motion.unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
         const double dv = 0.5 * dt * (now.velocity[k] + last.velocity[k]);
         sums[0] += (c * now.carried[k] + (1 - c) * last.carried[k]) * dv;
-        if (system.force_terms().has_damping())
+        if (force_terms.has_damping())
           sums[1] += middle(now.damping, last.damping, prescribed[k]) *
                      (dv - du(prescribed[k]));
       }
-    sums = dealii::Utilities::MPI::sum(sums, discretization.communicator());
+    sums =
+      dealii::Utilities::MPI::sum(sums, body.discretization.communicator());
     if (!std::isfinite(sums[0] + sums[1]))
       throw ComputationError(
         "the forces at the end of the step are not finite" +
-        system.why_not_finite());
+        equation.why_not_finite());
 
     before = {{this->dt, work, dissipation}};
     work += sums[0];
@@ -122,17 +122,17 @@ namespace corotet
                        const State &state,
                        const double time)
   {
-    const StructuralSystem::Forces &terms = system.last_forces();
-    const MPI_Comm                  comm  = discretization.communicator();
+    const EquationOfMotion::Forces &terms = equation.last_forces();
+    const MPI_Comm                  comm  = body.discretization.communicator();
 
     // Where the equation of motion holds.
     Tensor<1, 3> reaction;
-    for (const unsigned int i : system.prescribed_motion().unknowns())
+    for (const unsigned int i : body.motion.unknowns())
       reaction[i % 3] +=
         terms.inertia.local_element(i) + terms.damping.local_element(i) +
         terms.internal.local_element(i) - terms.external.local_element(i);
-    if (system.force_terms().has_elastic())
-      for (const unsigned int i : system.prescribed_motion().unknowns())
+    if (force_terms.has_elastic())
+      for (const unsigned int i : body.motion.unknowns())
         reaction[i % 3] += terms.elastic.local_element(i);
     record.reaction = dealii::Utilities::MPI::sum(reaction, comm);
 
@@ -142,26 +142,27 @@ namespace corotet
                            vector.local_element(3 * n + 2)});
     };
     Tensor<1, 3> moment;
-    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-      moment += cross_product_3d(discretization.node_position(n) +
-                                   vector_at(system.displacement(), n),
+    for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+      moment += cross_product_3d(body.discretization.node_position(n) +
+                                   vector_at(equation.displacement(), n),
                                  vector_at(terms.internal, n));
     record.internal_moment = dealii::Utilities::MPI::sum(moment, comm);
 
     // At the end of the step.
-    system.set_state(state);
-    system.mass().apply(momentum, system.velocity());
+    equation.set_state(state);
+    body.mass.apply(momentum, equation.velocity());
     record.kinetic_energy = 0.5 * (momentum * state.v);
     if (is_staggered)
       record.kinetic_energy -= 0.125 * dt * dt * (terms.inertia * state.a);
     Tensor<1, 3> linear, angular;
     double       largest_square = 0;
-    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+    for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
       {
         const Tensor<1, 3> p = vector_at(momentum, n);
         const Tensor<1, 3> u = vector_at(state.u, n);
         linear += p;
-        angular += cross_product_3d(discretization.node_position(n) + u, p);
+        angular +=
+          cross_product_3d(body.discretization.node_position(n) + u, p);
         largest_square = std::max(largest_square, u.norm_square());
       }
     record.momentum         = dealii::Utilities::MPI::sum(linear, comm);
@@ -169,24 +170,21 @@ namespace corotet
     record.max_displacement =
       std::sqrt(dealii::Utilities::MPI::max(largest_square, comm));
 
-    const ElasticState elastic =
-      system.elasticity().state(system.displacement());
-    const Motion motion{time, system.displacement(), system.velocity()};
-    record.elastic_energy =
-      elastic.energy + system.force_terms().energy(motion);
+    const ElasticState elastic = body.elasticity.state(equation.displacement());
+    const Motion motion{time, equation.displacement(), equation.velocity()};
+    record.elastic_energy = elastic.energy + force_terms.energy(motion);
     if (!std::isfinite(record.elastic_energy + record.kinetic_energy))
       throw ComputationError("the energy is not finite");
     record.min_det_F        = elastic.min_det_F;
     record.inverted_cells   = elastic.inverted_cells;
     record.degenerate_cells = elastic.degenerate_cells;
     record.robust_rotations = elastic.robust_rotations;
-    record.volume           = displaced_volume(discretization,
-                                     system.reference_element(),
-                                     system.displacement());
+    record.volume           = displaced_volume(body.discretization,
+                                     body.reference,
+                                     equation.displacement());
 
-    const double external_work = work +
-                                 system.force_terms().changing_energy(motion) -
-                                 initial_changing_energy;
+    const double external_work =
+      work + force_terms.changing_energy(motion) - initial_changing_energy;
     record.time              = time;
     record.external_work     = external_work;
     record.dissipated_energy = dissipation;

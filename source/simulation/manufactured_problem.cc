@@ -18,12 +18,13 @@ namespace corotet
   using dealii::Tensor;
 
   ManufacturedProblem::ManufacturedProblem(
-    const SimulationParameters &parameters)
+    const SimulationParameters &parameters,
+    const bool                  is_used)
     : parameters(parameters)
     , manufacture(false)
   {
     const auto &section = parameters.exact_solution;
-    if (dealii::Utilities::trim(section.displacement).empty())
+    if (!is_used || dealii::Utilities::trim(section.displacement).empty())
       return;
     exact       = std::make_unique<ExactSolution>(section.displacement);
     manufacture = section.manufacture;
@@ -104,7 +105,8 @@ namespace corotet
     ForceTerms                                      &terms,
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
-    const std::map<unsigned int, IsotropicMaterial> &materials) const
+    const std::map<unsigned int, IsotropicMaterial> &materials,
+    const std::shared_ptr<const MaterialLaw>        &law) const
   {
     if (!manufacture)
       return;
@@ -126,7 +128,6 @@ namespace corotet
     const bool           varies   = solution.depends_on_time();
     const bool           with_inertia =
       parameters.time_integrator.selected().is_dynamic();
-    const std::shared_ptr<const MaterialLaw> law = parameters.material.law();
     terms.add(std::make_unique<BodyForce>(
       discretization,
       reference,

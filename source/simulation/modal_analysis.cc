@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/laws/linear.h>
 #include <corotet/simulation/modal_analysis.h>
 
 #include <deal.II/base/mpi.h>
@@ -42,18 +41,6 @@ namespace corotet
       return box;
     }
 
-    std::optional<SurfaceMatrix>
-    stiffness_of(const ForceTerms       &terms,
-                 const Discretization   &disc,
-                 const ReferenceElement &reference,
-                 const double            time)
-    {
-      std::optional<SurfaceMatrix> result;
-      if (terms.has_surface_matrix())
-        terms.surface_matrix(result.emplace(disc, reference), time, 1., 0.);
-      return result;
-    }
-
     std::vector<Vector>
     rigid_body_modes(const Discretization &disc, const RigidMotions &motions)
     {
@@ -83,53 +70,35 @@ namespace corotet
     }
   } // namespace
 
-  ModalAnalysis::ModalAnalysis(SimulationParameters &parameters,
-                               const std::string    &folder,
-                               const MPI_Comm        comm,
-                               Log                  &log)
+  ModalAnalysis::ModalAnalysis(const SimulationParameters &parameters,
+                               const std::string          &folder,
+                               const MPI_Comm              comm,
+                               Log                        &log)
     : parameters(parameters)
     , log(log)
-    , mesh(parameters.mesh, folder, comm, log, parameters.element().degree())
-    , disc(mesh, parameters.element())
-    , reference(disc.element())
-    , tables(read_table_functions(parameters.tables, folder, comm))
-    , conditions(parameters.boundary_conditions, mesh.boundaries(), tables)
-    , mass(disc,
-           reference,
-           densities(parameters.material.materials(mesh.regions())),
-           mass_type(parameters.mass_type))
-    , elastic(disc,
-              reference,
-              parameters.material.materials(mesh.regions()),
-              linear_law())
-    , terms(parameters.forces.make_for_modes({disc,
-                                              reference,
-                                              mass,
-                                              elastic,
-                                              conditions,
-                                              tables,
-                                              log,
-                                              parameters.start_time}))
-    , motion(disc, reference, conditions, 0.)
-    , surface(stiffness_of(terms, disc, reference, parameters.start_time))
-    , rigid_motions(disc,
-                    motion,
+    , the_body(parameters, folder, comm, log, Body::Purpose::small_vibrations)
+    , terms(parameters.forces.make_for_modes(
+        the_body.force_context(log, parameters.start_time)))
+    , surface(terms.springs(the_body.reference, parameters.start_time))
+    , rigid_motions(the_body.discretization,
+                    the_body.motion,
                     surface ? surface->springs() :
                               std::vector<RigidMotions::Spring>())
-    , A(disc,
-        elastic,
-        mass,
-        motion.is_prescribed(),
-        surface ? &*surface : nullptr)
+    , A(the_body.discretization,
+        the_body.elasticity,
+        the_body.mass,
+        the_body.motion.is_prescribed(),
+        surface.get())
+    , linear_solver(parameters.linear_solver, 0.01 * parameters.modes.tolerance)
     , solver(A,
-             parameters.linear_solver,
+             linear_solver,
              0.1 * parameters.modes.tolerance,
-             rigid_body_modes(disc, rigid_motions),
+             rigid_body_modes(the_body.discretization, rigid_motions),
              [this](const unsigned int n_solves) {
                this->log.progress(
                  fmt::format("modes: {} linear solves", n_solves));
              })
-    , box(bounding_box(disc))
+    , box(bounding_box(the_body.discretization))
     , length(box.first.distance(box.second))
   {
     if (parameters.modes.number > solver.max_eigenvalues())
@@ -142,30 +111,15 @@ namespace corotet
           parameters.modes.number,
           solver.max_eigenvalues(),
           solver.n_free_unknowns()));
-    log.line(fmt::format(
-      "Discretization: degree {}, {} cells, {} nodes, {} unknowns on {} rank{}",
-      disc.degree(),
-      disc.n_global_cells(),
-      disc.n_global_nodes(),
-      3 * disc.n_global_nodes(),
-      dealii::Utilities::MPI::n_mpi_processes(comm),
-      dealii::Utilities::MPI::n_mpi_processes(comm) == 1 ? "" : "s"));
-    log.line(fmt::format("Body: {:.6g} kg", mass.total()));
+    the_body.describe(log);
     note_what_is_ignored();
     wall_times.setup = seconds();
-  }
-
-  ModalAnalysis::~ModalAnalysis()
-  {
-    // The parameters' solver may live longer than the matrix that it knows.
-    parameters.linear_solver.clear();
   }
 
   void
   ModalAnalysis::compute()
   {
     ScopedTimer timer(wall_times.solve);
-    parameters.linear_solver.limit_tolerance(0.01 * parameters.modes.tolerance);
     choose_shift();
     const Eigenpairs pairs = solver.solve(parameters.modes.number, shift);
     if (pairs.values.size() > rigid_motions.size())
@@ -214,8 +168,7 @@ namespace corotet
     // of a compact body is about v_s / L, that of one as slender as 1:100 a
     // hundredth of it. Enough for a first look.
     double square = std::numeric_limits<double>::max();
-    for (const auto &[region, material] :
-         parameters.material.materials(mesh.regions()))
+    for (const auto &[region, material] : the_body.materials)
       square = std::min(square, material.mu / material.density);
     return 1e-4 * square / (length * length);
   }
@@ -224,7 +177,7 @@ namespace corotet
   ModalAnalysis::make_mode(const Vector &x) const
   {
     Mode mode;
-    disc.initialize_vector(mode.shape);
+    the_body.discretization.initialize_vector(mode.shape);
     mode.shape.copy_locally_owned_data_from(x);
     mode.shape *= sign(x) * 0.01 * length / largest_displacement(x);
     Vector f(x), g(x), r(x);
@@ -234,7 +187,7 @@ namespace corotet
     // By the energy of the strain and not by phi . K phi: so that of a rigid
     // body mode is the square of its round-off, and never negative.
     const double energy =
-      elastic.state(mode.shape).energy +
+      the_body.elasticity.state(mode.shape).energy +
       terms.energy({parameters.start_time, mode.shape, mode.shape});
     mode.eigenvalue        = 2 * energy / mode.modal_mass;
     mode.angular_frequency = std::sqrt(mode.eigenvalue);
@@ -254,12 +207,13 @@ namespace corotet
       1000 * std::numeric_limits<double>::epsilon() * norm(r) / unit;
 
     // Also from the nodes of supports, which phi moves through M.
-    mass.apply(g, mode.shape);
+    the_body.mass.apply(g, mode.shape);
     Tensor<1, 3> participation;
     for (unsigned int i = 0; i < g.locally_owned_size(); ++i)
       participation[i % 3] += g.local_element(i);
     participation =
-      dealii::Utilities::MPI::sum(participation, disc.communicator());
+      dealii::Utilities::MPI::sum(participation,
+                                  the_body.discretization.communicator());
     for (unsigned int a = 0; a < 3; ++a)
       mode.effective_mass[a] =
         participation[a] * participation[a] / mode.modal_mass;
@@ -274,13 +228,15 @@ namespace corotet
     // are alike it is would be chance, but that they are alike is, too.
     constexpr unsigned int      n_waves = 8;
     std::array<double, n_waves> products{};
-    for (unsigned int n = 0; n < disc.n_owned_nodes(); ++n)
+    for (unsigned int n = 0; n < the_body.discretization.n_owned_nodes(); ++n)
       {
-        const Tensor<1, 3> r = (disc.node_position(n) - box.first) / length;
+        const Tensor<1, 3> r =
+          (the_body.discretization.node_position(n) - box.first) / length;
         for (unsigned int a = 0; a < 3; ++a)
           {
-            const double weight = mass.diagonal().local_element(3 * n + a) *
-                                  x.local_element(3 * n + a);
+            const double weight =
+              the_body.mass.diagonal().local_element(3 * n + a) *
+              x.local_element(3 * n + a);
             const double phase = std::sqrt(2.) * r[a] +
                                  std::sqrt(3.) * r[(a + 1) % 3] +
                                  std::sqrt(5.) * r[(a + 2) % 3];
@@ -293,7 +249,8 @@ namespace corotet
     for (const double product : products)
       {
         const double sum =
-          dealii::Utilities::MPI::sum(product, disc.communicator());
+          dealii::Utilities::MPI::sum(product,
+                                      the_body.discretization.communicator());
         if (std::abs(sum) > std::abs(largest))
           largest = sum;
       }
@@ -318,17 +275,7 @@ namespace corotet
   ModalAnalysis::summary() const
   {
     RunSummary result;
-    result.ranks = dealii::Utilities::MPI::n_mpi_processes(disc.communicator());
-    result.degree = disc.degree();
-    result.cells  = disc.n_global_cells();
-    result.nodes  = disc.n_global_nodes();
-    result.dofs   = 3 * disc.n_global_nodes();
-    double volume = 0;
-    for (unsigned int c = 0; c < disc.n_owned_cells(); ++c)
-      volume += disc.geometry(c).volume;
-    result.mesh_volume =
-      dealii::Utilities::MPI::sum(volume, disc.communicator());
-    result.total_mass      = mass.total();
+    the_body.fill_in(result);
     result.steps           = computed.size();
     result.wall_times      = wall_times;
     result.total_wall_time = seconds();

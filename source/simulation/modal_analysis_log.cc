@@ -14,7 +14,8 @@ namespace corotet
   void
   ModalAnalysis::note_what_is_ignored() const
   {
-    bool something =
+    const BoundaryConditions &conditions = the_body.conditions;
+    bool                      something =
       !conditions.tractions.empty() || !conditions.pressures.empty();
     for (const ForceKind::GivenEntry &given : parameters.forces.given())
       something = something || !given.in_modes;
@@ -46,9 +47,10 @@ namespace corotet
                     i + 1,
                     computed[i].frequency,
                     computed[i].residual,
-                    100 * computed[i].effective_mass[0] / mass.total(),
-                    100 * computed[i].effective_mass[1] / mass.total(),
-                    100 * computed[i].effective_mass[2] / mass.total()));
+                    100 * computed[i].effective_mass[0] / the_body.mass.total(),
+                    100 * computed[i].effective_mass[1] / the_body.mass.total(),
+                    100 * computed[i].effective_mass[2] /
+                      the_body.mass.total()));
   }
 
   void

@@ -12,28 +12,17 @@
 
 namespace corotet
 {
-  Simulation::Simulation(SimulationParameters &parameters,
-                         const std::string    &folder,
-                         const MPI_Comm        comm,
-                         Log                  &log)
+  Simulation::Simulation(const SimulationParameters &parameters,
+                         const std::string          &folder,
+                         const MPI_Comm              comm,
+                         Log                        &log)
     : parameters(parameters)
     , log(log)
-    , tables(read_table_functions(parameters.tables, folder, comm))
-    , mesh(parameters.mesh, folder, comm, log, parameters.element().degree())
-    , disc(mesh, parameters.element())
-    , system(disc, parameters, tables, wall_times, log)
-    , stepper(parameters, disc, system, log)
+    , the_body(parameters, folder, comm, log)
+    , system(the_body, parameters, wall_times, log)
+    , stepper(parameters, system, log)
   {
-    log.line(fmt::format(
-      "Discretization: degree {}{}, {} cells, {} nodes, {} unknowns on {} rank{}",
-      disc.degree(),
-      disc.element().has_bubbles() ? " with bubbles" : "",
-      disc.n_global_cells(),
-      disc.n_global_nodes(),
-      3 * disc.n_global_nodes(),
-      dealii::Utilities::MPI::n_mpi_processes(comm),
-      dealii::Utilities::MPI::n_mpi_processes(comm) == 1 ? "" : "s"));
-    log.line(fmt::format("Body: {:.6g} kg", system.mass().total()));
+    the_body.describe(log);
     if (!parameters.time_integrator.selected().is_dynamic())
       check_supports();
     wall_times.setup = seconds();
@@ -42,12 +31,13 @@ namespace corotet
   void
   Simulation::check_supports()
   {
-    const SurfaceMatrix *springs = system.springs(parameters.start_time);
-    const std::string    motions =
-      RigidMotions(disc,
-                   system.prescribed_motion(),
-                   springs != nullptr ? springs->springs() :
-                                        std::vector<RigidMotions::Spring>())
+    const auto springs = system.equation().terms.springs(the_body.reference,
+                                                         parameters.start_time);
+    const std::string motions =
+      RigidMotions(the_body.discretization,
+                   the_body.motion,
+                   springs ? springs->springs() :
+                             std::vector<RigidMotions::Spring>())
         .description();
     if (!motions.empty())
       throw InputError("Boundary conditions/Fixed",
@@ -56,7 +46,7 @@ namespace corotet
                                    "such that nothing of this "
                                    "is left, or another Time integration/Type",
                                    motions,
-                                   springs != nullptr ?
+                                   springs ?
                                      "Fixed, Displacement and Supports" :
                                      "Fixed and Displacement"));
   }
@@ -158,7 +148,7 @@ namespace corotet
   Simulation::save()
   {
     // What the failed step has left in the system is not the state.
-    system.set_state(stepper.state());
+    system.equation().set_state(stepper.state());
     stress_is_present = false;
     ScopedTimer timer(wall_times.output);
     for (const auto &observer : *observers)
@@ -171,13 +161,11 @@ namespace corotet
   Snapshot
   Simulation::snapshot(const bool last)
   {
-    return {disc,
+    return {the_body.discretization,
             last_record,
-            system.displacement(),
-            system.velocity(),
-            [this] {
-              return system.elasticity().cell_results(system.displacement());
-            },
+            displacement(),
+            velocity(),
+            [this] { return the_body.elasticity.cell_results(displacement()); },
             last,
             [this]() -> StressField & { return present_stress(); }};
   }
@@ -186,13 +174,9 @@ namespace corotet
   Simulation::present_stress()
   {
     if (!stress)
-      stress = std::make_unique<StressField>(disc,
-                                             system.reference_element(),
-                                             parameters.material.materials(
-                                               mesh.regions()),
-                                             parameters.material.law());
+      stress = std::make_unique<StressField>(the_body.stress_field());
     if (!stress_is_present)
-      stress->set_displacement(system.displacement());
+      stress->set_displacement(displacement());
     stress_is_present = true;
     return *stress;
   }
@@ -203,22 +187,12 @@ namespace corotet
     RunSummary summary;
     summary.status  = status;
     summary.message = message;
-    summary.ranks =
-      dealii::Utilities::MPI::n_mpi_processes(disc.communicator());
-    summary.degree = disc.degree();
-    summary.cells  = disc.n_global_cells();
-    summary.nodes  = disc.n_global_nodes();
-    summary.dofs   = 3 * disc.n_global_nodes();
-    double volume  = 0;
-    for (unsigned int c = 0; c < disc.n_owned_cells(); ++c)
-      volume += disc.geometry(c).volume;
-    summary.mesh_volume =
-      dealii::Utilities::MPI::sum(volume, disc.communicator());
-    summary.total_mass            = system.mass().total();
-    summary.steps                 = last_record.step;
-    summary.end_time              = last_record.time;
-    summary.final_record          = last_record;
-    summary.preconditioner_builds = system.preconditioner_builds();
+    the_body.fill_in(summary);
+    summary.steps        = last_record.step;
+    summary.end_time     = last_record.time;
+    summary.final_record = last_record;
+    summary.preconditioner_builds =
+      system.implicit_solver().preconditioner_builds();
     if (is_started)
       {
         summary.errors                      = errors();
@@ -233,14 +207,14 @@ namespace corotet
   std::optional<ErrorNorms>
   Simulation::errors()
   {
-    const ExactSolution *exact = system.exact_solution();
+    const ExactSolution *exact = the_body.problem.solution();
     if (exact == nullptr)
       return {};
     const double     t = stepper.time();
     const ErrorNorms norms =
-      error_norms(disc,
-                  parameters.material.materials(mesh.regions()),
-                  system.displacement(),
+      error_norms(the_body.discretization,
+                  the_body.materials,
+                  displacement(),
                   [&](const dealii::Point<3> &x) {
                     return PointDisplacement{exact->displacement(x, t),
                                              exact->gradient(x, t)};
@@ -259,11 +233,12 @@ namespace corotet
   std::optional<double>
   Simulation::rotation_difference()
   {
-    if (disc.degree() == 1 || !system.elasticity().law().has_cell_rotation())
+    if (the_body.discretization.degree() == 1 ||
+        !the_body.law->has_cell_rotation())
       return {};
-    const double      angle = largest_rotation_difference(disc,
-                                                     system.reference_element(),
-                                                     system.displacement());
+    const double angle = largest_rotation_difference(the_body.discretization,
+                                                     the_body.reference,
+                                                     displacement());
     const std::string text =
       fmt::format("rotations inside of cells differ from those of their "
                   "centres by up to {:.3g} degrees",

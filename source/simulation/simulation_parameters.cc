@@ -57,29 +57,31 @@ namespace corotet
   SimulationParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
-    prm.add_parameter(
+    add_enumeration(
+      prm,
       "Type",
       type,
+      run_types,
       "What is computed: 'simulation', the body's motion or its response to "
       "load steps; 'modes', its lowest natural frequencies and shapes of "
       "vibration; 'convergence study', many runs of either kind, to see what "
-      "their results converge to and how fast.",
-      Selection("simulation|modes|convergence study"));
+      "their results converge to and how fast.");
     section(prm, "Mesh", [&] { mesh.declare_parameters(prm); });
     section(prm, "Discretization", [&] {
       prm.add_parameter("Degree",
                         degree,
                         "Polynomial degree of the displacement [-].",
                         Integer(1, 3));
-      prm.add_parameter(
+      add_enumeration(
+        prm,
         "Mass",
-        mass_type,
+        mass,
+        mass_types,
         "Mass matrix: 'consistent'; 'diagonal scaling', diagonal, from the "
         "consistent diagonal; 'row sum', diagonal, for degree 1 only; 'nodal "
         "quadrature', diagonal and as accurate as 'consistent', for degree 2 "
         "only: elements get five bubble functions more, with nodes on faces "
-        "and in cells.",
-        Selection("consistent|diagonal scaling|row sum|nodal quadrature"));
+        "and in cells.");
     });
     section(prm, "Material", [&] { material.declare_parameters(prm); });
     section(prm, "Tables", [&] { tables.declare_parameters(prm); });
@@ -136,7 +138,7 @@ namespace corotet
   Element
   SimulationParameters::element() const
   {
-    if (mass_type != "nodal quadrature")
+    if (mass != MassType::nodal_quadrature)
       return degree;
     if (degree != 2)
       throw InputError("Discretization/Mass",

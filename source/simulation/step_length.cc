@@ -20,7 +20,7 @@ namespace corotet
                                    "time {}",
                                    parameters.end_time,
                                    parameters.start_time));
-    if (parameters.newton.linearly_implicit && !integrator.is_dynamic())
+    if (parameters.newton.linearly_implicit && !integrator->is_dynamic())
       throw InputError("Newton/Linearly implicit",
                        "found true; allowed with Time integration/Type = "
                        "static: false, as nothing would correct the error of "
@@ -28,8 +28,8 @@ namespace corotet
     const auto has_stable_step = [](const TimeIntegrator &method) {
       return method.stability() != nullptr;
     };
-    if (parameters.time_step == 0 && integrator.is_dynamic() &&
-        !has_stable_step(integrator))
+    if (parameters.time_step == 0 && integrator->is_dynamic() &&
+        !has_stable_step(*integrator))
       throw InputError(
         section + "Time step",
         fmt::format("found 0; allowed: a positive number (0, the program's "
@@ -39,7 +39,7 @@ namespace corotet
     const auto estimates_error = [](const TimeIntegrator &method) {
       return method.error_constant() > 0 && !method.is_explicit();
     };
-    if (parameters.adaptive_step.enabled && !estimates_error(integrator))
+    if (parameters.adaptive_step.enabled && !estimates_error(*integrator))
       throw InputError(
         section + "Adaptive step/Enabled",
         fmt::format("found true; allowed with Type = {}, which estimate their "
@@ -55,12 +55,12 @@ namespace corotet
       {
         adaptive = std::make_unique<AdaptiveStep>(parameters.adaptive_step,
                                                   parameters.time_step);
-        discretization.initialize_vector(acceleration_change);
+        body.discretization.initialize_vector(acceleration_change);
         warn_of_steps(duration / adaptive->length(), adaptive->length());
       }
-    else if (parameters.time_step > 0 || !integrator.is_dynamic())
+    else if (parameters.time_step > 0 || !integrator->is_dynamic())
       {
-        const double n = integrator.n_steps(duration, parameters.time_step);
+        const double n = integrator->n_steps(duration, parameters.time_step);
         if (!(n <= largest_number_of_steps))
           throw InputError("Time integration/Time step",
                            fmt::format("found {}, which makes {:.4g} steps "
@@ -76,7 +76,7 @@ namespace corotet
         step_length = duration / n_steps;
         warn_of_steps(n, step_length);
       }
-    if (!integrator.stability())
+    if (!integrator->stability())
       return;
     try
       {
@@ -91,10 +91,10 @@ namespace corotet
   void
   TimeLoop::follow_stable_step()
   {
-    const StabilityControl &control = *integrator.stability();
-    const double            stable =
-      integrator.stable_step(system.largest_frequency(present, time(done)),
-                             system.force_terms().damping_shares().stiffness);
+    const StabilityControl &control = *integrator->stability();
+    const double            stable  = integrator->stable_step(
+      system.acceleration_solver().largest_frequency(present, time(done)),
+      system.equation().terms.damping_shares().stiffness);
     if (n_steps == 0)
       {
         step_length = control.safety_factor * stable;

@@ -11,15 +11,14 @@
 
 namespace corotet
 {
-  TimeLoop::TimeLoop(SimulationParameters &parameters,
-                     const Discretization &discretization,
-                     StructuralSystem     &system,
-                     Log                  &log)
+  TimeLoop::TimeLoop(const SimulationParameters &parameters,
+                     StructuralSystem           &system,
+                     Log                        &log)
     : parameters(parameters)
-    , discretization(discretization)
     , system(system)
+    , body(system.equation().body)
     , log(log)
-    , integrator(parameters.time_integrator.selected())
+    , integrator(parameters.time_integrator.make())
   {
     check_parameters();
 
@@ -87,28 +86,27 @@ namespace corotet
   {
     recording               = wanted;
     const double start_time = parameters.start_time;
-    integrator.reset();
-    if (integrator.is_dynamic())
+    integrator->reset();
+    if (integrator->is_dynamic())
       {
         system.prescribe(present, start_time, 1.);
         const StageReport report =
           system.solve_acceleration(present, start_time);
-        if (integrator.is_explicit() && !system.mass().is_lumped())
+        if (integrator->is_explicit() && !body.mass.is_lumped())
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
                                "gradients a step",
                                report.linear_iterations));
-        if (!std::isfinite(system.root_mean_square(present.a)))
+        if (!std::isfinite(body.root_mean_square(present.a)))
           throw ComputationError("the forces at the start are not finite");
       }
     else
       present.v = 0;
     budget = std::make_unique<EnergyBudget>(
-      system,
-      discretization,
+      system.equation(),
       present,
       start_time,
-      integrator.load_factor(0.),
-      integrator.is_staggered() ?
+      integrator->load_factor(0.),
+      integrator->is_staggered() ?
         end_of_step(1) * (parameters.end_time - parameters.start_time) :
         0.);
     const StepRecord &record = budget->initial_record();
@@ -135,7 +133,7 @@ namespace corotet
         from                   = done;
         try
           {
-            if (integrator.is_explicit())
+            if (integrator->is_explicit())
               advance_explicitly(next);
             else if (adaptive)
               advance_adaptively(next);
@@ -149,7 +147,7 @@ namespace corotet
           }
         catch (const ComputationError &)
           {
-            if (integrator.is_explicit())
+            if (integrator->is_explicit())
               {
                 present = good_state;
                 done    = good_done;
@@ -183,7 +181,8 @@ namespace corotet
     // to one that is recorded or that an estimate follows.
     unsigned int n  = 1;
     double       to = end_of_step(record.step);
-    while (system.can_step_many() && !is_recorded(record.step, from, to) &&
+    while (system.acceleration_solver().can_step_many() &&
+           !is_recorded(record.step, from, to) &&
            !is_stable_step_due(record.step))
       {
         ++record.step;
@@ -258,9 +257,9 @@ namespace corotet
             integrate(done, to, record);
             acceleration_change = present.a;
             acceleration_change -= good_state.a;
-            const double error = integrator.error_constant() * dt * dt *
-                                 system.root_mean_square(acceleration_change);
-            if (adaptive->accept(dt, error, system.root_mean_square(present.u)))
+            const double error = integrator->error_constant() * dt * dt *
+                                 body.root_mean_square(acceleration_change);
+            if (adaptive->accept(dt, error, body.root_mean_square(present.u)))
               {
                 finish_step(done, to, record);
                 record.rejected_steps = adaptive->n_rejected();
@@ -293,7 +292,7 @@ namespace corotet
     TimeStep first = {time(from), duration((to - from) / n), to};
     if (n == 1)
       first.end = time(to);
-    const StageReport report = integrator.steps(system, first, n, present);
+    const StageReport report = integrator->steps(system, first, n, present);
     record.newton_iterations += report.newton_iterations;
     record.linear_iterations += report.linear_iterations;
   }

@@ -12,12 +12,6 @@ namespace corotet
   }
 
   void
-  CholeskyDirect::clear()
-  {
-    factors.clear();
-  }
-
-  void
   CholeskyDirect::vmult(Vector &dst, const Vector &src) const
   {
     factors.vmult(dst, src);

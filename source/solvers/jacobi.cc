@@ -21,12 +21,6 @@ namespace corotet
   }
 
   void
-  Jacobi::clear()
-  {
-    inverse_diagonal.clear();
-  }
-
-  void
   Jacobi::vmult(Vector &dst, const Vector &src) const
   {
     inverse_diagonal.vmult(dst, src);

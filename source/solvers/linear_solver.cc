@@ -17,12 +17,24 @@
 
 namespace corotet
 {
-  LinearSolver::LinearSolver()
+  namespace
+  {
+    const Enumeration<KrylovMethod> methods{
+      {"automatic", KrylovMethod::automatic},
+      {"conjugate gradients", KrylovMethod::conjugate_gradients},
+      {"minres", KrylovMethod::minres},
+      {"gmres", KrylovMethod::gmres}};
+
+    const Enumeration<bool> operators{{"matrix-free", false},
+                                      {"assembled", true}};
+  } // namespace
+
+  LinearSolverParameters::LinearSolverParameters()
     : preconditioner(preconditioners(), "p-multigrid")
   {}
 
   void
-  LinearSolver::declare_parameters(dealii::ParameterHandler &prm)
+  LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     preconditioner.declare_parameters(
       prm,
@@ -30,22 +42,23 @@ namespace corotet
       "down to 1, matrix-free; 'amg', smoothed aggregation with rigid body "
       "modes, on the assembled matrix (where Trilinos has ML); 'jacobi', the "
       "diagonal; 'direct', a sparse factorisation of the assembled matrix.");
-    prm.add_parameter("Method",
-                      method,
-                      "Krylov method. 'automatic': conjugate gradients for "
-                      "symmetric systems, MINRES where these turn out to be "
-                      "indefinite; for those that are not symmetric flexible "
-                      "conjugate gradients, and where these are slow GMRES "
-                      "(flexible, restarted after 30 iterations, up to 200 "
-                      "where its vectors take less than 64 MiB), whose "
-                      "vectors take nearly as much memory as all the rest.",
-                      dealii::Patterns::Selection(
-                        "automatic|conjugate gradients|minres|gmres"));
-    prm.add_parameter("Operator",
-                      operator_type,
-                      "How the matrix is applied: cell by cell without "
-                      "storing it, or assembled.",
-                      dealii::Patterns::Selection("matrix-free|assembled"));
+    add_enumeration(prm,
+                    "Method",
+                    method,
+                    methods,
+                    "Krylov method. 'automatic': conjugate gradients for "
+                    "symmetric systems, MINRES where these turn out to be "
+                    "indefinite; for those that are not symmetric flexible "
+                    "conjugate gradients, and where these are slow GMRES "
+                    "(flexible, restarted after 30 iterations, up to 200 "
+                    "where its vectors take less than 64 MiB), whose "
+                    "vectors take nearly as much memory as all the rest.");
+    add_enumeration(prm,
+                    "Operator",
+                    is_assembled,
+                    operators,
+                    "How the matrix is applied: cell by cell without "
+                    "storing it, or assembled.");
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Residual at which iterations stop, relative to the "
@@ -101,20 +114,29 @@ namespace corotet
     }
   } // namespace
 
+  LinearSolver::LinearSolver(const LinearSolverParameters &parameters,
+                             const double                  largest_tolerance)
+    : parameters(parameters)
+    , tolerance(std::min(parameters.tolerance, largest_tolerance))
+    , preconditioner(parameters.preconditioner.make())
+  {}
+
   void
   LinearSolver::check_fit(const bool symmetric) const
   {
-    if (operator_type == "assembled")
+    if (parameters.is_assembled)
       throw InputError("Linear solver/Operator",
                        "found assembled; allowed: matrix-free, as this "
                        "material's tangent is not assembled (an assembled "
                        "one needs Material/Rotation = cell centre and "
                        "Newton/Tangent = frozen rotation)");
-    if (!symmetric && method != "automatic" && method != "gmres")
+    const KrylovMethod method = parameters.method;
+    if (!symmetric && method != KrylovMethod::automatic &&
+        method != KrylovMethod::gmres)
       throw InputError("Linear solver/Method",
                        fmt::format("found {}; allowed: automatic or gmres, as "
                                    "this tangent is not symmetric",
-                                   method));
+                                   name_of(methods, method)));
   }
 
   template <typename Matrix>
@@ -138,13 +160,13 @@ namespace corotet
         if (!(missing < 1) || iterations >= limit)
           break;
         dx = 0;
-        preconditioner.selected().vmult(dx, r);
+        preconditioner->vmult(dx, r);
         const double start = std::sqrt(std::abs(dx * r));
         dx                 = 0;
         dealii::SolverControl        control(limit - iterations,
                                       0.3 * std::max(missing, 1e-6) * start);
         dealii::SolverMinRes<Vector> minres(control);
-        minres.solve(A, dx, r, preconditioner.selected());
+        minres.solve(A, dx, r, *preconditioner);
         iterations += control.last_step();
         x += dx;
       }
@@ -165,19 +187,19 @@ namespace corotet
   {
     // Far from a solution exact tangents may be next to singular: Newton's
     // method has others.
-    const unsigned int    limit = std::is_same_v<Matrix, TangentOperator> ?
-                                    std::min(max_iterations, 1000u) :
-                                    max_iterations;
+    const KrylovMethod    method = parameters.method;
+    const unsigned int    limit  = std::is_same_v<Matrix, TangentOperator> ?
+                                     std::min(parameters.max_iterations, 1000u) :
+                                     parameters.max_iterations;
     dealii::SolverControl control(limit, wanted);
-    if (method == "gmres" || !symmetric)
+    if (method == KrylovMethod::gmres || !symmetric)
       {
         unsigned int done = 0;
-        if (method != "gmres")
+        if (method != KrylovMethod::gmres)
           {
             FlexibleCG cg(control, n_directions);
-            const bool has_converged =
-              cg.solve(A, x, b, preconditioner.selected());
-            done = control.last_step();
+            const bool has_converged = cg.solve(A, x, b, *preconditioner);
+            done                     = control.last_step();
             if (has_converged)
               return done;
           }
@@ -186,21 +208,21 @@ namespace corotet
         // quite linear, and the plain one trusts that it is.
         using GMRES = dealii::SolverFGMRES<Vector>;
         GMRES gmres(left, GMRES::AdditionalData(basis_size(b)));
-        gmres.solve(A, x, b, preconditioner.selected());
+        gmres.solve(A, x, b, *preconditioner);
         return done + left.last_step();
       }
-    if (method == "minres")
+    if (method == KrylovMethod::minres)
       return minimal_residuals(A, limit, x, b, wanted);
     dealii::SolverCG<Vector> cg(control);
-    if (method == "conjugate gradients" ||
+    if (method == KrylovMethod::conjugate_gradients ||
         !std::is_same_v<Matrix, TangentOperator>)
       {
-        cg.solve(A, x, b, preconditioner.selected());
+        cg.solve(A, x, b, *preconditioner);
         return control.last_step();
       }
     try
       {
-        cg.solve(Watched<Matrix>{A}, x, b, preconditioner.selected());
+        cg.solve(Watched<Matrix>{A}, x, b, *preconditioner);
         return control.last_step();
       }
     catch (const NegativeCurvature &)
@@ -219,9 +241,9 @@ namespace corotet
   {
     if (J != nullptr)
       return iterate(*J, J->is_symmetric(), x, b, wanted);
-    if (operator_type == "matrix-free")
-      return iterate(A, true, x, b, wanted);
-    return iterate(A.matrix(), true, x, b, wanted);
+    if (parameters.is_assembled)
+      return iterate(A.matrix(), true, x, b, wanted);
+    return iterate(A, true, x, b, wanted);
   }
 
   bool
@@ -261,13 +283,13 @@ namespace corotet
     const bool first_solve = !is_built;
     if (first_solve)
       {
-        preconditioner.selected().build(A, positions);
+        preconditioner->build(A, positions);
         built_mass_ratio = A.mass_ratio();
         built_surface    = A.surface_size();
         ++n_builds;
       }
     else if (A.version() != known_version)
-      preconditioner.selected().update(A);
+      preconditioner->update(A);
     known_version = A.version();
 
     unsigned int iterations = 0;
@@ -289,26 +311,18 @@ namespace corotet
           failure.last_step,
           failure.last_residual / b_norm,
           wanted / b_norm,
-          max_iterations));
+          parameters.max_iterations));
       }
 
     if (first_solve)
       first_iterations = iterations;
     unsigned int acceptable =
-      preconditioner.selected().acceptable_iterations(first_iterations);
+      preconditioner->acceptable_iterations(first_iterations);
     // A new preconditioner is not better than the first solve with it, as it
     // is made of the effective operator.
     if (J != nullptr)
       acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
     is_built = iterations <= acceptable;
     return iterations;
-  }
-
-  void
-  LinearSolver::clear()
-  {
-    preconditioner.selected().clear();
-    is_built = false;
-    n_builds = 0;
   }
 } // namespace corotet

@@ -29,16 +29,16 @@ namespace corotet
   } // namespace
 
   void
-  Newton::declare_parameters(dealii::ParameterHandler &prm)
+  NewtonParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Tangent",
-                      tangent,
-                      "Derivative of the corotational forces: 'consistent' is "
-                      "exact and converges quadratically; 'frozen rotation' "
-                      "leaves out that of the rotations, is always positive "
-                      "and converges linearly, if at all.",
-                      dealii::Patterns::Selection(
-                        "consistent|frozen rotation"));
+    add_enumeration(prm,
+                    "Tangent",
+                    tangent,
+                    tangents,
+                    "Derivative of the corotational forces: 'consistent' is "
+                    "exact and converges quadratically; 'frozen rotation' "
+                    "leaves out that of the rotations, is always positive "
+                    "and converges linearly, if at all.");
     prm.add_parameter("Residual tolerance",
                       residual_tolerance,
                       "Residual at which iterations stop, relative to the "
@@ -75,10 +75,8 @@ namespace corotet
   class Newton::Iteration
   {
   public:
-    Iteration(const Newton  &newton,
-              NewtonProblem &problem,
-              NewtonReport  &report)
-      : newton(newton)
+    Iteration(Newton &newton, NewtonProblem &problem, NewtonReport &report)
+      : parameters(newton.parameters)
       , problem(problem)
       , report(report)
       , r(newton.r)
@@ -95,14 +93,15 @@ namespace corotet
         throw ComputationError("the forces are not finite in Newton iteration "
                                "0");
       report.final_residual = relative_residual();
-      if (residual.value <= 1e-3 * newton.residual_tolerance * residual.scale)
+      if (residual.value <=
+          1e-3 * parameters.residual_tolerance * residual.scale)
         return;
       if (is_round_off())
         {
           report.round_off = round_off_limit();
           return;
         }
-      if (newton.linearly_implicit)
+      if (parameters.linearly_implicit)
         {
           problem.use_definite_tangent(false);
           find_direction();
@@ -110,7 +109,7 @@ namespace corotet
           return;
         }
       best = residual.value;
-      while (report.iterations < newton.max_iterations)
+      while (report.iterations < parameters.max_iterations)
         {
           iterate();
           if (has_converged())
@@ -122,7 +121,7 @@ namespace corotet
           check_progress();
         }
       fail(fmt::format("did not converge in {} iterations",
-                       newton.max_iterations));
+                       parameters.max_iterations));
     }
 
   private:
@@ -141,7 +140,7 @@ namespace corotet
     bool
     has_small_residual() const
     {
-      return residual.value <= newton.residual_tolerance * residual.scale;
+      return residual.value <= parameters.residual_tolerance * residual.scale;
     }
 
     bool
@@ -150,7 +149,7 @@ namespace corotet
       return is_round_off() || increment_is_round_off ||
              (has_small_residual() &&
               (problem.is_linear() ||
-               error <= newton.increment_tolerance * size));
+               error <= parameters.increment_tolerance * size));
     }
 
     NewtonReport::RoundOff
@@ -171,10 +170,10 @@ namespace corotet
         "{:.3g}){}",
         what,
         relative_residual(),
-        newton.residual_tolerance,
+        parameters.residual_tolerance,
         error / size,
-        newton.increment_tolerance,
-        newton.tangent == "consistent" ?
+        parameters.increment_tolerance,
+        parameters.tangent == Tangent::consistent ?
           "" :
           "; Newton/Tangent = consistent may help"));
     }
@@ -333,12 +332,12 @@ namespace corotet
       if (n < 2 * window || problem.has_energy())
         return;
       const double ratio  = values[n - 1] / values[n - 1 - window];
-      const double wanted = newton.residual_tolerance * residual.scale;
+      const double wanted = parameters.residual_tolerance * residual.scale;
       if (!(ratio < 1) || values[n - 1] <= wanted)
         return;
       const double needed =
         window * std::log(wanted / values[n - 1]) / std::log(ratio);
-      const unsigned int left = newton.max_iterations - report.iterations;
+      const unsigned int left = parameters.max_iterations - report.iterations;
       if (left > 0 && needed > 3. * left)
         fail(fmt::format("converges too slowly: at the rate of its last {} "
                          "iterations it needs {:.0f} more, and {} of {} are "
@@ -346,15 +345,15 @@ namespace corotet
                          window,
                          std::min(std::ceil(needed), 1e6),
                          left,
-                         newton.max_iterations));
+                         parameters.max_iterations));
     }
 
-    const Newton  &newton;
-    NewtonProblem &problem;
-    NewtonReport  &report;
-    Vector        &r;
-    Vector        &dx;
-    Vector        &best_dx;
+    const NewtonParameters &parameters;
+    NewtonProblem          &problem;
+    NewtonReport           &report;
+    Vector                 &r;
+    Vector                 &dx;
+    Vector                 &best_dx;
 
     NewtonProblem::Norm residual = {};
     double              error    = std::numeric_limits<double>::infinity();
@@ -373,7 +372,7 @@ namespace corotet
   void
   Newton::solve(NewtonProblem &problem,
                 const Vector  &prototype,
-                NewtonReport  &report) const
+                NewtonReport  &report)
   {
     // Of another problem vectors may have the same size on other ranks.
     if (r.get_partitioner() != prototype.get_partitioner())

@@ -82,12 +82,12 @@ namespace corotet
   PMultigrid::declare_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Smoother degree",
-                      smoother_degree,
+                      parameters.smoother_degree,
                       "Chebyshev steps before and after the coarser degree "
                       "[-].",
                       dealii::Patterns::Integer(1, 20));
     prm.add_parameter("Smoothing range",
-                      smoothing_range,
+                      parameters.smoothing_range,
                       "Largest over smallest eigenvalue that the smoother is "
                       "to damp [-].",
                       dealii::Patterns::Double(1.1, 1e4));
@@ -95,7 +95,7 @@ namespace corotet
     for (const auto &candidate : further)
       names += "|" + candidate.name;
     prm.add_parameter("Coarse solver",
-                      coarse_type,
+                      parameters.coarse_type,
                       "For degree 1: 'direct', a sparse factorisation; "
                       "'aggregation', one cycle of smoothed aggregation with "
                       "two levels; 'amg', one cycle of Trilinos ML, with the "
@@ -105,7 +105,7 @@ namespace corotet
                       "aggregation.",
                       dealii::Patterns::Selection(names));
     prm.add_parameter("Direct limit",
-                      direct_limit,
+                      parameters.direct_limit,
                       "Unknowns of degree 1 up to which 'automatic' means "
                       "'direct' [-].",
                       dealii::Patterns::Integer(0));
@@ -120,8 +120,10 @@ namespace corotet
     std::vector<unsigned char> is_prescribed = A.is_prescribed();
     while (nodes->degree() > 1)
       {
-        levels.push_back(std::make_unique<Level>(
-          *nodes, is_prescribed, smoother_degree, smoothing_range));
+        levels.push_back(std::make_unique<Level>(*nodes,
+                                                 is_prescribed,
+                                                 parameters.smoother_degree,
+                                                 parameters.smoothing_range));
         const CoarserNodes &coarser = levels.back()->coarser;
         is_prescribed               = coarser.marks(is_prescribed);
         nodes                       = &coarser;
@@ -282,10 +284,11 @@ namespace corotet
                               surface.get());
       }
     const auto &matrix = coarse_matrix ? coarse_matrix->matrix() : A.matrix();
-    coarse_solver      = coarse_type != "automatic" ? coarse_type :
-                         3 * coarse_nodes->n_global_nodes() <= direct_limit ?
-                                                      "direct" :
-                                                      "aggregation";
+    coarse_solver =
+      parameters.coarse_type != "automatic" ? parameters.coarse_type :
+      3 * coarse_nodes->n_global_nodes() <= parameters.direct_limit ?
+                                              "direct" :
+                                              "aggregation";
     if (coarse_solver == "direct")
       {
         direct.factorize(matrix);
@@ -310,17 +313,6 @@ namespace corotet
       if (candidate.name == coarse_solver && !other)
         other = candidate.make();
     other->build(matrix, coarse_x);
-  }
-
-  void
-  PMultigrid::clear()
-  {
-    direct.clear();
-    aggregation.clear();
-    other.reset();
-    levels.clear();
-    coarse_matrix.reset();
-    coarse_nodes = nullptr;
   }
 
   template <typename VectorType>

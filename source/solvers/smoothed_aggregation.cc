@@ -73,13 +73,6 @@ namespace corotet
   {}
 
   void
-  SmoothedAggregation::clear()
-  {
-    pattern.reset();
-    coarse_factor.clear();
-  }
-
-  void
   SmoothedAggregation::build(const BlockMatrix &A, const double *positions)
   {
     const bool is_new = pattern != A.pattern();

@@ -271,12 +271,6 @@ namespace corotet
       }
   }
 
-  void
-  SparseCholesky::clear()
-  {
-    factors.reset();
-  }
-
   template <typename Number>
   void
   SparseCholesky::vmult(Number *dst, const Number *src) const

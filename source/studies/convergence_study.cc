@@ -66,13 +66,13 @@ namespace corotet
     , comm(comm)
     , log(log)
   {
-    const bool modes = parameters.run == "modes";
-    if (parameters.reference == "none" && quantities.empty())
+    const bool modes = parameters.run == RunType::modes;
+    if (parameters.reference == StudyReference::none && quantities.empty())
       throw InputError("Convergence study/Quantities",
                        "there is nothing to compare: found no quantities and "
                        "no reference; allowed: quantities, or another value of "
                        "Convergence study/Reference");
-    if (modes && parameters.reference == "exact solution")
+    if (modes && parameters.reference == StudyReference::exact_solution)
       throw InputError("Convergence study/Reference",
                        "found 'exact solution' for modes; allowed: 'none' or "
                        "'finer run'");
@@ -87,8 +87,8 @@ namespace corotet
                            command.overrides,
                            one,
                            comm);
-        if (!modes && parameters.reference == "finer run" &&
-            run.simulation()->discretization().mesh().geometry_degree() > 1)
+        if (!modes && parameters.reference == StudyReference::finer_run &&
+            run.simulation()->body().mesh.geometry_degree() > 1)
           throw InputError(
             "Convergence study/Reference",
             "found 'finer run' for curved cells; allowed: 'exact "
@@ -100,8 +100,8 @@ namespace corotet
   ConvergenceStudy::columns() const
   {
     // Of a table without numbers.
-    const bool has_norms =
-      parameters.run != "modes" && parameters.reference != "none";
+    const bool has_norms = parameters.run != RunType::modes &&
+                           parameters.reference != StudyReference::none;
     std::vector<StudyResult> results;
     for (const StudyCase &one : cases)
       {
@@ -114,7 +114,8 @@ namespace corotet
       }
     auto references = quantities;
     for (auto &quantity : references)
-      if (parameters.reference == "finer run" && !quantity.reference)
+      if (parameters.reference == StudyReference::finer_run &&
+          !quantity.reference)
         quantity.reference = 0;
     const std::string text = StudyTable(results, references).csv();
     return split_outside_brackets(text.substr(0, text.find('\n')), ',');
@@ -168,9 +169,9 @@ namespace corotet
     problem["quantities"]     = Json::array();
     for (const auto &quantity : quantities)
       problem["quantities"].push_back(quantity.name);
-    problem["reference"] = parameters.reference == "finer run" ?
+    problem["reference"] = parameters.reference == StudyReference::finer_run ?
                              finer_case().name() :
-                             parameters.reference;
+                             name_of(study_references, parameters.reference);
     problem["ranks"]     = dealii::Utilities::MPI::n_mpi_processes(comm);
 
     const Json kept =
@@ -191,7 +192,7 @@ namespace corotet
     run->open_log(path + ".log");
     StudyResult result = run->compute();
     Json        file{{"problem", problem}};
-    if (parameters.reference == "finer run")
+    if (parameters.reference == StudyReference::finer_run)
       {
         compare_with_finer_run(result, *run);
         for (const auto &quantity : quantities)
@@ -241,9 +242,9 @@ namespace corotet
       if (!quantities[i].reference)
         quantities[i].reference = result.quantities[i];
     if (const Simulation *simulation = finer->simulation())
-      finer_norms = error_norms(simulation->discretization(),
-                                finer->materials(),
-                                simulation->structural_system().displacement(),
+      finer_norms = error_norms(simulation->body().discretization,
+                                simulation->body().materials,
+                                simulation->displacement(),
                                 [](const dealii::Point<3> &) {
                                   return PointDisplacement();
                                 })
@@ -259,12 +260,12 @@ namespace corotet
     const Simulation *coarse = run.simulation();
     if (fine == nullptr || result.status != "done")
       return;
-    const GatheredField field(coarse->discretization(),
-                              coarse->structural_system().displacement());
+    const GatheredField field(coarse->body().discretization,
+                              coarse->displacement());
     result.errors =
-      error_norms(fine->discretization(),
-                  finer->materials(),
-                  fine->structural_system().displacement(),
+      error_norms(fine->body().discretization,
+                  fine->body().materials,
+                  fine->displacement(),
                   [&](const dealii::Point<3> &x) { return field.value(x); });
     result.errors->reference = finer_norms;
   }

@@ -75,13 +75,15 @@ namespace corotet
                      [&] { file.print(std::cout, *command.print_parameters); });
 
     file.read(command.parameter_file, command.overrides, comm);
-    SimulationParameters   &simulation_parameters = parameters.simulation;
-    const OutputParameters &output                = parameters.output;
-    Verification           &verification          = parameters.verification;
-    const bool is_study = simulation_parameters.type == "convergence study";
+    const SimulationParameters &simulation_parameters = parameters.simulation;
+    const OutputParameters     &output                = parameters.output;
+    Verification               &verification          = parameters.verification;
+    const bool                  is_study =
+      simulation_parameters.type == RunType::convergence_study;
     if (command.restart && !is_study)
       throw InputError("Type",
-                       "--restart: found '" + simulation_parameters.type +
+                       "--restart: found '" +
+                         name_of(run_types, simulation_parameters.type) +
                          "'; allowed: 'convergence study', whose finished "
                          "runs are kept");
     const std::string directory =
@@ -116,7 +118,7 @@ namespace corotet
         verification.initialize(study.columns());
         return record("study.csv", [&] { study.run(directory); });
       }
-    if (simulation_parameters.type == "modes")
+    if (simulation_parameters.type == RunType::modes)
       {
         verification.initialize(column_names(modes_example(output)));
         ModalAnalysis analysis(simulation_parameters, file.folder(), comm, log);
@@ -127,7 +129,7 @@ namespace corotet
     Simulation simulation(simulation_parameters, file.folder(), comm, log);
     const auto observers = make_observers(output,
                                           directory,
-                                          simulation.discretization(),
+                                          simulation.body().discretization,
                                           simulation.end_time(),
                                           log);
     record("history.csv", [&] {

@@ -44,9 +44,10 @@ namespace corotet
     if (command.output_directory)
       overrides.push_back("Output/Directory = " + *command.output_directory);
     file.read(command.parameter_file, overrides, comm);
-    if (parameters.simulation.type != "simulation")
+    if (parameters.simulation.type != RunType::simulation)
       throw InputError("Type",
-                       "found '" + parameters.simulation.type +
+                       "found '" +
+                         name_of(run_types, parameters.simulation.type) +
                          "'; allowed in a run step by step: 'simulation'");
 
     const OutputParameters &output = parameters.output;
@@ -56,7 +57,7 @@ namespace corotet
     simulation.emplace(parameters.simulation, file.folder(), comm, log);
     observers = make_observers(output,
                                directory,
-                               simulation->discretization(),
+                               simulation->body().discretization,
                                simulation->end_time(),
                                log);
     prepare_output_directory(directory, output.overwrite, comm);
@@ -99,13 +100,13 @@ namespace corotet
   const Vector &
   SteppedRun::displacement() const
   {
-    return parts->simulation->structural_system().displacement();
+    return parts->simulation->displacement();
   }
 
   const Vector &
   SteppedRun::velocity() const
   {
-    return parts->simulation->structural_system().velocity();
+    return parts->simulation->velocity();
   }
 
   const StepRecord &
@@ -117,6 +118,6 @@ namespace corotet
   const Discretization &
   SteppedRun::discretization() const
   {
-    return parts->simulation->discretization();
+    return parts->simulation->body().discretization;
   }
 } // namespace corotet

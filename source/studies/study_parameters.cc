@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/studies/study_parameters.h>
 
@@ -63,10 +64,12 @@ namespace corotet
   StudyParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
-    prm.add_parameter("Run",
-                      run,
-                      "What is run again and again: as in Type.",
-                      Selection("simulation|modes"));
+    add_enumeration<RunType>(prm,
+                             "Run",
+                             run,
+                             {{"simulation", RunType::simulation},
+                              {"modes", RunType::modes}},
+                             "What is run again and again: as in Type.");
     prm.add_parameter("Degrees",
                       degrees,
                       "Values of Discretization/Degree.",
@@ -83,25 +86,22 @@ namespace corotet
     prm.add_parameter("Masses",
                       masses,
                       "Values of Discretization/Mass. Empty: that of the file.",
-                      List(Selection("consistent|diagonal scaling|row sum|"
-                                     "nodal quadrature")));
+                      List(selection(mass_types)));
     prm.add_parameter(
       "Rotations",
       rotations,
       "Values of Material/Rotation, separated by semicolons. Empty: that of "
       "the file.",
-      List(Selection("cell centre|cell centre, variational|quadrature points"),
-           0,
-           List::max_int_value,
-           ";"));
-    prm.add_parameter(
+      List(selection(corotet::rotations), 0, List::max_int_value, ";"));
+    add_enumeration(
+      prm,
       "Reference",
       reference,
+      study_references,
       "What fields are compared with: 'exact solution', that of section Exact "
       "solution; 'finer run', one of the highest degree on the finest mesh, "
       "refined further, with the shortest time step; 'none', only Quantities "
-      "are looked at.",
-      Selection("exact solution|finer run|none"));
+      "are looked at.");
     prm.add_parameter("Further refinements",
                       further_refinements,
                       "Of the finer run [-].",
@@ -157,26 +157,21 @@ namespace corotet
   StudyParameters::quantity_list() const
   {
     std::vector<Quantity> result;
-    if (dealii::Utilities::trim(quantities).empty())
-      return result;
-    for (const std::string &item : split_outside_brackets(quantities, ','))
+    for (const auto &[name, value] : names_and_values(quantities))
       {
-        const auto parts = split_outside_brackets(item, ':');
-        Quantity   quantity{parts[0], {}};
+        Quantity quantity{name, {}};
         try
           {
-            if (parts.size() == 2)
-              quantity.reference =
-                dealii::Utilities::string_to_double(parts[1]);
+            if (value)
+              quantity.reference = dealii::Utilities::string_to_double(*value);
           }
         catch (const dealii::ExceptionBase &)
           {}
-        if (parts.size() > 2 || parts[0].empty() ||
-            (parts.size() == 2 && !quantity.reference))
+        if (name.empty() || (value && !quantity.reference))
           throw InputError(section + "Quantities",
                            fmt::format("found '{}'; allowed: 'name' or 'name: "
                                        "number'",
-                                       item));
+                                       value ? name + ": " + *value : name));
         result.push_back(quantity);
       }
     return result;

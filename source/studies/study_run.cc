@@ -170,8 +170,8 @@ namespace corotet
     file.read(path, all, comm);
     reset_peak_memory();
     // Supports may be missing with it: it is to blame first.
-    if (parameters.study.run != "modes" &&
-        parameters.study.reference == "exact solution" &&
+    if (parameters.study.run != RunType::modes &&
+        parameters.study.reference == StudyReference::exact_solution &&
         dealii::Utilities::trim(
           parameters.simulation.exact_solution.displacement)
           .empty())
@@ -179,20 +179,16 @@ namespace corotet
                        "found 'exact solution', but Exact "
                        "solution/Displacement is empty; allowed: 'finer "
                        "run' or 'none', or an exact solution");
-    if (parameters.study.run == "modes")
+    if (parameters.study.run == RunType::modes)
       analysis = std::make_unique<ModalAnalysis>(parameters.simulation,
                                                  file.folder(),
                                                  comm,
                                                  log);
     else
-      {
-        simulated        = std::make_unique<Simulation>(parameters.simulation,
-                                                 file.folder(),
-                                                 comm,
-                                                 log);
-        region_materials = parameters.simulation.material.materials(
-          simulated->discretization().mesh().regions());
-      }
+      simulated = std::make_unique<Simulation>(parameters.simulation,
+                                               file.folder(),
+                                               comm,
+                                               log);
     // Before the work starts.
     pick(simulated ? history_row({},
                                  names_of(parameters.output.probe_points()),
@@ -232,10 +228,11 @@ namespace corotet
   {
     std::vector<std::unique_ptr<Observer>> observers;
     observers.push_back(std::make_unique<LastRow>(
-      Probes(parameters.output.probe_points(), simulated->discretization()),
+      Probes(parameters.output.probe_points(),
+             simulated->body().discretization),
       StressProbes(parameters.output.stress_probe_points(),
-                   simulated->discretization(),
-                   parameters.output.has_raw_stress_at_probes())));
+                   simulated->body().discretization,
+                   parameters.output.raw_stress_at_probes)));
     const auto &last = static_cast<const LastRow &>(*observers.front());
     try
       {

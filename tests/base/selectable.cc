@@ -39,7 +39,6 @@ namespace
       return side * side;
     }
 
-  private:
     double side = 2;
   };
 
@@ -110,6 +109,25 @@ TEST(Selectable, ReadsTypeAndParametersOfCandidates)
                               "end\n");
   EXPECT_EQ(shape.name(), "square");
   EXPECT_EQ(shape.selected().area(), 9);
+}
+
+// What is made has the parameters that were read, and is apart from them: what
+// becomes of it changes no other.
+TEST(Selectable, MakesObjectsApart)
+{
+  Selectable<Shape>        shape(shapes(), "square");
+  dealii::ParameterHandler prm;
+  shape.declare_parameters(prm, "Which shape.");
+  prm.parse_input_from_string("subsection square\n set Side = 3\nend\n");
+  const std::unique_ptr<Shape> first  = shape.make();
+  const std::unique_ptr<Shape> second = shape.make();
+  EXPECT_EQ(first->area(), 9);
+  prm.parse_input_from_string("subsection square\n set Side = 5\nend\n");
+  EXPECT_EQ(shape.make()->area(), 25);
+  EXPECT_EQ(first->area(), 9);
+  dynamic_cast<Square &>(*first).side = 1;
+  EXPECT_EQ(second->area(), 9);
+  EXPECT_EQ(shape.selected().area(), 25);
 }
 
 TEST(Selectable, RefusesUnknownNames)

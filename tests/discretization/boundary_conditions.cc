@@ -83,8 +83,8 @@ TEST(PrescribedMotion, EdgesAndCorners)
 {
   for (const unsigned int degree : {1u, 2u, 3u})
     {
-      Body body(box("1, 1, 1", "2, 2, 2"),
-                fmt::format(R"(
+      MovingBody body(box("1, 1, 1", "2, 2, 2"),
+                      fmt::format(R"(
         subsection Discretization
           set Degree = {}
         end
@@ -92,10 +92,10 @@ TEST(PrescribedMotion, EdgesAndCorners)
           set Fixed        = x-max & y-max & z-max
           set Displacement = x-min & z-min: free; free; 0.1
         end)",
-                            degree));
+                                  degree));
       body.system.prescribe(body.state, 0., 1.);
       std::vector<unsigned int> n_found(4);
-      for (const unsigned int i : body.system.prescribed_motion().unknowns())
+      for (const unsigned int i : body.motion.unknowns())
         {
           const auto x = body.discretization.node_position(i / 3);
           if (i % 3 == 2 && x[0] < 1e-10 && x[2] < 1e-10)
@@ -117,7 +117,7 @@ TEST(PrescribedMotion, EdgesAndCorners)
 TEST(PrescribedMotion, BoundariesThatDoNotMeetAreRefused)
 {
   EXPECT_EQ(refusal([] {
-              Body body(box("1, 1, 1", "1, 1, 1"), R"(
+              MovingBody body(box("1, 1, 1", "1, 1, 1"), R"(
                 subsection Boundary conditions
                   set Fixed = x-min & x-max
                 end)");
@@ -131,7 +131,7 @@ TEST(PrescribedMotion, BoundariesThatDoNotMeetAreRefused)
 // derivatives, but for round-off of numbers of size one.
 TEST(PrescribedMotion, DerivativesInTime)
 {
-  Body         body(box("1, 1, 1", "2, 2, 2"), R"(
+  MovingBody   body(box("1, 1, 1", "2, 2, 2"), R"(
     subsection Boundary conditions
       set Displacement = x-min: 0.1*sin(3*t); free; y*t^2, x-max: 0; 0; 0
     end
@@ -166,7 +166,7 @@ TEST(PrescribedMotion, DerivativesInTime)
 // throw.
 TEST(PrescribedMotion, DisagreementIsRefused)
 {
-  Body body(box("1, 1, 1", "2, 2, 2"), R"(
+  MovingBody body(box("1, 1, 1", "2, 2, 2"), R"(
     subsection Boundary conditions
       set Fixed        = x-min
       set Displacement = z-min: 0.1*t; free; 0
@@ -188,7 +188,7 @@ TEST(PrescribedMotion, DisagreementIsRefused)
 
 TEST(PrescribedMotion, NotFiniteIsRefused)
 {
-  Body body(box("1, 1, 1", "1, 1, 1"), R"(
+  MovingBody body(box("1, 1, 1", "1, 1, 1"), R"(
     subsection Boundary conditions
       set Displacement = x-min: 1/t; 0; 0
     end)");
@@ -201,7 +201,7 @@ TEST(PrescribedMotion, NotFiniteIsRefused)
 // Finite at t = 0 only.
 TEST(PrescribedMotion, NoVelocityIsRefused)
 {
-  Body              body(box("1, 1, 1", "1, 1, 1"), R"(
+  MovingBody        body(box("1, 1, 1", "1, 1, 1"), R"(
     subsection Boundary conditions
       set Displacement = x-min: sqrt(-t^2); 0; 0
     end)");

@@ -135,8 +135,8 @@ class ThinCells
 TEST_P(ThinCells, PointsAreFound)
 {
   const auto &[n, element] = GetParam();
-  const Body   body(thin_shell(n, element.degree()), element_text(element));
-  const Search search(body.discretization);
+  const MovingBody body(thin_shell(n, element.degree()), element_text(element));
+  const Search     search(body.discretization);
   search.expect_found();
   search.expect_surface_is_sharp(1. / n);
 }
@@ -154,8 +154,8 @@ TEST(PointSearch, HalfCurvedBox)
 {
   for (const auto &[q, element] : curved_elements)
     {
-      const Body   body(half_curved_box(q), element_text(element));
-      const Search search(body.discretization);
+      const MovingBody body(half_curved_box(q), element_text(element));
+      const Search     search(body.discretization);
       search.expect_found();
       search.expect_surface_is_sharp(0.5);
     }

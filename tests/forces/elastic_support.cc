@@ -44,11 +44,11 @@ namespace
 
   // Forces of springs that do not depend on time.
   Vector
-  force(Body &body, const Vector &u)
+  force(MovingBody &body, const Vector &u)
   {
     Vector f;
     body.discretization.initialize_vector(f);
-    body.system.force_terms().elastic_force(f, {0., u, u});
+    body.system.equation().terms.elastic_force(f, {0., u, u});
     f *= -1;
     return f;
   }
@@ -93,16 +93,16 @@ INSTANTIATE_TEST_SUITE_P(Elements,
 // 3 N/m; k_y = 5 everywhere.
 TEST_P(ElasticSupportTest, ForceOfATranslation)
 {
-  Body         body(box("2, 1, 1", "3, 2, 2", 0.1),
-            element_text(GetParam()) +
-              supports("Elastic", "z-min: 1 + 2 * x + 3 * y; 5; 0"));
+  MovingBody   body(box("2, 1, 1", "3, 2, 2", 0.1),
+                  element_text(GetParam()) +
+                    supports("Elastic", "z-min: 1 + 2 * x + 3 * y; 5; 0"));
   const Vector u =
     body.interpolate([](const Point<3> &) { return Tensor<1, 3>({2, 3, 4}); });
   const Tensor<1, 3> f = total(force(body, u));
   EXPECT_NEAR(f[0], -2 * 9., 1e-13 * 18);
   EXPECT_NEAR(f[1], -3 * 10., 1e-13 * 30);
   EXPECT_EQ(f[2], 0);
-  EXPECT_NEAR(body.system.force_terms().energy({0., u, u}),
+  EXPECT_NEAR(body.system.equation().terms.energy({0., u, u}),
               0.5 * (4 * 9. + 9 * 10.),
               1e-13 * 63);
 }
@@ -110,9 +110,9 @@ TEST_P(ElasticSupportTest, ForceOfATranslation)
 // Springs along the normal resist the motion along it only.
 TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 {
-  Body         body(box("2, 1, 1", "3, 2, 2", 0.1),
-            element_text(GetParam()) +
-              supports("Elastic normal", "z-min: 7, x-max: 3"));
+  MovingBody   body(box("2, 1, 1", "3, 2, 2", 0.1),
+                  element_text(GetParam()) +
+                    supports("Elastic normal", "z-min: 7, x-max: 3"));
   const Vector u =
     body.interpolate([](const Point<3> &) { return Tensor<1, 3>({2, 3, 4}); });
   const Tensor<1, 3> f = total(force(body, u));
@@ -126,11 +126,11 @@ TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 // terms.
 TEST_P(ElasticSupportTest, Derivatives)
 {
-  Body              body(box("2, 1, 1", "3, 2, 2", 0.1),
-            element_text(GetParam()) +
-              supports("Elastic", "z-min: 1 + x * x; 5 + y; 2") +
-              supports("Elastic normal", "x-max: 2 + z, y-min: 3"));
-  const ForceTerms &terms = body.system.force_terms();
+  MovingBody        body(box("2, 1, 1", "3, 2, 2", 0.1),
+                  element_text(GetParam()) +
+                    supports("Elastic", "z-min: 1 + x * x; 5 + y; 2") +
+                    supports("Elastic normal", "x-max: 2 + z, y-min: 3"));
+  const ForceTerms &terms = body.system.equation().terms;
   const Vector      u     = body.interpolate(wavy);
   const Vector      w     = body.interpolate(
     [](const Point<3> &x) { return wavy(Point<3>(x[2], x[0], x[1])); });
@@ -149,7 +149,7 @@ TEST_P(ElasticSupportTest, Derivatives)
               1e-13 * energy);
   EXPECT_NEAR(energy, -0.5 * (f * u), 1e-13 * energy);
 
-  SurfaceMatrix matrix(body.discretization, body.system.reference_element());
+  SurfaceMatrix matrix(body.discretization, body.reference);
   terms.surface_matrix(matrix, 0., 2., 5.);
   SurfaceOperator<double> S(body.discretization);
   S.set(matrix);
@@ -163,28 +163,25 @@ TEST_P(ElasticSupportTest, Derivatives)
 // is; its diagonal has that of S; prescribed unknowns have no springs.
 TEST_P(ElasticSupportTest, MatricesAgree)
 {
-  Body body(box("2, 1, 1", "3, 2, 2", 0.1),
-            element_text(GetParam()) +
-              supports("Elastic", "z-min: 1e6; 2e6; 3e6") +
-              supports("Elastic normal", "x-max: 1e6") +
-              "subsection Boundary conditions\n set Fixed = x-min\nend\n");
-  body.system.evaluate(body.state, 0., 1.);
-  SurfaceMatrix matrix(body.discretization, body.system.reference_element());
-  body.system.force_terms().surface_matrix(matrix, 0., 1., 0.);
-  const auto &prescribed = body.system.prescribed_motion().is_prescribed();
-  EffectiveOperator A(body.discretization,
-                      body.system.elasticity(),
-                      body.system.mass(),
-                      prescribed,
-                      &matrix);
+  MovingBody body(
+    box("2, 1, 1", "3, 2, 2", 0.1),
+    element_text(GetParam()) + supports("Elastic", "z-min: 1e6; 2e6; 3e6") +
+      supports("Elastic normal", "x-max: 1e6") +
+      "subsection Boundary conditions\n set Fixed = x-min\nend\n");
+  body.system.equation().evaluate(body.state, 0., 1.);
+  SurfaceMatrix matrix(body.discretization, body.reference);
+  body.system.equation().terms.surface_matrix(matrix, 0., 1., 0.);
+  const auto       &prescribed = body.motion.is_prescribed();
+  EffectiveOperator A(
+    body.discretization, body.elasticity, body.mass, prescribed, &matrix);
   EffectiveOperator without(body.discretization,
-                            body.system.elasticity(),
-                            body.system.mass(),
+                            body.elasticity,
+                            body.mass,
                             prescribed);
   A.update(2., 3.);
   without.update(2., 3.);
   Vector u = body.interpolate(wavy), f(u), g(u), s(u);
-  body.system.prescribed_motion().set_zero(u);
+  body.motion.set_zero(u);
   u.zero_out_ghost_values();
   A.vmult(f, u);
   A.matrix().vmult(g, u);
@@ -195,7 +192,7 @@ TEST_P(ElasticSupportTest, MatricesAgree)
   u.update_ghost_values();
   A.add_surface(s, u);
   u.zero_out_ghost_values();
-  body.system.prescribed_motion().set_zero(s);
+  body.motion.set_zero(s);
   g += s;
   for (unsigned int i = 0; i < g.locally_owned_size(); ++i)
     if (prescribed[i])
@@ -215,11 +212,11 @@ TEST_P(ElasticSupportTest, CoarserLevels)
 {
   if (GetParam().degree() == 1)
     return;
-  Body          body(half_curved_box(2),
-            element_text(GetParam()) +
-              supports("Elastic normal", "x-max: 1 + y, z-min: 2"));
-  SurfaceMatrix matrix(body.discretization, body.system.reference_element());
-  body.system.force_terms().surface_matrix(matrix, 0., 1., 0.);
+  MovingBody    body(half_curved_box(2),
+                  element_text(GetParam()) +
+                    supports("Elastic normal", "x-max: 1 + y, z-min: 2"));
+  SurfaceMatrix matrix(body.discretization, body.reference);
+  body.system.equation().terms.surface_matrix(matrix, 0., 1., 0.);
   SurfaceOperator<double> fine_S(body.discretization);
   fine_S.set(matrix);
   const CoarserNodes      coarser(body.discretization);
@@ -255,9 +252,10 @@ TEST(ElasticSupportOnCurvedFaces, Sphere)
       double error[2], rotation[2];
       for (const unsigned int level : {0, 1})
         {
-          Body              body(thick_shell(4 << level, q),
-                    element_text(q) + supports("Elastic normal", "z-max: 2"));
-          const ForceTerms &terms = body.system.force_terms();
+          MovingBody        body(thick_shell(4 << level, q),
+                          element_text(q) +
+                            supports("Elastic normal", "z-max: 2"));
+          const ForceTerms &terms = body.system.equation().terms;
           const Vector      u     = body.interpolate(
             [](const Point<3> &x) { return Tensor<1, 3>(x / x.norm()); });
           const double area = PI / 2 * std::cos(0.3);
@@ -279,8 +277,8 @@ TEST(ElasticSupportOnCurvedFaces, Sphere)
 // The area of all springs alike is that of the faces.
 TEST(ElasticSupportOnCurvedFaces, Area)
 {
-  Body         body(thick_shell(8, 3),
-            element_text(3) + supports("Elastic", "z-max: 1; 1; 1"));
+  MovingBody   body(thick_shell(8, 3),
+                  element_text(3) + supports("Elastic", "z-max: 1; 1; 1"));
   const Vector u =
     body.interpolate([](const Point<3> &) { return Tensor<1, 3>({1, 0, 0}); });
   EXPECT_NEAR(total(force(body, u))[0], -PI / 2 * std::cos(0.3), 1e-5);
@@ -289,9 +287,9 @@ TEST(ElasticSupportOnCurvedFaces, Area)
 // Dashpots resist the velocity.
 TEST(Dashpots, Force)
 {
-  Body              body(box("2, 1, 1", "3, 2, 2", 0.1),
-            element_text(2) + supports("Dashpots", "z-min: 1 + t; 5; 0"));
-  const ForceTerms &terms = body.system.force_terms();
+  MovingBody        body(box("2, 1, 1", "3, 2, 2", 0.1),
+                  element_text(2) + supports("Dashpots", "z-min: 1 + t; 5; 0"));
+  const ForceTerms &terms = body.system.equation().terms;
   const Vector      u     = body.interpolate(wavy);
   const Vector      v =
     body.interpolate([](const Point<3> &) { return Tensor<1, 3>({2, 3, 4}); });
@@ -313,12 +311,13 @@ TEST(Supports, Absent)
   for (const std::string &text :
        {std::string(), supports("Elastic", "z-min: 0; 0; 0")})
     {
-      Body              body(box("2, 1, 1", "2, 1, 1"), text);
-      const ForceTerms &terms = body.system.force_terms();
+      MovingBody        body(box("2, 1, 1", "2, 1, 1"), text);
+      const ForceTerms &terms = body.system.equation().terms;
       EXPECT_FALSE(terms.has_surface_matrix());
       EXPECT_FALSE(terms.has_elastic());
-      EXPECT_EQ(body.system.springs(0.), nullptr);
-      EXPECT_EQ(body.system.last_forces().elastic.size(), 0u);
+      EXPECT_EQ(body.system.equation().terms.springs(body.reference, 0.),
+                nullptr);
+      EXPECT_EQ(body.system.equation().last_forces().elastic.size(), 0u);
     }
 }
 
@@ -326,8 +325,9 @@ TEST(Supports, Refusals)
 {
   const auto refusal_of = [](const std::string &entry,
                              const std::string &value) {
-    return refusal(
-      [&] { Body body(box("1, 1, 1", "1, 1, 1"), supports(entry, value)); });
+    return refusal([&] {
+      MovingBody body(box("1, 1, 1", "1, 1, 1"), supports(entry, value));
+    });
   };
   EXPECT_EQ(refusal_of("Elastic", "z-mix: 1; 1; 1"),
             "Supports/Elastic: no such boundary: found 'z-mix'; the mesh has "

@@ -27,18 +27,18 @@ namespace
   }
 
   // The external force on a 1 x 2 x 1 box of 3 kg/m^3 at time t.
-  struct Loaded : public Body
+  struct Loaded : public MovingBody
   {
     Loaded(const Element element, const std::string &text)
-      : Body(box("1, 2, 1", "2, 3, 2", 0.2),
-             element_text(element) +
-               "subsection Material\n set Density = 3\nend\n" + text)
+      : MovingBody(box("1, 2, 1", "2, 3, 2", 0.2),
+                   element_text(element) +
+                     "subsection Material\n set Density = 3\nend\n" + text)
     {}
 
     const Vector &
     force(const double t)
     {
-      return system.evaluate(state, t, 1.).external;
+      return system.equation().evaluate(state, t, 1.).external;
     }
   };
 
@@ -170,9 +170,7 @@ TEST_P(LoadsTest, DisplacedVolume)
   F[1][1]        = 1.5;
   const Vector u = body.interpolate(
     [&](const Point<3> &x) { return F * x - Tensor<1, 3>(x); });
-  EXPECT_NEAR(displaced_volume(body.discretization,
-                               body.system.reference_element(),
-                               u),
+  EXPECT_NEAR(displaced_volume(body.discretization, body.reference, u),
               2 * determinant(F),
               1e-12);
 }

@@ -134,7 +134,7 @@ TEST(OutsideForces, PullOfContributing)
   const AddedCandidate<ForceKind> added(candidate<ForceKind, PullKind>("pull"));
   for (const bool is_explicit : {false, true})
     {
-      Body body(box("1, 1, 1", "2, 2, 2"), R"(
+      MovingBody body(box("1, 1, 1", "2, 2, 2"), R"(
         subsection Discretization
           set Mass = diagonal scaling
         end
@@ -163,7 +163,7 @@ TEST(OutsideForces, PullOfContributing)
       Vector u(body.state.u);
       u.update_ghost_values();
       // Of a mass of 1 kg that moves along x, y and z.
-      EXPECT_NEAR(body.system.force_terms().energy({1., u, u}),
+      EXPECT_NEAR(body.system.equation().terms.energy({1., u, u}),
                   1.5 * std::pow(std::sin(2.), 2),
                   2e-4);
     }

@@ -15,18 +15,18 @@ using dealii::Tensor;
 namespace
 {
   // The force terms of a 1 x 2 x 1 box.
-  struct UnderPressure : public Body
+  struct UnderPressure : public MovingBody
   {
     UnderPressure(const Element element, const std::string &text)
-      : Body(box("1, 2, 1", "2, 3, 2", 0.2),
-             element_text(element) + "subsection Boundary conditions\n" + text +
-               "\nend\n")
+      : MovingBody(box("1, 2, 1", "2, 3, 2", 0.2),
+                   element_text(element) + "subsection Boundary conditions\n" +
+                     text + "\nend\n")
     {}
 
     void
     linearize(const double time, const Vector &u)
     {
-      system.force_terms().linearize({time, u, u}, Tangent::consistent);
+      system.equation().terms.linearize({time, u, u}, Tangent::consistent);
     }
 
     Vector
@@ -34,7 +34,7 @@ namespace
     {
       Vector f(u);
       f.zero_out_ghost_values();
-      system.force_terms().external_force(f, {time, u, u}, 1.);
+      system.equation().terms.external_force(f, {time, u, u}, 1.);
       return f;
     }
 
@@ -51,7 +51,7 @@ namespace
     void
     subtract(Vector &f, const Vector &v, const double factor)
     {
-      system.force_terms().subtract_linearized(
+      system.equation().terms.subtract_linearized(
         f, v, factor, 0., Tangent::consistent);
     }
 
@@ -81,7 +81,7 @@ TEST_P(PressureTangent, IsTheDerivative)
                      "y-min: 2-x*z");
   const Vector  v = random_direction(body), u = body.shape();
   const double  t = 3, h = 1e-2, factor = -0.7;
-  EXPECT_TRUE(body.system.force_terms().follows_motion());
+  EXPECT_TRUE(body.system.equation().terms.follows_motion());
   Vector difference = body.force(t, moved(u, h, v));
   difference -= body.force(t, moved(u, -h, v));
   difference *= factor / (2 * h);
@@ -138,9 +138,9 @@ TEST_P(PressureTangent, NoneInLinearElasticity)
     GetParam(),
     "set Pressure = z-max: 1\nend\nsubsection Material\n set Type = "
     "linear");
-  EXPECT_FALSE(body.system.force_terms().follows_motion());
+  EXPECT_FALSE(body.system.equation().terms.follows_motion());
   EXPECT_FALSE(
-    body.system.force_terms().has_linearization(Tangent::consistent));
+    body.system.equation().terms.has_linearization(Tangent::consistent));
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements,

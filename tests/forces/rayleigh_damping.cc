@@ -126,8 +126,8 @@ TEST(RayleighDamping, ModesDecayAtTheirRatio)
   const double              c      = std::sqrt(1e6 / 1000);
   for (const unsigned int mode : {0, 1})
     {
-      Body body(box("1, 0.1, 0.1", "8, 1, 1"),
-                fmt::format(R"(
+      MovingBody body(box("1, 0.1, 0.1", "8, 1, 1"),
+                      fmt::format(R"(
         subsection Discretization
           set Degree = 3
         end
@@ -152,10 +152,10 @@ TEST(RayleighDamping, ModesDecayAtTheirRatio)
           set Type      = direct
           set Tolerance = 1e-12
         end)",
-                            c / 4,
-                            3 * c / 4,
-                            ratios[0],
-                            ratios[1]));
+                                  c / 4,
+                                  3 * c / 4,
+                                  ratios[0],
+                                  ratios[1]));
 
       const double       k     = (2 * mode + 1) * PI / 2;
       const double       omega = c * k;
@@ -166,7 +166,7 @@ TEST(RayleighDamping, ModesDecayAtTheirRatio)
         return Tensor<1, 3>({std::sin(k * x[0]), 0., 0.});
       });
       Vector             weights(shape);
-      body.system.mass().apply(weights, shape);
+      body.mass.apply(weights, shape);
       const std::complex<double> lambda(-zeta * omega,
                                         omega * std::sqrt(1 - zeta * zeta));
       const auto                 amplitude = [&] {

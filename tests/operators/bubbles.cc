@@ -40,8 +40,9 @@ namespace
   class BubblesNonlinear : public testing::TestWithParam<unsigned int>
   {
   protected:
-    NamedLaw law = nonlinear_laws()[GetParam()];
-    Body body{box("1, 2, 1", "2, 2, 2", 0.2), case_text(2, law) + with_bubbles};
+    NamedLaw   law = nonlinear_laws()[GetParam()];
+    MovingBody body{box("1, 2, 1", "2, 2, 2", 0.2),
+                    case_text(2, law) + with_bubbles};
   };
 } // namespace
 
@@ -85,22 +86,21 @@ TEST(Bubbles, PatchTest)
   const std::string material =
     "subsection Material\n set Type = linear\n set Young's modulus = 1e3\n set "
     "Poisson's ratio = 0.4\nend\n";
-  Body       body(mesh, with_bubbles + material), plain(mesh, material);
+  MovingBody body(mesh, with_bubbles + material), plain(mesh, material);
   const auto quadratic = [](const Point<3> &x) {
     return Tensor<1, 3>({x[0] * x[1] - x[2], x[1] * x[1], x[2] * x[0] + x[1]});
   };
   const double energy =
-    body.system.elasticity().state(body.interpolate(quadratic)).energy;
-  EXPECT_NEAR(
-    plain.system.elasticity().state(plain.interpolate(quadratic)).energy,
-    energy,
-    1e-13 * energy);
+    body.elasticity.state(body.interpolate(quadratic)).energy;
+  EXPECT_NEAR(plain.elasticity.state(plain.interpolate(quadratic)).energy,
+              energy,
+              1e-13 * energy);
 
   const Vector u = body.interpolate([](const Point<3> &x) {
     return Tensor<1, 3>({x[0] + 0.3 * x[1], x[2], 0.5 * x[0]});
   });
   Vector       f(body.state.u);
-  body.system.elasticity().internal_force(f, u);
+  body.elasticity.internal_force(f, u);
   const double size = f.linfty_norm();
   EXPECT_GT(size, 1.);
   for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
@@ -114,7 +114,7 @@ TEST(Bubbles, PatchTest)
         }
     }
   // Of strain xx = 1, xy = 0.15, yz = 0.5, xz = 0.25.
-  const auto   stresses = body.system.elasticity().cell_results(u).von_mises;
+  const auto   stresses = body.elasticity.cell_results(u).von_mises;
   const double mu       = 1e3 / 2.8;
   const double expected =
     std::sqrt(std::pow(2 * mu, 2) +
@@ -212,10 +212,9 @@ TEST_P(BubblesNonlinear, ExplicitStep)
   u.copy_locally_owned_data_from(displacement(body, states[0], 1., 3));
   for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
     {
-      v.local_element(i)        = std::sin(i);
-      external.local_element(i) = std::cos(i);
-      inverse_mass.local_element(i) =
-        1 / body.system.mass().diagonal().local_element(i);
+      v.local_element(i)            = std::sin(i);
+      external.local_element(i)     = std::cos(i);
+      inverse_mass.local_element(i) = 1 / body.mass.diagonal().local_element(i);
     }
   const double dt = 1e-3;
   const Vector f  = force(elasticity, moved(u, 0., v));
@@ -243,8 +242,8 @@ INSTANTIATE_TEST_SUITE_P(Placements,
 // whatever the bubbles do: det F has degree 9, as has the rule.
 TEST(Bubbles, DisplacedVolume)
 {
-  Body         body(box("1, 2, 1", "2, 2, 2", 0.2),
-            case_text(2, nonlinear_laws()[0]) + with_bubbles);
+  MovingBody   body(box("1, 2, 1", "2, 2, 2", 0.2),
+                  case_text(2, nonlinear_laws()[0]) + with_bubbles);
   const Vector u = displacement(body, states[0], 2., 5);
   const dealii::QWitherdenVincentSimplex<3> rule(5);
   const auto fe     = make_finite_element(body.discretization.element());
@@ -263,9 +262,7 @@ TEST(Bubbles, DisplacedVolume)
       }
   volume = dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
   EXPECT_GT(std::abs(volume - 2), 1e-3);
-  EXPECT_NEAR(displaced_volume(body.discretization,
-                               body.system.reference_element(),
-                               u),
+  EXPECT_NEAR(displaced_volume(body.discretization, body.reference, u),
               volume,
               1e-12);
 }
@@ -305,8 +302,10 @@ namespace
   double
   eigenvalue_error(const std::string &mass, const unsigned int n)
   {
-    Body body(box("1, 0.5, 0.5", fmt::format("{}, {}, {}", 2 * n, n, n), 0.1),
-              "subsection Discretization\n set Mass = " + mass + R"(
+    MovingBody        body(box("1, 0.5, 0.5",
+                        fmt::format("{}, {}, {}", 2 * n, n, n),
+                        0.1),
+                    "subsection Discretization\n set Mass = " + mass + R"(
               end
               subsection Material
                 set Type = linear
@@ -319,9 +318,9 @@ namespace
                   y-max: free; 0; free, z-min: free; free; 0, z-max: free; free; 0
               end)");
     EffectiveOperator A(body.discretization,
-                        body.system.elasticity(),
-                        body.system.mass(),
-                        body.system.prescribed_motion().is_prescribed());
+                        body.elasticity,
+                        body.mass,
+                        body.motion.is_prescribed());
     A.update(1., 0.);
     Vector inverse(body.state.u), v(inverse), Mv(inverse), x(inverse);
     for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
@@ -337,8 +336,8 @@ namespace
       {
         Vector ghosted(v);
         ghosted.update_ghost_values();
-        body.system.mass().apply(Mv, ghosted);
-        body.system.prescribed_motion().set_zero(Mv);
+        body.mass.apply(Mv, ghosted);
+        body.motion.set_zero(Mv);
         dealii::SolverControl    control(5000, 1e-12 * Mv.l2_norm());
         dealii::SolverCG<Vector> cg(control);
         cg.solve(A, x, Mv, jacobi);
@@ -347,7 +346,7 @@ namespace
         ghosted.copy_locally_owned_data_from(x);
         ghosted.update_ghost_values();
         const double stiffness = x * Mv;
-        body.system.mass().apply(Mv, ghosted);
+        body.mass.apply(Mv, ghosted);
         lambda = stiffness / (x * Mv);
         v.equ(1 / x.l2_norm(), x);
       }

@@ -34,7 +34,7 @@ namespace
   }
 
   Vector
-  random_vector(const Body &body, const unsigned int seed)
+  random_vector(const MovingBody &body, const unsigned int seed)
   {
     std::mt19937                           generator(seed);
     std::uniform_real_distribution<double> number(-1, 1);
@@ -67,8 +67,9 @@ class CurvedCells : public testing::TestWithParam<Curved>
 // Both kinds of cells are there, and the batches know.
 TEST_P(CurvedCells, MeshIsMixed)
 {
-  const Body body(half_curved_box(GetParam().q), material(GetParam().element));
-  unsigned int n = 0;
+  const MovingBody body(half_curved_box(GetParam().q),
+                        material(GetParam().element));
+  unsigned int     n = 0;
   for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
     n += body.discretization.is_curved(c);
   EXPECT_EQ(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 40u);
@@ -81,9 +82,10 @@ TEST_P(CurvedCells, MeshIsMixed)
 // motion has P = 0; the force is compared with that of a stretch.
 TEST_P(CurvedCells, PatchTest)
 {
-  const Body  body(half_curved_box(GetParam().q), material(GetParam().element));
-  const auto &reference = body.system.reference_element();
-  const Tensor<2, 3> Q  = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 1.1);
+  const MovingBody   body(half_curved_box(GetParam().q),
+                        material(GetParam().element));
+  const auto        &reference = body.reference;
+  const Tensor<2, 3> Q = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 1.1);
   Tensor<2, 3>       stretch({{1.2, 0.1, 0.}, {0.1, 0.9, 0.2}, {0., 0.2, 1.1}});
   Tensor<2, 3>       identity(dealii::unit_symmetric_tensor<3>());
   double             unit = 0;
@@ -147,8 +149,9 @@ TEST_P(CurvedCells, PatchTest)
 // elasticity in the rotated frame: symmetric.
 TEST_P(CurvedCells, Derivatives)
 {
-  const Body body(half_curved_box(GetParam().q), material(GetParam().element));
-  const double h = 1e-5;
+  const MovingBody body(half_curved_box(GetParam().q),
+                        material(GetParam().element));
+  const double     h = 1e-5;
   for (const auto &[name, text, law] : nonlinear_laws())
     {
       Elasticity   elastic = elasticity_of(body, law);
@@ -207,20 +210,20 @@ TEST_P(CurvedCells, Derivatives)
 TEST_P(CurvedCells, EffectiveOperator)
 {
   const Element element = GetParam().element;
-  Body          body(half_curved_box(GetParam().q), material(element));
+  MovingBody    body(half_curved_box(GetParam().q), material(element));
   Elasticity    elastic =
     elasticity_of(body, corotational_law(Rotation::cell_centre));
   elastic.update_rotations(displacement(body, states[1], 1., 1));
   const std::vector<unsigned char> free(3 * body.discretization.n_local_nodes(),
                                         0);
-  EffectiveOperator A(body.discretization, elastic, body.system.mass(), free);
+  EffectiveOperator A(body.discretization, elastic, body.mass, free);
   const double      c_K = 0.7, c_M = 500;
   A.update(c_K, c_M);
   const Vector v = random_vector(body, 5);
   Vector       product(owned(v)), Kv(product), Mv(product);
   A.vmult(product, owned(v));
   elastic.apply_tangent(Kv, v);
-  body.system.mass().apply(Mv, v);
+  body.mass.apply(Mv, v);
   Kv *= c_K;
   Kv.add(c_M, Mv);
   EXPECT_LE(largest_difference(product, Kv), 1e-13 * Kv.linfty_norm());
@@ -238,11 +241,11 @@ TEST_P(CurvedCells, EffectiveOperator)
 TEST_P(CurvedCells, CoarserForms)
 {
   const Element element = GetParam().element;
-  Body          body(half_curved_box(GetParam().q), material(element));
+  MovingBody    body(half_curved_box(GetParam().q), material(element));
   Elasticity    elastic =
     elasticity_of(body, corotational_law(Rotation::cell_centre));
   elastic.update_rotations(displacement(body, states[1], 1., 1));
-  const Mass        &mass = body.system.mass();
+  const Mass        &mass = body.mass;
   const CoarserNodes coarser(body.discretization);
   // The mass of bubbles is diagonal, that of coarser elements is not.
   const double c_M = element.has_bubbles() ? 0 : 500;
@@ -289,27 +292,27 @@ TEST_P(CurvedCells, Mass)
     types = {"nodal quadrature"};
   for (const std::string &type : types)
     {
-      Body         body(half_curved_box(GetParam().q),
-                material(element) +
-                  "subsection Discretization\n set Mass = " + type + "\nend\n");
+      MovingBody   body(half_curved_box(GetParam().q),
+                      material(element) +
+                        "subsection Discretization\n set Mass = " + type +
+                        "\nend\n");
       const Vector one = body.interpolate(
         [](const Point<3> &) { return Tensor<1, 3>({1, 0, 0}); });
       Vector zero(one), f(owned(one));
       zero = 0;
       zero.update_ghost_values();
-      const double volume = displaced_volume(body.discretization,
-                                             body.system.reference_element(),
-                                             zero);
-      double       sum    = 0;
+      const double volume =
+        displaced_volume(body.discretization, body.reference, zero);
+      double sum = 0;
       for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
         sum += body.discretization.geometry(c).volume;
       sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
       EXPECT_NEAR(sum, volume, 1e-13);
-      EXPECT_NEAR(body.system.mass().total(), 2 * volume, 1e-13);
-      body.system.mass().apply(f, one);
+      EXPECT_NEAR(body.mass.total(), 2 * volume, 1e-13);
+      body.mass.apply(f, one);
       EXPECT_NEAR(f * owned(one), 2 * volume, 1e-12);
       for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
-        EXPECT_GT(body.system.mass().diagonal().local_element(i), 0);
+        EXPECT_GT(body.mass.diagonal().local_element(i), 0);
     }
 }
 
@@ -326,7 +329,7 @@ TEST_P(CurvedCells, StraightMaps)
     "subsection Loads\n set Body force = x; 1; y * z\nend\n"
     "subsection Boundary conditions\n set Traction = x-max: x; y; z\n"
     " set Pressure = y-max: x + z\nend\n";
-  Body         a(straight, text), b(mapped, text);
+  MovingBody   a(straight, text), b(mapped, text);
   const Vector u = displacement(a, states[1], 1., 1), v = random_vector(a, 4);
   ASSERT_TRUE(b.discretization.is_curved(0));
   ASSERT_FALSE(a.discretization.is_curved(0));
@@ -356,21 +359,20 @@ TEST_P(CurvedCells, StraightMaps)
           {
             e.linearize(u, tangent);
             d.linearize(u, tangent);
-            const auto masses = [&](const Body &body) {
-              return element.has_bubbles() ?
-                       nullptr :
-                       body.system.mass().cell_masses().data();
+            const auto masses = [&](const MovingBody &body) {
+              return element.has_bubbles() ? nullptr :
+                                             body.mass.cell_masses().data();
             };
             e.apply_linearization(x, v, 1.3, 20., masses(a), nullptr);
             d.apply_linearization(y, v, 1.3, 20., masses(b), nullptr);
             compare(x, y);
           }
     }
-  compare(a.system.mass().diagonal(), b.system.mass().diagonal());
+  compare(a.mass.diagonal(), b.mass.diagonal());
   a.state.u.copy_locally_owned_data_from(u);
   b.state.u.copy_locally_owned_data_from(u);
-  compare(a.system.evaluate(a.state, 0., 1.).external,
-          b.system.evaluate(b.state, 0., 1.).external);
+  compare(a.system.equation().evaluate(a.state, 0., 1.).external,
+          b.system.equation().evaluate(b.state, 0., 1.).external);
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements,

@@ -52,8 +52,8 @@ class ElasticityTest : public testing::TestWithParam<unsigned int>
 TEST_P(ElasticityTest, RigidMotionGivesNoForce)
 {
   const SerialMesh mesh = box("1, 2, 1", "2, 3, 2", 0.2);
-  Body             linear(mesh, material_text(GetParam(), "linear"));
-  Body corotational(mesh, material_text(GetParam(), "corotational"));
+  MovingBody       linear(mesh, material_text(GetParam(), "linear"));
+  MovingBody corotational(mesh, material_text(GetParam(), "corotational"));
   const std::vector<Tensor<1, 3>> axes{Tensor<1, 3>({1., 0., 0.}),
                                        Tensor<1, 3>({0.3, -1., 2.}),
                                        Tensor<1, 3>({-1., 1., 1.})};
@@ -68,17 +68,17 @@ TEST_P(ElasticityTest, RigidMotionGivesNoForce)
             return R * x - x + Tensor<1, 3>({0.5, -0.3, 0.2});
           });
           Vector             f(linear.state.u);
-          linear.system.elasticity().internal_force(f, u);
+          linear.elasticity.internal_force(f, u);
           if (angle >= 0.1)
             reference = f.l2_norm();
           EXPECT_GT(reference, 1.);
 
           corotational.state.u.copy_locally_owned_data_from(u);
           const auto &forces =
-            corotational.system.evaluate(corotational.state, 0., 1.);
+            corotational.system.equation().evaluate(corotational.state, 0., 1.);
           largest = std::max(largest, forces.internal.l2_norm() / reference);
           EXPECT_LE(forces.internal.l2_norm(), 1e-12 * reference) << angle;
-          const Elasticity &elasticity = corotational.system.elasticity();
+          const Elasticity &elasticity = corotational.elasticity;
           EXPECT_LE(elasticity.state(u).energy, 1e-24 * reference) << angle;
           for (const double found : elasticity.cell_results(u).rotation_angle)
             EXPECT_NEAR(found,
@@ -98,15 +98,15 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
 {
   for (const std::string mass : {"consistent", "diagonal scaling"})
     {
-      Body body(box("1, 2, 1", "2, 3, 2", 0.2),
-                material_text(GetParam(), "corotational", mass));
+      MovingBody body(box("1, 2, 1", "2, 3, 2", 0.2),
+                      material_text(GetParam(), "corotational", mass));
       body.state.u.copy_locally_owned_data_from(body.interpolate(bend));
-      body.system.evaluate(body.state, 0., 1.);
+      body.system.equation().evaluate(body.state, 0., 1.);
       const std::vector<unsigned char> free(
         3 * body.discretization.n_local_nodes(), 0);
       EffectiveOperator A(body.discretization,
-                          body.system.elasticity(),
-                          body.system.mass(),
+                          body.elasticity,
+                          body.mass,
                           free);
       const double      c_K = 0.7, c_M = 500;
       A.update(c_K, c_M);
@@ -117,8 +117,8 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
       Vector       owned(body.state.u), product(owned), Kv(owned), Mv(owned);
       owned.copy_locally_owned_data_from(v);
       A.vmult(product, owned);
-      body.system.elasticity().apply_tangent(Kv, v);
-      body.system.mass().apply(Mv, v);
+      body.elasticity.apply_tangent(Kv, v);
+      body.mass.apply(Mv, v);
       Kv *= c_K;
       Kv.add(c_M, Mv);
       EXPECT_LE(largest_difference(product, Kv), 1e-13 * Kv.linfty_norm());
@@ -128,14 +128,15 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
 // Prescribed unknowns are cut out symmetrically, on every rank.
 TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
 {
-  Body              body(box("1, 1, 1", "2, 2, 2"),
-            material_text(GetParam(), "linear") +
-              "subsection Boundary conditions\n set Displacement = x-min: 0; "
-                           "free; 0\nend\n");
-  const auto       &motion = body.system.prescribed_motion();
+  MovingBody body(
+    box("1, 1, 1", "2, 2, 2"),
+    material_text(GetParam(), "linear") +
+      "subsection Boundary conditions\n set Displacement = x-min: 0; "
+      "free; 0\nend\n");
+  const auto       &motion = body.motion;
   EffectiveOperator A(body.discretization,
-                      body.system.elasticity(),
-                      body.system.mass(),
+                      body.elasticity,
+                      body.mass,
                       motion.is_prescribed());
   A.update(1., 0.);
   Vector ones(body.state.u), product(ones), fixed(ones);
@@ -152,12 +153,12 @@ TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
 // Linear elasticity: f = K u, the energy is u f / 2, and K is symmetric.
 TEST_P(ElasticityTest, LinearEnergy)
 {
-  Body         body(box("1, 2, 1", "2, 3, 2", 0.2),
-            material_text(GetParam(), "linear"));
+  MovingBody   body(box("1, 2, 1", "2, 3, 2", 0.2),
+                  material_text(GetParam(), "linear"));
   const Vector u = body.interpolate(bend);
   const Vector v = body.interpolate([](const Point<3> &x) { return 2. * x; });
   Vector       f(body.state.u), Ku(f), Kv(f);
-  const Elasticity &elasticity = body.system.elasticity();
+  const Elasticity &elasticity = body.elasticity;
   elasticity.internal_force(f, u);
   elasticity.apply_tangent(Ku, u);
   elasticity.apply_tangent(Kv, v);
@@ -172,11 +173,12 @@ TEST_P(ElasticityTest, LinearEnergy)
 // differences, with error O(h^2) and round-off 1e-16 / h.
 TEST(Elasticity, LinearElementsHaveAnEnergy)
 {
-  Body   body(box("1, 2, 1", "1, 2, 1", 0.), material_text(1, "corotational"));
-  Vector u = body.interpolate(bend);
-  Vector f(body.state.u);
+  MovingBody body(box("1, 2, 1", "1, 2, 1", 0.),
+                  material_text(1, "corotational"));
+  Vector     u = body.interpolate(bend);
+  Vector     f(body.state.u);
   body.state.u.copy_locally_owned_data_from(u);
-  f                      = body.system.evaluate(body.state, 0., 1.).internal;
+  f = body.system.equation().evaluate(body.state, 0., 1.).internal;
   const Vector direction = body.interpolate([](const Point<3> &x) {
     return Tensor<1, 3>({x[1], std::cos(3 * x[0]), x[2] * x[0]});
   });
@@ -188,9 +190,9 @@ TEST(Elasticity, LinearElementsHaveAnEnergy)
       Vector owned(body.state.u);
       owned.copy_locally_owned_data_from(direction);
       body.state.u.add(side == 0 ? -h : h, owned);
-      body.system.evaluate(body.state, 0., 1.);
+      body.system.equation().evaluate(body.state, 0., 1.);
       energy[side] =
-        body.system.elasticity().state(body.system.displacement()).energy;
+        body.elasticity.state(body.system.equation().displacement()).energy;
     }
   Vector owned(body.state.u);
   owned.copy_locally_owned_data_from(direction);
@@ -201,11 +203,11 @@ TEST(Elasticity, LinearElementsHaveAnEnergy)
 // det F of a reflection is negative in every cell.
 TEST_P(ElasticityTest, InvertedCellsAreCounted)
 {
-  Body         body(box("1, 1, 1", "1, 1, 1"),
-            material_text(GetParam(), "corotational"));
+  MovingBody   body(box("1, 1, 1", "1, 1, 1"),
+                  material_text(GetParam(), "corotational"));
   const Vector u = body.interpolate(
     [](const Point<3> &x) { return Tensor<1, 3>({-2 * x[0], 0., 0.}); });
-  const ElasticState state = body.system.elasticity().state(u);
+  const ElasticState state = body.elasticity.state(u);
   EXPECT_EQ(state.inverted_cells, 5u);
   EXPECT_NEAR(state.min_det_F, -1, 1e-13);
 }
@@ -213,13 +215,13 @@ TEST_P(ElasticityTest, InvertedCellsAreCounted)
 // A body pressed flat: every cell is collapsed to a plane.
 TEST_P(ElasticityTest, DegenerateCellsAreCounted)
 {
-  Body body(box("1, 1, 1", "1, 1, 1"),
-            material_text(GetParam(), "corotational"));
+  MovingBody body(box("1, 1, 1", "1, 1, 1"),
+                  material_text(GetParam(), "corotational"));
   body.state.u.copy_locally_owned_data_from(body.interpolate(
     [](const Point<3> &x) { return Tensor<1, 3>({0., 0., -x[2]}); }));
-  body.system.evaluate(body.state, 0., 1.);
+  body.system.equation().evaluate(body.state, 0., 1.);
   const ElasticState state =
-    body.system.elasticity().state(body.system.displacement());
+    body.elasticity.state(body.system.equation().displacement());
   EXPECT_EQ(state.degenerate_cells, 5u);
 }
 
@@ -227,22 +229,22 @@ TEST_P(ElasticityTest, DegenerateCellsAreCounted)
 // the round-off of sums in another order.
 TEST_P(ElasticityTest, ExplicitStep)
 {
-  Body   body(box("1, 2, 1", "2, 3, 2", 0.2),
-            material_text(GetParam(),
-                          "corotational",
-                          GetParam() == 1 ? "row sum" : "diagonal scaling"));
-  Vector u(body.state.u), v(u), external(u), inverse_mass(u);
+  MovingBody body(box("1, 2, 1", "2, 3, 2", 0.2),
+                  material_text(GetParam(),
+                                "corotational",
+                                GetParam() == 1 ? "row sum" :
+                                                  "diagonal scaling"));
+  Vector     u(body.state.u), v(u), external(u), inverse_mass(u);
   u.copy_locally_owned_data_from(body.interpolate(bend));
   const double dt = 0.01;
   for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
     {
-      v.local_element(i)        = std::sin(i);
-      external.local_element(i) = std::cos(i);
-      inverse_mass.local_element(i) =
-        1 / body.system.mass().diagonal().local_element(i);
+      v.local_element(i)            = std::sin(i);
+      external.local_element(i)     = std::cos(i);
+      inverse_mass.local_element(i) = 1 / body.mass.diagonal().local_element(i);
     }
   body.state.u  = u;
-  const auto &f = body.system.evaluate(body.state, 0., 1.).internal;
+  const auto &f = body.system.equation().evaluate(body.state, 0., 1.).internal;
   Vector      expected_v(v), expected_u(u);
   for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
     {
@@ -253,8 +255,8 @@ TEST_P(ElasticityTest, ExplicitStep)
     }
 
   Elasticity elasticity(body.discretization,
-                        body.system.reference_element(),
-                        body.parameters.material.materials(body.mesh.regions()),
+                        body.reference,
+                        body.materials,
                         corotational_law(Rotation::cell_centre));
   elasticity.explicit_step(u, v, external, inverse_mass, dt);
   EXPECT_LE(largest_difference(v, expected_v),

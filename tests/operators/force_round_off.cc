@@ -33,14 +33,14 @@ namespace
                        const std::string &material,
                        const double       distance)
   {
-    Body body(
+    MovingBody body(
       mesh,
       element_text(element) + "subsection Material\n" + material +
         " set Young's modulus = 1e3\n set Poisson's ratio = 0.3\nend\n");
     Elasticity elastic(body.discretization,
-                       body.system.reference_element(),
-                       body.parameters.material.materials(body.mesh.regions()),
-                       body.parameters.material.law());
+                       body.reference,
+                       body.materials,
+                       body.law);
     const auto displacement = [](const Point<3> &x) {
       return Tensor<1, 3>({1e-3 * std::sin(2 * x[0] + x[1]),
                            2e-3 * x[0] * x[0],

@@ -91,11 +91,11 @@ class MassTest
 TEST_P(MassTest, TotalAndMoments)
 {
   const auto &[degree, type] = GetParam();
-  Body        body(box("1, 2, 1", "2, 3, 2", 0.2),
-            "subsection Discretization\n set Degree = " +
-              std::to_string(degree) + "\n set Mass = " + type +
-              "\nend\nsubsection Material\n set Density = 3\nend\n");
-  const Mass &mass = body.system.mass();
+  MovingBody  body(box("1, 2, 1", "2, 3, 2", 0.2),
+                  "subsection Discretization\n set Degree = " +
+                    std::to_string(degree) + "\n set Mass = " + type +
+                    "\nend\nsubsection Material\n set Density = 3\nend\n");
+  const Mass &mass = body.mass;
   EXPECT_NEAR(mass.total(), 6, 1e-13);
   const Vector one = body.interpolate(
     [](const Point<3> &) { return Tensor<1, 3>({1., 0., 0.}); });

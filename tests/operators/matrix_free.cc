@@ -69,18 +69,18 @@ namespace
     MatrixFreeTest()
       : body(box("1, 2, 1", "2, 4, 3", 0.2), text(GetParam()))
       , A(body.discretization,
-          body.system.elasticity(),
-          body.system.mass(),
-          body.system.prescribed_motion().is_prescribed())
+          body.elasticity,
+          body.mass,
+          body.motion.is_prescribed())
     {
       body.state.u.copy_locally_owned_data_from(body.interpolate(crumple));
       body.state.a.copy_locally_owned_data_from(body.interpolate(noise));
-      forces = &body.system.evaluate(body.state, 0., 1.);
+      forces = &body.system.equation().evaluate(body.state, 0., 1.);
     }
 
-    Body                            body;
+    MovingBody                      body;
     EffectiveOperator               A;
-    const StructuralSystem::Forces *forces;
+    const EquationOfMotion::Forces *forces;
   };
 } // namespace
 
@@ -112,23 +112,22 @@ TEST_P(MatrixFreeTest, EqualsMatrix)
 TEST_P(MatrixFreeTest, SmootherSteps)
 {
   A.update(0.7, 3e3);
-  const auto              &mass = body.system.mass();
-  CellwiseOperator<double> fused(
-    body.discretization,
-    marked_unknowns(body.system.prescribed_motion().is_prescribed()));
+  const auto              &mass = body.mass;
+  CellwiseOperator<double> fused(body.discretization,
+                                 marked_unknowns(body.motion.is_prescribed()));
   fused.set_terms(0.7,
-                  body.system.elasticity().coefficients().data(),
+                  body.elasticity.coefficients().data(),
                   3e3,
                   mass.cell_masses().data(),
                   mass.is_lumped() ? &mass.diagonal() : nullptr);
   Vector x(body.state.a), b(x), r(x), expected(x), d(x), inverse(x);
   x.copy_locally_owned_data_from(body.state.a);
-  body.system.prescribed_motion().set_zero(x);
+  body.motion.set_zero(x);
   b.copy_locally_owned_data_from(forces->internal);
-  body.system.prescribed_motion().set_zero(b);
+  body.motion.set_zero(b);
   A.matrix().vmult(expected, x);
   expected.sadd(-1., b);
-  body.system.prescribed_motion().set_zero(expected);
+  body.motion.set_zero(expected);
   fused.residual(r, b, x);
   const double size = expected.linfty_norm() + b.linfty_norm();
   EXPECT_LE(largest_difference(r, expected), 1e-13 * size);
@@ -165,27 +164,26 @@ TEST_P(MatrixFreeTest, SinglePrecision)
     for (unsigned int lane = 0; lane < batch_size; ++lane)
       {
         const unsigned int to   = b % floats_per_batch * batch_size + lane;
-        const auto        &from = body.system.elasticity().coefficients()[b];
+        const auto        &from = body.elasticity.coefficients()[b];
         auto              &cell = cells[b / floats_per_batch];
         for (unsigned int i = 0; i < 9; ++i)
           cell.gradients[i][to] = from.gradients[i][lane];
         cell.lame_ratio[to] = from.lame_ratio[lane];
         masses[b / floats_per_batch].mass[to] =
-          body.system.mass().cell_masses()[b].mass[lane];
+          body.mass.cell_masses()[b].mass[lane];
       }
   FloatVector x, y, lumped, diagonal;
   for (FloatVector *vector : {&x, &y, &lumped, &diagonal})
     body.discretization.initialize_vector(*vector);
   x.copy_locally_owned_data_from(body.state.a);
-  lumped.copy_locally_owned_data_from(body.system.mass().diagonal());
-  CellwiseOperator<float> single(
-    body.discretization,
-    marked_unknowns(body.system.prescribed_motion().is_prescribed()));
+  lumped.copy_locally_owned_data_from(body.mass.diagonal());
+  CellwiseOperator<float> single(body.discretization,
+                                 marked_unknowns(body.motion.is_prescribed()));
   single.set_terms(0.7,
                    cells.data(),
                    3e3,
                    masses.data(),
-                   body.system.mass().is_lumped() ? &lumped : nullptr);
+                   body.mass.is_lumped() ? &lumped : nullptr);
   single.compute_diagonal();
   single.vmult(y, x);
 
@@ -224,7 +222,7 @@ namespace
 TEST_P(MatrixFreeTest, EqualsFEValues)
 {
   const auto       &disc       = body.discretization;
-  const Elasticity &elasticity = body.system.elasticity();
+  const Elasticity &elasticity = body.elasticity;
   const auto       &fe         = disc.finite_element();
   // Exact; with bubbles the one that defines the stiffness.
   const dealii::QWitherdenVincentSimplex<3> rule(

@@ -23,12 +23,10 @@ namespace corotet::tests
 
   // The body's elasticity with that law.
   inline Elasticity
-  elasticity_of(const Body &body, const std::shared_ptr<const MaterialLaw> &law)
+  elasticity_of(const MovingBody                         &body,
+                const std::shared_ptr<const MaterialLaw> &law)
   {
-    return {body.discretization,
-            body.system.reference_element(),
-            body.parameters.material.materials(body.mesh.regions()),
-            law};
+    return {body.discretization, body.reference, body.materials, law};
   }
 
   // A state of the body: a rotation with any angle up to a half turn after a
@@ -55,7 +53,7 @@ namespace corotet::tests
     {"inverted", dealii::Tensor<1, 3>({1.1, 0.9, -0.3}), 0.1, 0.01, 0.05}};
 
   inline Vector
-  displacement(const Body        &body,
+  displacement(const MovingBody  &body,
                const RandomState &state,
                const double       angle,
                const unsigned int seed)
@@ -122,7 +120,7 @@ namespace corotet::tests
   }
 
   inline Vector
-  random_direction(const Body &body)
+  random_direction(const MovingBody &body)
   {
     return body.interpolate([](const dealii::Point<3> &x) {
       return dealii::Tensor<1, 3>({std::sin(7 * x[0] + x[1]),

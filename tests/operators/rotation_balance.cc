@@ -36,10 +36,10 @@ namespace
     return mesh;
   }
 
-  struct Cell : public Body
+  struct Cell : public MovingBody
   {
     Cell(const unsigned int degree, const NamedLaw &law, const double h = 1)
-      : Body(one_cell(h), case_text(degree, law))
+      : MovingBody(one_cell(h), case_text(degree, law))
       , elasticity(elasticity_of(*this, law.law))
     {}
 
@@ -53,7 +53,7 @@ namespace
       Vector f(v);
       f.zero_out_ghost_values();
       elasticity.apply_linearization(
-        f, v, frozen_factor, c_M, system.mass().cell_masses().data(), nullptr);
+        f, v, frozen_factor, c_M, mass.cell_masses().data(), nullptr);
       return f;
     }
 
@@ -318,7 +318,7 @@ TEST_P(RotationBalance, TermsOfTheTangent)
   // A mass term as large as the stiffness.
   Vector Mv(v);
   Mv.zero_out_ghost_values();
-  cell.system.mass().apply(Mv, v);
+  cell.mass.apply(Mv, v);
   const Vector frozen = cell.frozen_product(u, v);
   const double c_M    = norm(frozen) / norm(Mv);
   for (const Tangent tangent : {Tangent::frozen_rotation, Tangent::consistent})
@@ -333,11 +333,10 @@ TEST_P(RotationBalance, TermsOfTheTangent)
       // The same with a lumped mass.
       Vector lumped(expected), sum = cell.product(v, c);
       cell.elasticity.apply_linearization(
-        lumped, v, c, c_M, nullptr, &cell.system.mass().diagonal());
+        lumped, v, c, c_M, nullptr, &cell.mass.diagonal());
       for (unsigned int i = 0; i < sum.locally_owned_size(); ++i)
-        sum.local_element(i) += c_M *
-                                cell.system.mass().diagonal().local_element(i) *
-                                v.local_element(i);
+        sum.local_element(i) +=
+          c_M * cell.mass.diagonal().local_element(i) * v.local_element(i);
       EXPECT_LE(largest_difference(lumped, sum), 1e-13 * sum.linfty_norm());
     }
 }

@@ -20,11 +20,9 @@ using dealii::Tensor;
 namespace
 {
   double
-  difference(const Body &body, const Vector &u)
+  difference(const MovingBody &body, const Vector &u)
   {
-    return largest_rotation_difference(body.discretization,
-                                       body.system.reference_element(),
-                                       u);
+    return largest_rotation_difference(body.discretization, body.reference, u);
   }
 
   // u = (-c x z, 0, c x^2 / 2): F in the plane is {{1 - c z, -c x}, {c x, 1}},
@@ -43,13 +41,14 @@ TEST(RotationDifference, BentBox)
 {
   for (const unsigned int degree : {2u, 3u})
     {
-      const Body  body(box("2, 1, 1", "4, 2, 2", 0.2), element_text(degree));
-      const auto  u       = body.interpolate([](const Point<3> &x) {
+      const MovingBody body(box("2, 1, 1", "4, 2, 2", 0.2),
+                            element_text(degree));
+      const auto       u       = body.interpolate([](const Point<3> &x) {
         return Tensor<1, 3>({-c * x[0] * x[2], 0., 0.5 * c * x[0] * x[0]});
       });
-      double      largest = 0;
-      const auto &disc    = body.discretization;
-      const auto &rule    = body.system.reference_element().stiffness_rule;
+      double           largest = 0;
+      const auto      &disc    = body.discretization;
+      const auto      &rule    = body.reference.stiffness_rule;
       for (unsigned int cell = 0; cell < disc.n_owned_cells(); ++cell)
         {
           const Point<3>     p0 = disc.node_position(disc.cell_nodes(cell)[0]);
@@ -68,7 +67,7 @@ TEST(RotationDifference, BentBox)
 // rotation everywhere.
 TEST(RotationDifference, NoneWhereRotationIsTheSame)
 {
-  const Body body(box("2, 1, 1", "4, 2, 2", 0.2), element_text(2));
+  const MovingBody body(box("2, 1, 1", "4, 2, 2", 0.2), element_text(2));
   EXPECT_EQ(difference(body, body.interpolate([](const Point<3> &) {
               return Tensor<1, 3>();
             })),

@@ -23,7 +23,7 @@ protected:
 // 1e-16 (h^4 / 30) of the fifth derivative, round-off 1e-13 / 2e-4.
 TEST_P(NonlinearLaws, ConsistentTangentIsTheDerivative)
 {
-  Body         body(box("1, 2, 1", "2, 2, 2", 0.2), case_text(degree, law));
+  MovingBody   body(box("1, 2, 1", "2, 2, 2", 0.2), case_text(degree, law));
   Elasticity   elasticity = elasticity_of(body, law.law);
   const Vector v          = random_direction(body);
   double       largest    = 0;
@@ -63,7 +63,7 @@ TEST_P(NonlinearLaws, ConsistentTangentIsTheDerivative)
 // degree 1.
 TEST_P(NonlinearLaws, ForceIsTheGradientOfTheEnergy)
 {
-  Body         body(box("1, 2, 1", "2, 2, 2", 0.2), case_text(degree, law));
+  MovingBody   body(box("1, 2, 1", "2, 2, 2", 0.2), case_text(degree, law));
   Elasticity   elasticity = elasticity_of(body, law.law);
   const Vector v          = random_direction(body);
   double       largest    = 0;
@@ -103,7 +103,7 @@ TEST_P(NonlinearLaws, AssembledMatrixOfACrushedBody)
                         dealii::Tensor<1, 3>({1., 0., 0.}),
                         dealii::Tensor<1, 3>({0., 0., 0.})})
     {
-      Body         body(box("1, 1, 1", "3, 3, 3"), case_text(degree, law));
+      MovingBody   body(box("1, 1, 1", "3, 3, 3"), case_text(degree, law));
       Elasticity   elasticity = elasticity_of(body, law.law);
       const Vector u = body.interpolate([&](const dealii::Point<3> &x) {
         dealii::Tensor<1, 3> value;
@@ -114,8 +114,8 @@ TEST_P(NonlinearLaws, AssembledMatrixOfACrushedBody)
       force(elasticity, u);
       EffectiveOperator A(body.discretization,
                           elasticity,
-                          body.system.mass(),
-                          body.system.prescribed_motion().is_prescribed());
+                          body.mass,
+                          body.motion.is_prescribed());
       A.update(1., 0.);
       Vector v = random_direction(body);
       v.zero_out_ghost_values();

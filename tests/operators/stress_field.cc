@@ -28,13 +28,10 @@ using dealii::Tensor;
 namespace
 {
   StressField
-  stress_field(const Body &body, const std::shared_ptr<const MaterialLaw> &law)
+  stress_field(const MovingBody                         &body,
+               const std::shared_ptr<const MaterialLaw> &law)
   {
-    return {body.discretization,
-            body.system.reference_element(),
-            body.parameters.material.materials(
-              body.discretization.mesh().regions()),
-            law};
+    return {body.discretization, body.reference, body.materials, law};
   }
 
   // A box of two materials, stiff for x < 1, soft beyond, of distorted cells.
@@ -99,7 +96,7 @@ namespace
                                         Element::quadratic_with_bubbles());
 
   std::string
-  name_of(const testing::TestParamInfo<Element> &info)
+  element_name(const testing::TestParamInfo<Element> &info)
   {
     return fmt::format("P{}{}",
                        info.param.degree(),
@@ -107,7 +104,7 @@ namespace
   }
 } // namespace
 
-INSTANTIATE_TEST_SUITE_P(All, StressFieldOf, elements, name_of);
+INSTANTIATE_TEST_SUITE_P(All, StressFieldOf, elements, element_name);
 
 // The stress of a displacement of degree p is of degree p - 1 in each material:
 // the raw one is exact, so is the recovered one on both sides of an interface
@@ -115,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(All, StressFieldOf, elements, name_of);
 TEST_P(StressFieldOf, IsExactForPolynomials)
 {
   const unsigned int p = GetParam().degree();
-  const Body         body(two_materials(), element_text(GetParam()) + two_laws);
+  const MovingBody   body(two_materials(), element_text(GetParam()) + two_laws);
   const Vector       u =
     body.interpolate([&](const Point<3> &x) { return polynomial(p, x); });
   StressField field = stress_field(body, linear_law());
@@ -144,7 +141,7 @@ TEST_P(StressFieldOf, IsExactForPolynomials)
   EXPECT_LE(field.error().energy_norm, 1e-12 * field.error().stress_norm);
   // Twice the elastic energy.
   EXPECT_NEAR(std::pow(field.error().stress_norm, 2),
-              2 * body.system.elasticity().state(u).energy,
+              2 * body.elasticity.state(u).energy,
               1e-12 * std::pow(field.error().stress_norm, 2));
 }
 
@@ -153,7 +150,7 @@ TEST_P(StressFieldOf, IsExactForPolynomials)
 TEST(StressField, TurnsWithTheBody)
 {
   const Tensor<2, 3> Q = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 2.1);
-  const Body         body(two_materials(), element_text(2) + two_laws);
+  const MovingBody   body(two_materials(), element_text(2) + two_laws);
   const auto         deformed = [](const Point<3> &x) {
     return Point<3>(x + 0.2 * polynomial(2, x));
   };
@@ -185,12 +182,12 @@ TEST(StressField, TurnsWithTheBody)
 // known of the centres.
 TEST(StressField, AgreesWithTheCentres)
 {
-  const Body   body(two_materials(), element_text(1) + two_laws);
-  const Vector u =
+  const MovingBody body(two_materials(), element_text(1) + two_laws);
+  const Vector     u =
     body.interpolate([](const Point<3> &x) { return polynomial(2, x); });
   StressField field = stress_field(body, linear_law());
   field.set_displacement(u);
-  const auto expected = body.system.elasticity().cell_results(u).von_mises;
+  const auto expected = body.elasticity.cell_results(u).von_mises;
   for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
     EXPECT_NEAR(von_mises(field.at_points()[c]),
                 expected[c],
@@ -202,7 +199,7 @@ TEST(StressField, AgreesWithTheCentres)
 TEST(StressField, RanksMakeNoDifference)
 {
   Log                    log(MPI_COMM_SELF, true);
-  const Body             body(two_materials(), element_text(3) + two_laws);
+  const MovingBody       body(two_materials(), element_text(3) + two_laws);
   const Mesh             mesh(two_materials(), 0, 1., MPI_COMM_SELF, log);
   const Discretization   discretization(mesh, 3);
   const ReferenceElement reference(3);
@@ -215,8 +212,7 @@ TEST(StressField, RanksMakeNoDifference)
         w.local_element(3 * n + a) = value[a];
     }
   w.update_ghost_values();
-  const auto materials =
-    body.parameters.material.materials(body.discretization.mesh().regions());
+  const auto  materials = body.materials;
   StressField alone(discretization, reference, materials, linear_law());
   StressField together = stress_field(body, linear_law());
   alone.set_displacement(w);
@@ -254,16 +250,16 @@ TEST(StressField, RanksMakeNoDifference)
 // error per volume is there, and it is ten times that of most cells.
 TEST(StressField, FindsSingularEdges)
 {
-  Body         body(box("2, 1, 1", "8, 4, 4"),
-            element_text(2) +
-              "subsection Material\n set Type = linear\nend\n"
+  MovingBody   body(box("2, 1, 1", "8, 4, 4"),
+                  element_text(2) +
+                    "subsection Material\n set Type = linear\nend\n"
                       "subsection Boundary conditions\n set Fixed = x-min\n"
                       " set Traction = x-max: 1; 0; 0\nend\n");
   LoadStepping load_stepping;
   load_stepping.step(body.system, {0., 1., 1.}, body.state);
-  body.system.set_state(body.state);
+  body.system.equation().set_state(body.state);
   StressField field = stress_field(body, linear_law());
-  field.set_displacement(body.system.displacement());
+  field.set_displacement(body.system.equation().displacement());
   const auto  &of_cells = field.error().of_cells;
   double       largest  = 0;
   unsigned int n_large  = 0;
@@ -306,12 +302,12 @@ namespace
   wave_errors(const unsigned int degree, const unsigned int n)
   {
     const Wave   wave;
-    Body         body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n)),
-              wave.parameters(degree));
+    MovingBody   body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n)),
+                    wave.parameters(degree));
     LoadStepping load_stepping;
     load_stepping.step(body.system, {0., 1., 1.}, body.state);
-    body.system.set_state(body.state);
-    const Vector &u     = body.system.displacement();
+    body.system.equation().set_state(body.state);
+    const Vector &u     = body.system.equation().displacement();
     StressField   field = stress_field(body, linear_law());
     field.set_displacement(u);
 

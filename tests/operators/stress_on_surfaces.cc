@@ -23,18 +23,14 @@ using dealii::SymmetricTensor;
 namespace
 {
   StressField
-  stress_field(const Body &body)
+  stress_field(const MovingBody &body)
   {
-    return {body.discretization,
-            body.system.reference_element(),
-            body.parameters.material.materials(
-              body.discretization.mesh().regions()),
-            linear_law()};
+    return {body.discretization, body.reference, body.materials, linear_law()};
   }
 
   // The mean of the cells' stresses at the owned nodes of a body.
   std::vector<SymmetricTensor<2, 3>>
-  raw_mean(const Body &body, const StressField &field, const Vector &u)
+  raw_mean(const MovingBody &body, const StressField &field, const Vector &u)
   {
     const Discretization &disc = body.discretization;
     const auto            points =
@@ -73,7 +69,7 @@ namespace
 
   // Root mean squares of the errors at nodes inside, in faces and on edges.
   std::array<double, 3>
-  errors(const Body                               &body,
+  errors(const MovingBody                         &body,
          const Wave                               &wave,
          const std::vector<SymmetricTensor<2, 3>> &stress)
   {
@@ -105,12 +101,12 @@ TEST(StressOnSurfaces, BetterThanTheMeanOfRawStress)
     {
       const Wave        wave;
       const std::string n = p == 1 ? "6" : "4";
-      Body         body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n), 0.1),
-                wave.parameters(p));
+      MovingBody   body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n), 0.1),
+                      wave.parameters(p));
       LoadStepping load_stepping;
       load_stepping.step(body.system, {0., 1., 1.}, body.state);
-      body.system.set_state(body.state);
-      const Vector &u     = body.system.displacement();
+      body.system.equation().set_state(body.state);
+      const Vector &u     = body.system.equation().displacement();
       StressField   field = stress_field(body);
       field.set_displacement(u);
       const auto recovered = errors(body, wave, field.at_nodes().stress),

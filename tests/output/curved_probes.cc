@@ -42,9 +42,9 @@ TEST(Probes, CurvedCells)
                               map.position(curved_nodes(mesh, cell), i)});
       ASSERT_EQ(points.size(), 40 * places.size());
 
-      const Body   body(mesh, element_text(degree));
-      const Probes probes(points, body.discretization);
-      const auto   values = probes.displacements(body.interpolate(affine));
+      const MovingBody body(mesh, element_text(degree));
+      const Probes     probes(points, body.discretization);
+      const auto       values = probes.displacements(body.interpolate(affine));
       for (unsigned int p = 0; p < points.size(); ++p)
         EXPECT_LT((values[p] - affine(points[p].position)).norm(), 1e-13)
           << points[p].position;
@@ -71,9 +71,9 @@ TEST(Probes, NodesOfThinCurvedCells)
       std::vector<ProbePoint> points;
       for (const Point<3> &x : mesh.curved_nodes)
         points.push_back({"p" + std::to_string(points.size()), x});
-      const Body   body(mesh, element_text(degree));
-      const Probes probes(points, body.discretization);
-      const auto   values = probes.displacements(body.interpolate(affine));
+      const MovingBody body(mesh, element_text(degree));
+      const Probes     probes(points, body.discretization);
+      const auto       values = probes.displacements(body.interpolate(affine));
       for (unsigned int p = 0; p < points.size(); ++p)
         EXPECT_LT((values[p] - affine(points[p].position)).norm(), 1e-13)
           << points[p].position;

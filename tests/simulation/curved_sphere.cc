@@ -60,8 +60,8 @@ namespace
          const unsigned int geometry_degree,
          const unsigned int n_refinements)
   {
-    Body         body(octant(geometry_degree, n_refinements),
-              fmt::format(R"(
+    MovingBody   body(octant(geometry_degree, n_refinements),
+                    fmt::format(R"(
       subsection Discretization
         set Degree = {}
       end
@@ -78,7 +78,7 @@ namespace
       subsection Linear solver
         set Tolerance = 1e-10
       end)",
-                          degree));
+                                degree));
     LoadStepping load_stepping;
     load_stepping.step(body.system, {0., 1., 1.}, body.state);
     Vector u =

@@ -175,7 +175,7 @@ TEST(ElasticSupports, StiffNormalSpringsDoNotStall)
         const auto R    = rotation_about(Tensor<1, 3>({1, 2, 3}), 0.7);
         for (auto &x : mesh.vertices)
           x = dealii::Point<3>(R * x);
-        Body body(
+        MovingBody body(
           mesh,
           fmt::format("subsection Discretization\n set Degree = "
                       "{}\nend\nsubsection Material\n set Type = "

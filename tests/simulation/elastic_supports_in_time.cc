@@ -21,13 +21,14 @@ TEST(ElasticSupports, StableStep)
   double omega[2];
   for (const unsigned int i : {0, 1})
     {
-      Body body(box("1, 1, 1", "2, 2, 2"),
-                "subsection Discretization\n set Degree = 2\n set Mass = nodal "
-                "quadrature\nend\nsubsection Material\n set Young's modulus = "
-                "1\nend\n" +
-                  supports(i == 0 ? "z-min: 1e8; 1e8; 1e8" :
-                                    "z-min: 4e8; 4e8; 4e8"));
-      omega[i] = body.system.largest_frequency(body.state, 0.);
+      MovingBody body(
+        box("1, 1, 1", "2, 2, 2"),
+        "subsection Discretization\n set Degree = 2\n set Mass = nodal "
+        "quadrature\nend\nsubsection Material\n set Young's modulus = "
+        "1\nend\n" +
+          supports(i == 0 ? "z-min: 1e8; 1e8; 1e8" : "z-min: 4e8; 4e8; 4e8"));
+      omega[i] =
+        body.system.acceleration_solver().largest_frequency(body.state, 0.);
     }
   EXPECT_NEAR(omega[1] / omega[0], 2, 2e-3);
   EXPECT_GT(omega[0], 1e3);

@@ -33,8 +33,8 @@ namespace
       const NamedLaw    &law,
       const unsigned int n_steps)
   {
-    Body       body(box("2, 1, 1", "2, 1, 1"),
-              fmt::format(R"(
+    MovingBody body(box("2, 1, 1", "2, 1, 1"),
+                    fmt::format(R"(
       subsection Discretization
         set Degree = {}
       end
@@ -51,8 +51,8 @@ namespace
         set Type      = direct
         set Tolerance = 1e-10
       end)",
-                          degree,
-                          law.text));
+                                degree,
+                                law.text));
     const auto deformation = [](const Point<3> &x) {
       return Tensor<1, 3>(
         {0.1 * (x[0] - 1), 0.05 * x[1] * x[2], 0.1 * x[0] * x[0]});
@@ -68,7 +68,7 @@ namespace
     integrator.spectral_radius = 1;
     const double end           = 1;
     body.system.solve_acceleration(body.state, 0.);
-    EnergyBudget budget(body.system, body.discretization, body.state, 0., 1.);
+    EnergyBudget     budget(body.system.equation(), body.state, 0., 1.);
     const StepRecord start  = budget.initial_record();
     StepRecord       record = start;
     Drift            drift;

@@ -165,10 +165,10 @@ namespace
                  const unsigned int n)
   {
     const Bending bending;
-    Body          body(box("0.4, 1.5707963267948966, 0.4",
-                  fmt::format("{0}, {1}, {0}", n, 4 * n),
-                  0.1),
-              fmt::format(R"(
+    MovingBody    body(box("0.4, 1.5707963267948966, 0.4",
+                        fmt::format("{0}, {1}, {0}", n, 4 * n),
+                        0.1),
+                    fmt::format(R"(
       subsection Discretization
         set Degree = {}
       end
@@ -192,17 +192,17 @@ namespace
       subsection Linear solver
         set Tolerance = 1e-8
       end)",
-                          degree,
-                          rotation,
-                          bending.E,
-                          bending.nu,
-                          bending.displacement(),
-                          bending.displacement(),
-                          bending.traction(1, 1),
-                          bending.traction(0, 1),
-                          bending.traction(2, -1),
-                          bending.traction(2, 1),
-                          bending.body_force()));
+                                degree,
+                                rotation,
+                                bending.E,
+                                bending.nu,
+                                bending.displacement(),
+                                bending.displacement(),
+                                bending.traction(1, 1),
+                                bending.traction(0, 1),
+                                bending.traction(2, -1),
+                                bending.traction(2, 1),
+                                bending.body_force()));
     Vector        u = body.interpolate([&](const Point<3> &x) {
       Tensor<1, 3> value;
       for (unsigned int a = 0; a < 3; ++a)

@@ -59,8 +59,8 @@ namespace
   FieldNorms
   errors(const unsigned int degree, const NamedLaw &law, const unsigned int n)
   {
-    Body body(box("0.5, 0.5, 0.5", fmt::format("{0}, {0}, {0}", n), 0.1),
-              exact_problem(degree, law));
+    MovingBody body(box("0.5, 0.5, 0.5", fmt::format("{0}, {0}, {0}", n), 0.1),
+                    exact_problem(degree, law));
     LoadStepping load_stepping;
     load_stepping.proportional = false;
     load_stepping.step(body.system, {0., 1., 1.}, body.state);
@@ -68,9 +68,9 @@ namespace
     body.discretization.initialize_vector(u);
     u.copy_locally_owned_data_from(body.state.u);
     u.update_ghost_values();
-    const ExactSolution &exact = *body.system.exact_solution();
+    const ExactSolution &exact = *body.problem.solution();
     return error_norms(body.discretization,
-                       body.parameters.material.materials(body.mesh.regions()),
+                       body.materials,
                        u,
                        [&](const Point<3> &x) {
                          return PointDisplacement{exact.displacement(x, 1.),
@@ -152,7 +152,8 @@ TEST(Laws, Preconditioner)
       // is another one.
       if (law.law->has_cell_rotation())
         continue;
-      Body body(box("0.5, 0.5, 0.5", "4, 4, 4", 0.1), exact_problem(3, law));
+      MovingBody   body(box("0.5, 0.5, 0.5", "4, 4, 4", 0.1),
+                      exact_problem(3, law));
       LoadStepping load_stepping;
       load_stepping.proportional = false;
       const StageReport solved =

@@ -23,7 +23,7 @@ namespace
   std::vector<double>
   all_eigenvalues(const SerialMesh &mesh, const std::string &text)
   {
-    const Body            body(mesh, text + R"(
+    const MovingBody      body(mesh, text + R"(
       subsection Material
         set Type = linear
       end)");
@@ -40,7 +40,7 @@ namespace
     Vector x, f, prescribed;
     for (Vector *vector : {&x, &f, &prescribed})
       disc.initialize_vector(*vector);
-    for (const unsigned int i : body.system.prescribed_motion().unknowns())
+    for (const unsigned int i : body.motion.unknowns())
       prescribed.local_element(i) = 1;
     std::vector<unsigned int> free;
     const auto                is_prescribed = gather_row(prescribed);
@@ -55,9 +55,9 @@ namespace
         if (x.in_local_range(free[j]))
           x(free[j]) = 1;
         x.update_ghost_values();
-        body.system.elasticity().apply_tangent(f, x);
+        body.elasticity.apply_tangent(f, x);
         const auto column_of_K = gather_row(f);
-        body.system.mass().apply(f, x);
+        body.mass.apply(f, x);
         const auto column_of_M = gather_row(f);
         for (unsigned int i = 0; i < free.size(); ++i)
           {
@@ -161,22 +161,22 @@ TEST(ModalAnalysis, ShapesSolveTheEquation)
       set Type = linear
     end)");
   const Analysis    computed(text);
-  const Body        body(box("1, 0.3, 0.2", "5, 2, 1"), text);
+  const MovingBody  body(box("1, 0.3, 0.2", "5, 2, 1"), text);
   Vector            f(computed.mode(1).shape), g(f), phi(f);
   for (unsigned int i = 1; i <= 6; ++i)
     {
       const Mode &mode = computed.mode(i);
       phi.copy_locally_owned_data_from(mode.shape);
       phi.update_ghost_values();
-      body.system.elasticity().apply_tangent(f, phi);
-      body.system.mass().apply(g, phi);
+      body.elasticity.apply_tangent(f, phi);
+      body.mass.apply(g, phi);
       EXPECT_NEAR(phi * g, mode.modal_mass, 1e-12 * mode.modal_mass);
-      body.system.prescribed_motion().set_zero(f);
-      body.system.prescribed_motion().set_zero(g);
+      body.motion.set_zero(f);
+      body.motion.set_zero(g);
       f.add(-mode.eigenvalue, g);
       // Default tolerance.
       EXPECT_LT(norm(f), 1e-8 * mode.eigenvalue * norm(g));
-      for (const unsigned int k : body.system.prescribed_motion().unknowns())
+      for (const unsigned int k : body.motion.unknowns())
         EXPECT_EQ(phi.local_element(k), 0.);
       double square = 0;
       for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
@@ -288,7 +288,7 @@ TEST(ModalAnalysis, SignsDoNotDependOnRanks)
     Log           log(comm, true);
     ModalAnalysis analysis(parameters, "", comm, log);
     analysis.compute();
-    const Discretization &disc = analysis.discretization();
+    const Discretization &disc = analysis.body().discretization;
     std::vector<double>   result;
     for (const Mode &mode : analysis.modes())
       {

@@ -36,7 +36,7 @@ namespace
 
   // A clamped bar of 1 x 0.1 x 0.1 under a dead traction at its tip,
   // multiplied by the time.
-  struct Cantilever : public Body
+  struct Cantilever : public MovingBody
   {
     // The tip turns by 40 degrees under the traction @p first, by 80 degrees
     // under @p second: P L^2 / EI is some 1.7 and 8.7 (elastica); linear
@@ -56,8 +56,8 @@ namespace
     Cantilever(const unsigned int degree,
                const NamedLaw    &law,
                const std::string &tangent)
-      : Body(box("1, 0.1, 0.1", degree == 1 ? "20, 2, 2" : "10, 1, 1"),
-             fmt::format(R"(
+      : MovingBody(box("1, 0.1, 0.1", degree == 1 ? "20, 2, 2" : "10, 1, 1"),
+                   fmt::format(R"(
       subsection Discretization
         set Degree = {}
       end
@@ -79,11 +79,11 @@ namespace
         set Type      = direct
         set Tolerance = 1e-12
       end)",
-                         degree,
-                         law.text,
-                         E,
-                         tangent,
-                         max_iterations(degree)))
+                               degree,
+                               law.text,
+                               E,
+                               tangent,
+                               max_iterations(degree)))
     {
       load_stepping.proportional = false;
     }
@@ -98,11 +98,11 @@ namespace
     double
     angle()
     {
-      system.evaluate(state, 0., 1.);
+      system.equation().evaluate(state, 0., 1.);
       double largest = 0;
-      for (const double cell : system.elasticity()
-                                 .cell_results(system.displacement())
-                                 .rotation_angle)
+      for (const double cell :
+           elasticity.cell_results(system.equation().displacement())
+             .rotation_angle)
         largest = std::max(largest, cell);
       return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD) * 180 /
              dealii::numbers::PI;

@@ -23,11 +23,11 @@ namespace
 {
   // The unit cube of 135 cells, free in space. Linearly implicit steps of 0.3 s
   // are some five periods of its slowest vibration.
-  struct Cube : public Body
+  struct Cube : public MovingBody
   {
     Cube(const unsigned int degree, const std::string &rotation)
-      : Body(box("1, 1, 1", "3, 3, 3"),
-             fmt::format(R"(
+      : MovingBody(box("1, 1, 1", "3, 3, 3"),
+                   fmt::format(R"(
         subsection Discretization
           set Degree = {}
         end
@@ -44,8 +44,8 @@ namespace
           set Tangent           = frozen rotation
           set Linearly implicit = true
         end)",
-                         degree,
-                         rotation))
+                               degree,
+                               rotation))
     {}
 
     // x -> F x about the centre.

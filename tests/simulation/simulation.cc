@@ -3,6 +3,8 @@
 
 // Whole runs: the same on any number of ranks, and a failure that says so.
 
+#include <corotet/simulation/modal_analysis.h>
+
 #include <gtest/gtest.h>
 
 #include "../refusal.h"
@@ -49,6 +51,69 @@ namespace
     EXPECT_NEAR(a, b, 1e-8 * scale);
   }
 } // namespace
+
+// Parameters are values: two runs that are made of the same ones, one within
+// the other, have the same results to the last bit as one alone, with the same
+// work; so have modes after that. BDF2 keeps vectors of earlier steps, the
+// exact tangent a preconditioner.
+TEST(Simulation, ParametersMakeAnyNumberOfRuns)
+{
+  const std::string text =
+    swinging_beam + "subsection Time integration\n set Type = BDF2\nend\n";
+  CompleteRun alone(text);
+  alone.run();
+
+  const Parameters parameters(text);
+  Log              log(MPI_COMM_WORLD, true);
+  const auto       recorder = [] {
+    std::vector<std::unique_ptr<Observer>> observers;
+    observers.push_back(std::make_unique<Recorder>());
+    return observers;
+  };
+  const auto outer_observers = recorder();
+  const auto inner_observers = recorder();
+  Simulation outer(parameters, "", MPI_COMM_WORLD, log);
+  outer.start(outer_observers);
+  outer.step();
+  outer.step();
+  {
+    Simulation inner(parameters, "", MPI_COMM_WORLD, log);
+    inner.run(inner_observers);
+  }
+  while (!outer.is_done())
+    outer.step();
+  outer.finish();
+
+  const auto &expected = alone.recorder();
+  ASSERT_EQ(expected.records.size(), 21u);
+  for (const auto *observers : {&outer_observers, &inner_observers})
+    {
+      const auto &found = static_cast<const Recorder &>(*observers->front());
+      ASSERT_EQ(found.records.size(), expected.records.size());
+      for (std::size_t i = 0; i < expected.records.size(); ++i)
+        {
+          const StepRecord &a = found.records[i], &b = expected.records[i];
+          EXPECT_EQ(a.elastic_energy, b.elastic_energy);
+          EXPECT_EQ(a.kinetic_energy, b.kinetic_energy);
+          EXPECT_EQ(a.linear_iterations, b.linear_iterations);
+        }
+      EXPECT_EQ(largest_difference(found.displacement, expected.displacement),
+                0);
+      EXPECT_EQ(found.summary.preconditioner_builds,
+                expected.summary.preconditioner_builds);
+    }
+  EXPECT_GT(expected.summary.preconditioner_builds, 0u);
+
+  std::vector<double> frequencies;
+  for (unsigned int round = 0; round < 2; ++round)
+    {
+      ModalAnalysis analysis(parameters, "", MPI_COMM_WORLD, log);
+      analysis.compute();
+      frequencies.push_back(analysis.modes().front().frequency);
+    }
+  EXPECT_EQ(frequencies[0], frequencies[1]);
+  EXPECT_GT(frequencies[0], 0);
+}
 
 // Each rank alone, and all ranks together: every number of the history agrees
 // to 1e-8, as the solvers' tolerances (1e-11, 1e-10) allow.

@@ -24,7 +24,7 @@ using dealii::Tensor;
 namespace
 {
   void
-  solve_static(Body &body)
+  solve_static(MovingBody &body)
   {
     LoadStepping load_stepping;
     load_stepping.step(body.system, {0., 1., 1.}, body.state);
@@ -41,8 +41,8 @@ namespace
   wave_errors(const unsigned int degree, const unsigned int n)
   {
     const Wave wave;
-    Body       body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n), 0.1),
-              wave.parameters(degree));
+    MovingBody body(box("1, 1, 1", fmt::format("{0}, {0}, {0}", n), 0.1),
+                    wave.parameters(degree));
     solve_static(body);
 
     Vector u =
@@ -97,7 +97,7 @@ TEST(Statics, Reactions)
         "-3\nend\n"})
     for (const std::string type : {"linear", "corotational"})
       {
-        Body body(
+        MovingBody body(
           box("2, 1, 1", "4, 2, 2", 0.1),
           "subsection Boundary conditions\n set Fixed = "
           "x-min\nend\nsubsection Material\n set Type = " +
@@ -106,8 +106,7 @@ TEST(Statics, Reactions)
             "1e-12\nend\nsubsection Linear solver\n set Type = direct\n "
             "set Tolerance = 1e-12\nend\n" +
             load);
-        EnergyBudget budget(
-          body.system, body.discretization, body.state, 0., 0.);
+        EnergyBudget budget(body.system.equation(), body.state, 0., 0.);
         solve_static(body);
         StepRecord record;
         budget.account(body.state, 1., 1.);
@@ -131,7 +130,7 @@ TEST(Statics, Reactions)
 // with E eps A; volume grows by the stretch.
 TEST(Statics, PrescribedStretch)
 {
-  Body         body(box("2, 1, 1", "4, 2, 2", 0.1), R"(
+  MovingBody   body(box("2, 1, 1", "4, 2, 2", 0.1), R"(
     subsection Material
       set Young's modulus = 1000
       set Poisson's ratio = 0
@@ -139,7 +138,7 @@ TEST(Statics, PrescribedStretch)
     subsection Boundary conditions
       set Displacement = x-min: 0; 0; 0, x-max: 0.2; free; free
     end)");
-  EnergyBudget budget(body.system, body.discretization, body.state, 0., 0.);
+  EnergyBudget budget(body.system.equation(), body.state, 0., 0.);
   solve_static(body);
   StepRecord record;
   budget.account(body.state, 1., 1.);

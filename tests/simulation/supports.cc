@@ -72,9 +72,8 @@ namespace
   std::string
   motions(const SerialMesh &mesh, const std::string &text)
   {
-    const Body body(mesh, text);
-    return RigidMotions(body.discretization, body.system.prescribed_motion())
-      .description();
+    const MovingBody body(mesh, text);
+    return RigidMotions(body.discretization, body.motion).description();
   }
 } // namespace
 
@@ -185,7 +184,7 @@ TEST(Supports, SingularMatrixEndsStatics)
 {
   for (const std::string law : {"linear", "corotational"})
     {
-      Body        body(box("1, 1, 1", "2, 2, 2"), R"(
+      MovingBody  body(box("1, 1, 1", "2, 2, 2"), R"(
         subsection Boundary conditions
           set Traction = x-max: 1; 0; 0
         end
@@ -196,10 +195,7 @@ TEST(Supports, SingularMatrixEndsStatics)
           set Type             = static
           set Maximum halvings = 8
         end)");
-      TimeLoop    stepper(body.parameters,
-                       body.discretization,
-                       body.system,
-                       body.log);
+      TimeLoop    stepper(body.parameters, body.system, body.log);
       StepRecord  record = stepper.start({});
       std::string message;
       try

@@ -21,14 +21,14 @@ namespace
   constexpr double tolerance = 1e-10;
 
   // A clamped bar of 4 x 1 x 1 in a state u, and its consistent tangent.
-  struct Bar : public Body
+  struct Bar : public MovingBody
   {
     Bar(const unsigned int degree,
         const std::string &rotation,
         const std::string &method,
         const std::string &more = "")
-      : Body(box("4, 1, 1", "6, 2, 2", 0.1),
-             fmt::format(R"(
+      : MovingBody(box("4, 1, 1", "6, 2, 2", 0.1),
+                   fmt::format(R"(
         subsection Discretization
           set Degree = {}
         end
@@ -46,27 +46,14 @@ namespace
           set Tolerance = {}
           {}
         end)",
-                         degree,
-                         rotation,
-                         method,
-                         tolerance,
-                         more))
-      , elasticity(discretization,
-                   system.reference_element(),
-                   parameters.material.materials(mesh.regions()),
-                   parameters.material.law())
-      , A(discretization,
-          elasticity,
-          system.mass(),
-          system.prescribed_motion().is_prescribed())
-      , J(A, elasticity, system.force_terms())
+                               degree,
+                               rotation,
+                               method,
+                               tolerance,
+                               more))
+      , A(discretization, elasticity, mass, motion.is_prescribed())
+      , J(A, elasticity, system.equation().terms)
     {}
-
-    ~Bar()
-    {
-      // The solver may live longer than the operator that it knows.
-      parameters.linear_solver.clear();
-    }
 
     void
     linearize(const std::function<Tensor<1, 3>(const Point<3> &)> &displacement)
@@ -87,7 +74,7 @@ namespace
                        Tensor<1, 3>({std::sin(3 * x[0]), 1., x[1] * x[2]});
       });
       b.zero_out_ghost_values();
-      system.prescribed_motion().set_zero(b);
+      motion.set_zero(b);
       return b;
     }
 
@@ -104,8 +91,9 @@ namespace
     {
       const Vector b = load(axial);
       Solution     solution{b, 0, 0};
-      solution.iterations = parameters.linear_solver.solve(
-        A, solution.x, b, discretization.node_positions(), &J);
+      solution.iterations =
+        LinearSolver(parameters.linear_solver)
+          .solve(A, solution.x, b, discretization.node_positions(), &J);
       Vector r(b);
       J.vmult(r, solution.x);
       r -= b;
@@ -121,13 +109,12 @@ namespace
         return Tensor<1, 3>({-x[0] * (x[1] - 0.5), 0.5 * x[0] * x[0], 0.});
       });
       v.zero_out_ghost_values();
-      system.prescribed_motion().set_zero(v);
+      motion.set_zero(v);
       Vector Jv(v);
       J.vmult(Jv, v);
       return (v * Jv) / (norm(v) * norm(Jv));
     }
 
-    Elasticity        elasticity;
     EffectiveOperator A;
     TangentOperator   J;
   };

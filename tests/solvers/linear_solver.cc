@@ -24,15 +24,15 @@ TEST_P(PreconditionerTest, SolvesClampedBeam)
 {
   for (const std::string degree : {"1", "2", "3"})
     {
-      Body              body(box("4, 1, 1", "4, 1, 1", 0.1),
-                "subsection Discretization\n set Degree = " + degree +
-                  "\nend\nsubsection Boundary conditions\n set Fixed = "
+      MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1),
+                      "subsection Discretization\n set Degree = " + degree +
+                        "\nend\nsubsection Boundary conditions\n set Fixed = "
                                "x-min\nend\nsubsection Linear solver\n set Type = " +
-                  GetParam() + "\n set Tolerance = 1e-12\nend\n");
-      const auto       &motion = body.system.prescribed_motion();
+                        GetParam() + "\n set Tolerance = 1e-12\nend\n");
+      const auto       &motion = body.motion;
       EffectiveOperator A(body.discretization,
-                          body.system.elasticity(),
-                          body.system.mass(),
+                          body.elasticity,
+                          body.mass,
                           motion.is_prescribed());
       A.update(1., 0.);
       Vector expected(body.state.u), b(expected), x(expected), r(expected);
@@ -42,9 +42,9 @@ TEST_P(PreconditionerTest, SolvesClampedBeam)
         }));
       motion.set_zero(expected);
       A.vmult(b, expected);
-      const unsigned int iterations = body.parameters.linear_solver.solve(
-        A, x, b, body.discretization.node_positions());
-      body.parameters.linear_solver.clear();
+      const unsigned int iterations =
+        LinearSolver(body.parameters.linear_solver)
+          .solve(A, x, b, body.discretization.node_positions());
       A.vmult(r, x);
       r -= b;
       EXPECT_LE(r.l2_norm(), 2e-12 * b.l2_norm());
@@ -70,26 +70,26 @@ TEST(LinearSolver, MethodsAndOperators)
   for (const std::string method : {"conjugate gradients", "gmres"})
     for (const std::string operator_type : {"matrix-free", "assembled"})
       {
-        Body              body(box("4, 1, 1", "8, 2, 2", 0.1),
-                  "subsection Discretization\n set Degree = 3\nend\n"
+        MovingBody        body(box("4, 1, 1", "8, 2, 2", 0.1),
+                        "subsection Discretization\n set Degree = 3\nend\n"
                                "subsection Newton\n set Tangent = frozen "
                                "rotation\nend\n"
                                "subsection Boundary conditions\n set Fixed = "
                                "x-min\nend\nsubsection Linear solver\n set Method = " +
-                    method + "\n set Operator = " + operator_type +
-                    "\n set Tolerance = 1e-10\nend\n");
+                          method + "\n set Operator = " + operator_type +
+                          "\n set Tolerance = 1e-10\nend\n");
         EffectiveOperator A(body.discretization,
-                            body.system.elasticity(),
-                            body.system.mass(),
-                            body.system.prescribed_motion().is_prescribed());
+                            body.elasticity,
+                            body.mass,
+                            body.motion.is_prescribed());
         A.update(1., 0.);
         Vector x(body.state.u), b(x), r(x);
         for (unsigned int i = 0; i < b.locally_owned_size(); ++i)
           b.local_element(i) = i % 3;
-        body.system.prescribed_motion().set_zero(b);
-        const unsigned int iterations = body.parameters.linear_solver.solve(
-          A, x, b, body.discretization.node_positions());
-        body.parameters.linear_solver.clear();
+        body.motion.set_zero(b);
+        const unsigned int iterations =
+          LinearSolver(body.parameters.linear_solver)
+            .solve(A, x, b, body.discretization.node_positions());
         A.vmult(r, x);
         r -= b;
         EXPECT_LE(r.l2_norm(), 2e-10 * b.l2_norm()) << method << operator_type;
@@ -100,24 +100,22 @@ TEST(LinearSolver, MethodsAndOperators)
 
 TEST(LinearSolver, FailureIsClear)
 {
-  Body              body(box("4, 1, 1", "4, 1, 1"),
-            "subsection Boundary conditions\n set Fixed = x-min\nend\n"
+  MovingBody        body(box("4, 1, 1", "4, 1, 1"),
+                  "subsection Boundary conditions\n set Fixed = x-min\nend\n"
                          "subsection Linear solver\n set Type = jacobi\n set "
                          "Maximum iterations = 3\nend\n");
   EffectiveOperator A(body.discretization,
-                      body.system.elasticity(),
-                      body.system.mass(),
-                      body.system.prescribed_motion().is_prescribed());
+                      body.elasticity,
+                      body.mass,
+                      body.motion.is_prescribed());
   A.update(1., 0.);
   Vector x(body.state.u), b(x);
   b = 1.;
-  body.system.prescribed_motion().set_zero(b);
+  body.motion.set_zero(b);
   try
     {
-      body.parameters.linear_solver.solve(A,
-                                          x,
-                                          b,
-                                          body.discretization.node_positions());
+      LinearSolver(body.parameters.linear_solver)
+        .solve(A, x, b, body.discretization.node_positions());
       FAIL() << "nothing was thrown";
     }
   catch (const ComputationError &error)
@@ -129,7 +127,6 @@ TEST(LinearSolver, FailureIsClear)
         << error.what();
       EXPECT_EQ(error.exit_status, 2);
     }
-  body.parameters.linear_solver.clear();
 }
 
 namespace
@@ -149,10 +146,6 @@ namespace
     {
       ++n_builds;
     }
-
-    void
-    clear() override
-    {}
 
     void
     vmult(Vector &dst, const Vector &src) const override

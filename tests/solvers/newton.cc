@@ -271,13 +271,13 @@ TEST(Newton, BacksOffFromWhatIsNotFinite)
 // One iteration, whatever the residual then is.
 TEST(Newton, LinearlyImplicit)
 {
-  Scalar root([](double x) { return x * x - 2; },
+  Scalar           root([](double x) { return x * x - 2; },
               [](double x) { return 2 * x; },
               1.);
-  Newton newton;
-  newton.linearly_implicit = true;
+  NewtonParameters parameters;
+  parameters.linearly_implicit = true;
   NewtonReport report;
-  newton.solve(root, Vector(1), report);
+  Newton(parameters).solve(root, Vector(1), report);
   EXPECT_EQ(report.iterations, 1u);
   EXPECT_EQ(root.x, 1.5);
 }

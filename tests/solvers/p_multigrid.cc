@@ -78,12 +78,12 @@ namespace
     unsigned int
     iterations(const Beam &beam)
     {
-      Body body(mesh(beam.cells), text(beam, GetParam()));
+      MovingBody body(mesh(beam.cells), text(beam, GetParam()));
       bend(body, beam.bent_by);
       EffectiveOperator A(body.discretization,
-                          body.system.elasticity(),
-                          body.system.mass(),
-                          body.system.prescribed_motion().is_prescribed());
+                          body.elasticity,
+                          body.mass,
+                          body.motion.is_prescribed());
       A.update(1., beam.mass_factor);
       Vector positions(body.state.u), b(positions), x(positions);
       positions.copy_locally_owned_data_from(
@@ -91,7 +91,7 @@ namespace
       positions += body.state.u;
       for (unsigned int i = 2; i < b.locally_owned_size(); i += 3)
         b.local_element(i) = 1;
-      body.system.prescribed_motion().set_zero(b);
+      body.motion.set_zero(b);
 
       const auto  selected  = make_p_multigrid();
       PMultigrid &multigrid = dynamic_cast<PMultigrid &>(*selected);
@@ -103,7 +103,6 @@ namespace
       dealii::SolverControl    control(100, 1e-8 * b.l2_norm());
       dealii::SolverCG<Vector> cg(control);
       cg.solve(A, x, b, multigrid);
-      multigrid.clear();
       report("iterations", control.last_step());
       return control.last_step();
     }
@@ -111,7 +110,7 @@ namespace
   private:
     // Along an arc of that angle.
     static void
-    bend(Body &body, const double angle)
+    bend(MovingBody &body, const double angle)
     {
       if (angle > 0)
         body.state.u.copy_locally_owned_data_from(
@@ -122,7 +121,7 @@ namespace
                                  0.,
                                  R - (R - x[2]) * std::cos(t) - x[2]});
           }));
-      body.system.evaluate(body.state, 0., 1.);
+      body.system.equation().evaluate(body.state, 0., 1.);
     }
 
     // (P x, y) = (x, P y) to the round-off of single precision, (P x, x) > 0.
@@ -224,18 +223,17 @@ namespace
                       const std::string &text,
                       const MPI_Comm     comm)
   {
-    Body body(mesh, text, comm);
-    body.system.evaluate(body.state, 0., 1.);
-    const auto       &motion = body.system.prescribed_motion();
+    MovingBody body(mesh, text, comm);
+    body.system.equation().evaluate(body.state, 0., 1.);
+    const auto       &motion = body.motion;
     EffectiveOperator A(body.discretization,
-                        body.system.elasticity(),
-                        body.system.mass(),
+                        body.elasticity,
+                        body.mass,
                         motion.is_prescribed());
     A.update(1., 0.);
     PMultigrid multigrid;
     multigrid.build(A, body.discretization.node_positions());
     const std::vector<double> estimates = multigrid.largest_eigenvalues();
-    multigrid.clear();
 
     Vector inverse_diagonal(body.state.u), start(inverse_diagonal);
     for (unsigned int i = 0; i < start.locally_owned_size(); ++i)

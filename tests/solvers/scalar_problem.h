@@ -77,11 +77,11 @@ namespace corotet::tests
   inline NewtonReport
   solve(Scalar &problem, const double tolerance = 1e-12)
   {
-    Newton newton;
-    newton.residual_tolerance  = tolerance;
-    newton.increment_tolerance = tolerance;
+    NewtonParameters parameters;
+    parameters.residual_tolerance  = tolerance;
+    parameters.increment_tolerance = tolerance;
     NewtonReport report;
-    newton.solve(problem, Vector(1), report);
+    Newton(parameters).solve(problem, Vector(1), report);
     return report;
   }
 

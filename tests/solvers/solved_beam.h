@@ -24,24 +24,23 @@ namespace corotet::tests
              const unsigned int degree,
              const std::string &entries)
   {
-    Body              body(box("4, 1, 1", cells, 0.1),
-              "subsection Discretization\n set Degree = " +
-                std::to_string(degree) +
-                "\nend\nsubsection Boundary conditions\n set Fixed = "
+    MovingBody        body(box("4, 1, 1", cells, 0.1),
+                    "subsection Discretization\n set Degree = " +
+                      std::to_string(degree) +
+                      "\nend\nsubsection Boundary conditions\n set Fixed = "
                              "x-min\nend\nsubsection Linear solver\n" +
-                entries + "\nend\n");
+                      entries + "\nend\n");
     EffectiveOperator A(body.discretization,
-                        body.system.elasticity(),
-                        body.system.mass(),
-                        body.system.prescribed_motion().is_prescribed());
+                        body.elasticity,
+                        body.mass,
+                        body.motion.is_prescribed());
     A.update(1., 0.);
     Vector x(body.state.u), b(x);
     b = 1.;
-    body.system.prescribed_motion().set_zero(b);
+    body.motion.set_zero(b);
     Solved result;
-    result.iterations = body.parameters.linear_solver.solve(
-      A, x, b, body.discretization.node_positions());
-    body.parameters.linear_solver.clear();
+    result.iterations = LinearSolver(body.parameters.linear_solver)
+                          .solve(A, x, b, body.discretization.node_positions());
     for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
       result.x.push_back(x.local_element(i));
     return result;

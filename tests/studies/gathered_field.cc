@@ -36,8 +36,9 @@ namespace
 
 TEST(GatheredField, ReproducesPolynomials)
 {
-  const Body   body(box("1, 1, 1", "3, 3, 3", 0.2), element_text(Element(3)));
-  const Vector u =
+  const MovingBody body(box("1, 1, 1", "3, 3, 3", 0.2),
+                        element_text(Element(3)));
+  const Vector     u =
     body.interpolate([](const Point<3> &x) { return cubic(x).value; });
   const GatheredField field(body.discretization, u);
   // Corners, sides, the inside; also outside by round-off.
@@ -58,11 +59,11 @@ TEST(GatheredField, ReproducesPolynomials)
 // The rule is exact for these: integrals over the unit cube, by hand.
 TEST(ErrorNorms, ExactForPolynomials)
 {
-  const Body   body(box("1, 1, 1", "2, 2, 2", 0.2), element_text(Element(3)));
-  const Vector u =
+  const MovingBody body(box("1, 1, 1", "2, 2, 2", 0.2),
+                        element_text(Element(3)));
+  const Vector     u =
     body.interpolate([](const Point<3> &x) { return cubic(x).value; });
-  const auto &materials =
-    body.parameters.material.materials(body.mesh.regions());
+  const auto      &materials = body.materials;
   const ErrorNorms exact =
     error_norms(body.discretization, materials, u, cubic);
   EXPECT_LT(exact.error.L2, 1e-14);

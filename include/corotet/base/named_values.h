@@ -14,6 +14,13 @@
 namespace corotet
 {
   /**
+   * The items of a list "name: value, name", separated by commas outside of
+   * brackets; none if @p text is empty.
+   */
+  std::vector<std::pair<std::string, std::optional<std::string>>>
+  names_and_values(const std::string &text);
+
+  /**
    * The pairs of a list "name: value, name: value", separated by commas outside
    * of brackets; none if @p text is empty. Throws an InputError that blames @p
    * entry for an item without colon and says what is @p allowed.

@@ -16,25 +16,32 @@ namespace corotet
 {
   /**
    * One candidate of a run-time choice: the name that a parameter file selects
-   * it by, and how to make it.
+   * it by, and how to make it, with its default parameters or with those of
+   * another object of the same class.
    */
   template <typename Base>
   struct Candidate
   {
-    std::string                            name;
-    std::function<std::unique_ptr<Base>()> make;
+    std::string                                        name;
+    std::function<std::unique_ptr<Base>()>             make;
+    std::function<std::unique_ptr<Base>(const Base &)> copy;
   };
 
   /**
    * The candidate called @p name of class @p Derived, made with @p arguments:
-   * one line in a layer's list registers it.
+   * one line in a layer's list registers it. A copy of a @p Derived must have
+   * its parameters; whatever else it has when it is used, it need not.
    */
   template <typename Base, typename Derived, typename... Arguments>
   Candidate<Base>
   candidate(const std::string &name, const Arguments &...arguments)
   {
     return {name,
-            [arguments...] { return std::make_unique<Derived>(arguments...); }};
+            [arguments...] { return std::make_unique<Derived>(arguments...); },
+            [](const Base &other) {
+              return std::make_unique<Derived>(
+                static_cast<const Derived &>(other));
+            }};
   }
 
   /**
@@ -109,8 +116,10 @@ namespace corotet
    * `Type`, and a subsection with the parameters of each candidate.
    *
    * @p Base has a member `void declare_parameters(dealii::ParameterHandler &)`.
-   * All candidates live as long as this object, which must not be moved after
-   * declare_parameters(): the handler writes into it while it reads a file.
+   * This object holds one of each candidate, for its parameters; nobody works
+   * with these: make() makes the object that does, as often as one is wanted.
+   * It must not be moved after declare_parameters(): the handler writes into it
+   * while it reads a file.
    */
   template <typename Base>
   class Selectable
@@ -121,7 +130,7 @@ namespace corotet
       : selected_name(default_name)
     {
       for (const Candidate<Base> &c : candidates)
-        objects.emplace_back(c.name, c.make());
+        objects.push_back({c.name, c.make(), c.copy});
     }
 
     Selectable(const Selectable &) = delete;
@@ -133,13 +142,13 @@ namespace corotet
                        const std::string        &documentation)
     {
       std::string names;
-      for (const auto &[name, object] : objects)
+      for (const auto &[name, object, copy] : objects)
         names += (names.empty() ? "" : "|") + name;
       prm.add_parameter("Type",
                         selected_name,
                         documentation,
                         dealii::Patterns::Selection(names));
-      for (auto &[name, object] : objects)
+      for (const auto &[name, object, copy] : objects)
         {
           prm.enter_subsection(name);
           object->declare_parameters(prm);
@@ -159,27 +168,49 @@ namespace corotet
     names_of(const std::function<bool(const Base &)> &property) const
     {
       std::string names;
-      for (const auto &[name, object] : objects)
+      for (const auto &[name, object, copy] : objects)
         if (property(*object))
           names += (names.empty() ? "" : ", ") + name;
       return names;
     }
 
-    Base &
+    /// What is selected, to be asked for its properties.
+    const Base &
     selected() const
     {
-      for (const auto &[name, object] : objects)
-        if (name == selected_name)
-          return *object;
-      AssertThrow(false,
-                  dealii::ExcMessage("No candidate is called " +
-                                     selected_name));
-      return *objects.front().second;
+      return *selected_entry().object;
+    }
+
+    /// A new object of what is selected, with its parameters.
+    std::unique_ptr<Base>
+    make() const
+    {
+      const Entry &entry = selected_entry();
+      return entry.copy(*entry.object);
     }
 
   private:
-    std::string                                                selected_name;
-    std::vector<std::pair<std::string, std::unique_ptr<Base>>> objects;
+    struct Entry
+    {
+      std::string                                        name;
+      std::unique_ptr<Base>                              object;
+      std::function<std::unique_ptr<Base>(const Base &)> copy;
+    };
+
+    const Entry &
+    selected_entry() const
+    {
+      for (const Entry &entry : objects)
+        if (entry.name == selected_name)
+          return entry;
+      AssertThrow(false,
+                  dealii::ExcMessage("No candidate is called " +
+                                     selected_name));
+      return objects.front();
+    }
+
+    std::string        selected_name;
+    std::vector<Entry> objects;
   };
 } // namespace corotet
 

@@ -5,6 +5,7 @@
 #define corotet_laws_law_kind_h
 
 #include <corotet/base/selectable.h>
+#include <corotet/laws/rotation.h>
 #include <corotet/material/material_law.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -38,7 +39,7 @@ namespace corotet
 
     /// @p rotation: the value of Material/Rotation.
     virtual std::shared_ptr<const MaterialLaw>
-    make(const std::string &rotation) const = 0;
+    make(const Rotation rotation) const = 0;
   };
 
   /// All kinds, and those that programs have added.
@@ -64,7 +65,7 @@ namespace corotet
       {}
 
       std::shared_ptr<const MaterialLaw>
-      make(const std::string &) const override
+      make(const Rotation) const override
       {
         return law();
       }

@@ -37,7 +37,7 @@ namespace corotet
     materials(const MeshNames &regions) const;
 
     Selectable<LawKind> type;
-    std::string         rotation       = "cell centre";
+    Rotation            rotation       = Rotation::cell_centre;
     std::string         youngs_modulus = "1e6";
     std::string         poissons_ratio = "0.3";
     std::string         density        = "1000";

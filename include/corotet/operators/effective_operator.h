@@ -17,16 +17,16 @@ namespace corotet
   class ForceRoundOff;
 
   /**
-   * The linear operator of implicit steps, A = c_K K + c_M M + S, with the
-   * frozen rotations that the elasticity has at the moment of update(), and a
-   * matrix S of the surface, if there is one. Rows and columns of prescribed
-   * unknowns are those of a diagonal matrix, so A is symmetric and positive
-   * definite if c_M > 0 or if enough is prescribed or supported by S.
+   * The linear operator of implicit steps, A = c_K K + c_M M + S: a
+   * CellwiseOperator with the numbers of a body, with the frozen rotations that
+   * the elasticity has at the moment of update(), and a matrix S of the
+   * surface, if there is one. A is symmetric and positive definite if c_M > 0
+   * or if enough is prescribed or supported by S.
    *
-   * A is applied matrix-free; it is assembled for those who ask for the matrix.
-   * The arguments of the constructor must outlive this object.
+   * A is assembled for those who ask for the matrix. The arguments of the
+   * constructor must outlive this object.
    */
-  class EffectiveOperator
+  class EffectiveOperator : public CellwiseOperator<double>
   {
   public:
     /// @p is_prescribed: for each local unknown, ghosts included. @p surface:
@@ -43,20 +43,6 @@ namespace corotet
     /// surface's matrix. Collective.
     void
     update(const double c_K, const double c_M);
-
-    /// dst = A src. Collective.
-    void
-    vmult(Vector &dst, const Vector &src) const
-    {
-      matrix_free.vmult(dst, src);
-    }
-
-    /// The diagonal of A, owned entries.
-    const Vector &
-    diagonal() const
-    {
-      return matrix_free.diagonal();
-    }
 
     /// A with the numbers of the last update(); they are computed by the first
     /// call after it. Collective.
@@ -157,7 +143,6 @@ namespace corotet
     unsigned int                      n_updates = 0;
 
     std::unique_ptr<const ForceRoundOff>     noise;
-    CellwiseOperator<double>                 matrix_free;
     mutable std::unique_ptr<AssembledMatrix> assembled;
     mutable bool                             is_assembled = false;
 

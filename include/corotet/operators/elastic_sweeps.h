@@ -6,19 +6,10 @@
 
 #include <corotet/operators/cell_rule.h>
 #include <corotet/operators/sweep.h>
+#include <corotet/operators/tangent.h>
 
 namespace corotet
 {
-  /// The derivative of the internal force.
-  enum class Tangent
-  {
-    /// As if the rotations did not depend on the displacement: symmetric and
-    /// positive semi-definite.
-    frozen_rotation,
-    /// Exact.
-    consistent
-  };
-
   /// How many numbers a linearization keeps.
   struct LinearizationSize
   {

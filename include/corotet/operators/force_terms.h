@@ -93,6 +93,11 @@ namespace corotet
                    const double   c_u,
                    const double   c_v) const;
 
+    /// The springs of all terms at a time, as a matrix of the surface; null if
+    /// they have no such matrix.
+    std::unique_ptr<SurfaceMatrix>
+    springs(const ReferenceElement &reference, const double time) const;
+
     /// Whether all terms are linear.
     bool
     is_linear() const;

@@ -4,6 +4,7 @@
 #ifndef corotet_operators_mass_h
 #define corotet_operators_mass_h
 
+#include <corotet/base/enumeration.h>
 #include <corotet/base/vector.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
@@ -33,10 +34,11 @@ namespace corotet
     nodal_quadrature
   };
 
-  /// By the name that parameter files use: "consistent", "diagonal scaling",
-  /// "row sum", "nodal quadrature".
-  MassType
-  mass_type(const std::string &name);
+  inline const Enumeration<MassType> mass_types{
+    {"consistent", MassType::consistent},
+    {"diagonal scaling", MassType::diagonal_scaling},
+    {"row sum", MassType::row_sum},
+    {"nodal quadrature", MassType::nodal_quadrature}};
 
   /**
    * Share of a cell's mass that each of its nodes gets when mass is lumped.

@@ -70,13 +70,12 @@ namespace corotet
     }
 
   private:
-    const EffectiveOperator  &A;
-    Elasticity               &elasticity;
-    ForceTerms               &forces;
-    std::vector<unsigned int> prescribed;
-    Tangent                   tangent         = Tangent::consistent;
-    double                    load_factor     = 1;
-    double                    velocity_factor = 0;
+    const EffectiveOperator &A;
+    Elasticity              &elasticity;
+    ForceTerms              &forces;
+    Tangent                  tangent         = Tangent::consistent;
+    double                   load_factor     = 1;
+    double                   velocity_factor = 0;
     /// The source without prescribed entries, with ghosts.
     mutable Vector source;
   };

@@ -25,6 +25,15 @@ namespace corotet
   std::vector<std::string>
   names_of(const std::vector<ProbePoint> &probes);
 
+  /// Where stress and strain are written.
+  enum class StressOutput
+  {
+    none,
+    nodes,
+    quadrature_points,
+    both
+  };
+
   /**
    * The parameters of section Output.
    */
@@ -51,21 +60,15 @@ namespace corotet
     bool
     has_stress_at_nodes() const
     {
-      return stress == "nodes" || stress == "both";
-    }
-
-    /// Whether probes show the raw stress instead of the recovered one.
-    bool
-    has_raw_stress_at_probes() const
-    {
-      return stress_at_probes == "raw";
+      return stress == StressOutput::nodes || stress == StressOutput::both;
     }
 
     /// Whether stress is written at quadrature points.
     bool
     has_stress_at_points() const
     {
-      return stress == "quadrature points" || stress == "both";
+      return stress == StressOutput::quadrature_points ||
+             stress == StressOutput::both;
     }
 
     /**
@@ -81,9 +84,10 @@ namespace corotet
     double       time_between_results = 0;
     unsigned int steps_between_rows   = 1;
     std::string  probes;
-    std::string  stress = "none";
+    StressOutput stress = StressOutput::none;
     std::string  stress_probes;
-    std::string  stress_at_probes = "recovered";
+    /// Whether probes show the raw stress instead of the recovered one.
+    bool raw_stress_at_probes = false;
   };
 } // namespace corotet
 

@@ -4,8 +4,8 @@
 #ifndef corotet_simulation_energy_budget_h
 #define corotet_simulation_energy_budget_h
 
+#include <corotet/simulation/equation_of_motion.h>
 #include <corotet/simulation/observer.h>
-#include <corotet/simulation/structural_system.h>
 
 namespace corotet
 {
@@ -28,7 +28,7 @@ namespace corotet
    * that depend on time count among the loads, and the change of their energy
    * as work from outside: together that is the work of what changes them.
    *
-   * @p system must outlive this object. Members are collective.
+   * @p equation must outlive this object. Members are collective.
    */
   class EnergyBudget
   {
@@ -36,16 +36,15 @@ namespace corotet
     /// @p staggered_step: if not zero, the step [s] of an integrator that keeps
     /// the kinetic energy v_-1/2 . M v_1/2 / 2 = v . M v / 2 - dt^2 a . M a / 8
     /// with the velocities half a step before and after.
-    EnergyBudget(StructuralSystem     &system,
-                 const Discretization &discretization,
-                 const State          &initial_state,
-                 const double          time,
-                 const double          load_factor,
-                 const double          staggered_step = 0);
+    EnergyBudget(EquationOfMotion &equation,
+                 const State      &initial_state,
+                 const double      time,
+                 const double      load_factor,
+                 const double      staggered_step = 0);
 
     /**
      * Accounts for the work of the step of length @p dt that led to @p state at
-     * @p time, with the forces of the system's last evaluation. Throws
+     * @p time, with the forces of the last evaluation. Throws
      * ComputationError, and accounts for nothing, if they are not finite.
      */
     void
@@ -60,7 +59,7 @@ namespace corotet
      * Fills in the budget of the state that was accounted for last. Throws
      * ComputationError if an energy is not finite. The fields of the record
      * that only the driver knows (step, dt, iterations, wall time) are left as
-     * they are. The system is left with the displacement and rotations of
+     * they are. The equation is left with the displacement and rotations of
      * @p state.
      */
     void
@@ -94,9 +93,10 @@ namespace corotet
     void
     take_forces(StepForces &forces, const State &state) const;
 
-    StructuralSystem     &system;
-    const Discretization &discretization;
-    const bool            is_staggered;
+    EquationOfMotion &equation;
+    const Body       &body;
+    const ForceTerms &force_terms;
+    const bool        is_staggered;
     /// Of the last step.
     double     dt;
     StepForces last, now;

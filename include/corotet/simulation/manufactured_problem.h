@@ -21,8 +21,10 @@ namespace corotet
   {
   public:
     /// Throws InputError if the parameters give a solution that cannot be
-    /// differentiated, or data that are to be made.
-    explicit ManufacturedProblem(const SimulationParameters &parameters);
+    /// differentiated, or data that are to be made. @p is_used: if false, there
+    /// is none, whatever they give.
+    ManufacturedProblem(const SimulationParameters &parameters,
+                        const bool                  is_used);
 
     /// Null if there is none.
     const ExactSolution *
@@ -49,7 +51,8 @@ namespace corotet
     add_to(ForceTerms                                      &terms,
            const Discretization                            &discretization,
            const ReferenceElement                          &reference,
-           const std::map<unsigned int, IsotropicMaterial> &materials) const;
+           const std::map<unsigned int, IsotropicMaterial> &materials,
+           const std::shared_ptr<const MaterialLaw>        &law) const;
 
   private:
     void

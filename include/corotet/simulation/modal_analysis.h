@@ -6,13 +6,11 @@
 
 #include <corotet/base/log.h>
 #include <corotet/discretization/rigid_motions.h>
-#include <corotet/laws/linear.h>
-#include <corotet/simulation/observer.h>
-#include <corotet/simulation/simulation_parameters.h>
+#include <corotet/simulation/body.h>
 #include <corotet/solvers/eigenvalue_solver.h>
 
 #include <chrono>
-#include <optional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,17 +59,15 @@ namespace corotet
   public:
     /// @p folder: of the parameter file, for relative names of mesh files.
     /// Throws InputError.
-    ModalAnalysis(SimulationParameters &parameters,
-                  const std::string    &folder,
-                  const MPI_Comm        comm,
-                  Log                  &log);
+    ModalAnalysis(const SimulationParameters &parameters,
+                  const std::string          &folder,
+                  const MPI_Comm              comm,
+                  Log                        &log);
 
-    ~ModalAnalysis();
-
-    const Discretization &
-    discretization() const
+    const Body &
+    body() const
     {
-      return disc;
+      return the_body;
     }
 
     /**
@@ -92,27 +88,10 @@ namespace corotet
       return computed;
     }
 
-    /// Of a displacement with ghost entries up to date.
-    CellResults
-    cell_results(const Vector &displacement) const
-    {
-      return elastic.cell_results(displacement);
-    }
-
     unsigned int
     n_linear_iterations() const
     {
       return solver.n_linear_iterations();
-    }
-
-    /// For displacements, by linear elasticity.
-    StressField
-    stress_field() const
-    {
-      return {disc,
-              reference,
-              parameters.material.materials(mesh.regions()),
-              linear_law()};
     }
 
     /// What is known of the run at its end. The number of steps is that of the
@@ -151,22 +130,16 @@ namespace corotet
     const std::chrono::steady_clock::time_point started =
       std::chrono::steady_clock::now();
 
-    SimulationParameters    &parameters;
-    Log                     &log;
-    const Mesh               mesh;
-    const Discretization     disc;
-    const ReferenceElement   reference;
-    const TableFunctions     tables;
-    const BoundaryConditions conditions;
-    const Mass               mass;
-    Elasticity               elastic;
-    const ForceTerms         terms;
-    const PrescribedMotion   motion;
-    /// The terms' matrix of the surface; empty if they have none.
-    const std::optional<SurfaceMatrix> surface;
-    const RigidMotions                 rigid_motions;
-    EffectiveOperator                  A;
-    EigenvalueSolver                   solver;
+    const SimulationParameters &parameters;
+    Log                        &log;
+    Body                        the_body;
+    const ForceTerms            terms;
+    /// The terms' matrix of the surface; null if they have none.
+    const std::unique_ptr<const SurfaceMatrix> surface;
+    const RigidMotions                         rigid_motions;
+    EffectiveOperator                          A;
+    LinearSolver                               linear_solver;
+    EigenvalueSolver                           solver;
     /// Lower and upper corner of the body's bounding box, and its diagonal.
     const std::pair<dealii::Point<3>, dealii::Point<3>> box;
     const double                                        length;

@@ -22,28 +22,36 @@ namespace corotet
    * everything that the parameters describe; run() computes.
    *
    * @p parameters, which have been read already, and @p log must outlive this
-   * object. Members are collective.
+   * object; several objects may share them. Members are collective.
    */
   class Simulation
   {
   public:
     /// @p folder: of the parameter file, for relative names of mesh files.
     /// Throws InputError.
-    Simulation(SimulationParameters &parameters,
-               const std::string    &folder,
-               const MPI_Comm        comm,
-               Log                  &log);
+    Simulation(const SimulationParameters &parameters,
+               const std::string          &folder,
+               const MPI_Comm              comm,
+               Log                        &log);
 
-    const Discretization &
-    discretization() const
+    const Body &
+    body() const
     {
-      return disc;
+      return the_body;
     }
 
-    const StructuralSystem &
-    structural_system() const
+    /// Displacement [m] and velocity [m/s] after the last step, with ghost
+    /// entries.
+    const Vector &
+    displacement() const
     {
-      return system;
+      return system.equation().displacement();
+    }
+
+    const Vector &
+    velocity() const
+    {
+      return system.equation().velocity();
     }
 
     double
@@ -132,16 +140,14 @@ namespace corotet
     const std::chrono::steady_clock::time_point started =
       std::chrono::steady_clock::now();
 
-    SimulationParameters &parameters;
-    Log                  &log;
-    WallTimes             wall_times;
-    const TableFunctions  tables;
-    const Mesh            mesh;
-    const Discretization  disc;
-    StructuralSystem      system;
-    TimeLoop              stepper;
-    StepRecord            last_record;
-    bool                  is_started = false;
+    const SimulationParameters &parameters;
+    Log                        &log;
+    WallTimes                   wall_times;
+    Body                        the_body;
+    StructuralSystem            system;
+    TimeLoop                    stepper;
+    StepRecord                  last_record;
+    bool                        is_started = false;
 
     const std::vector<std::unique_ptr<Observer>> *observers = nullptr;
 

@@ -12,6 +12,7 @@
 #include <corotet/laws/material_parameters.h>
 #include <corotet/material/exact_solution.h>
 #include <corotet/mesh/mesh.h>
+#include <corotet/operators/mass.h>
 #include <corotet/simulation/adaptive_step.h>
 #include <corotet/solvers/linear_solver.h>
 #include <corotet/solvers/newton.h>
@@ -23,6 +24,19 @@
 
 namespace corotet
 {
+  /// What is computed.
+  enum class RunType
+  {
+    simulation,
+    modes,
+    convergence_study
+  };
+
+  inline const Enumeration<RunType> run_types{
+    {"simulation", RunType::simulation},
+    {"modes", RunType::modes},
+    {"convergence study", RunType::convergence_study}};
+
   /**
    * The parameters of section Modes.
    */
@@ -38,8 +52,9 @@ namespace corotet
   };
 
   /**
-   * All parameters of a run but those of its output. Must not be moved after
-   * declare_parameters().
+   * All parameters of a run but those of its output: values, which nothing
+   * changes once they are read, so that any number of bodies and systems may be
+   * made of them. Must not be moved after declare_parameters().
    */
   struct SimulationParameters
   {
@@ -52,11 +67,10 @@ namespace corotet
     Element
     element() const;
 
-    /// "simulation", "modes" or "convergence study".
-    std::string                 type = "simulation";
+    RunType                     type = RunType::simulation;
     MeshParameters              mesh;
-    unsigned int                degree    = 2;
-    std::string                 mass_type = "consistent";
+    unsigned int                degree = 2;
+    MassType                    mass   = MassType::consistent;
     MaterialParameters          material;
     TableParameters             tables;
     BoundaryConditionParameters boundary_conditions;
@@ -71,8 +85,8 @@ namespace corotet
     double                     time_step    = 0.01;
     unsigned int               max_halvings = 8;
     AdaptiveStepParameters     adaptive_step;
-    Newton                     newton;
-    LinearSolver               linear_solver;
+    NewtonParameters           newton;
+    LinearSolverParameters     linear_solver;
     ModesParameters            modes;
   };
 } // namespace corotet

@@ -40,10 +40,9 @@ namespace corotet
   {
   public:
     /// Throws InputError.
-    TimeLoop(SimulationParameters &parameters,
-             const Discretization &discretization,
-             StructuralSystem     &system,
-             Log                  &log);
+    TimeLoop(const SimulationParameters &parameters,
+             StructuralSystem           &system,
+             Log                        &log);
 
     /// Makes the initial state complete. Returns its record.
     const StepRecord &
@@ -97,7 +96,7 @@ namespace corotet
     bool
     is_stable_step_due(const unsigned int step) const
     {
-      const StabilityControl *control = integrator.stability();
+      const StabilityControl *control = integrator->stability();
       return control && step % control->steps_between_estimates == 0;
     }
     /// Warns, once, if a run of that many steps [-] of that length [s] takes
@@ -142,11 +141,11 @@ namespace corotet
     is_singular_for_good(const ComputationError &error) const
     {
       if (dynamic_cast<const SingularMatrixError *>(&error) == nullptr ||
-          integrator.is_dynamic())
+          integrator->is_dynamic())
         return false;
       Vector difference(present.u);
       difference -= good_state.u;
-      return system.elasticity().law().is_linear() || norm(difference) == 0;
+      return body.law->is_linear() || norm(difference) == 0;
     }
     void
     announce_half(const double to, const ComputationError &error) const
@@ -184,7 +183,7 @@ namespace corotet
     complete(StepRecord &record)
     {
       budget->record(record, present, time(done));
-      record.clamped_cells = system.take_clamped_cells();
+      record.clamped_cells = system.implicit_solver().take_clamped_cells();
     }
     /// Throws ComputationError if energy has come out of nothing.
     void
@@ -193,14 +192,14 @@ namespace corotet
     /// Fits in the counter of steps.
     static constexpr unsigned int largest_number_of_steps = 4000000000;
 
-    SimulationParameters         &parameters;
-    const Discretization         &discretization;
-    StructuralSystem             &system;
-    Log                          &log;
-    TimeIntegrator               &integrator;
-    OutputTimes                   recording;
-    State                         present;
-    std::unique_ptr<EnergyBudget> budget;
+    const SimulationParameters           &parameters;
+    StructuralSystem                     &system;
+    Body                                 &body;
+    Log                                  &log;
+    const std::unique_ptr<TimeIntegrator> integrator;
+    OutputTimes                           recording;
+    State                                 present;
+    std::unique_ptr<EnergyBudget>         budget;
     /// Parts of the run that the present state has reached, and that the last
     /// step started from.
     double done = 0;

@@ -32,11 +32,15 @@ namespace corotet
   class CholeskyDirect : public DirectSolver
   {
   public:
-    void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    CholeskyDirect() = default;
+
+    /// A copy has no factors.
+    CholeskyDirect(const CholeskyDirect &)
+      : DirectSolver()
+    {}
 
     void
-    clear() override;
+    build(const EffectiveOperator &A, const Vector &positions) override;
 
     void
     vmult(Vector &dst, const Vector &src) const override;

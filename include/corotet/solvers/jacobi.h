@@ -23,9 +23,6 @@ namespace corotet
     update(const EffectiveOperator &A) override;
 
     void
-    clear() override;
-
-    void
     vmult(Vector &dst, const Vector &src) const override;
 
   private:

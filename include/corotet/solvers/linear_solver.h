@@ -10,15 +10,42 @@
 
 #include <deal.II/lac/solver_control.h>
 
-#include <algorithm>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace corotet
 {
+  /// Krylov methods, as the entry Method says.
+  enum class KrylovMethod
+  {
+    automatic,
+    conjugate_gradients,
+    minres,
+    gmres
+  };
+
+  /**
+   * The parameters of section Linear solver. Must not be moved after
+   * declare_parameters().
+   */
+  struct LinearSolverParameters
+  {
+    LinearSolverParameters();
+
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    Selectable<Preconditioner> preconditioner;
+    KrylovMethod               method         = KrylovMethod::automatic;
+    bool                       is_assembled   = false;
+    double                     tolerance      = 1e-8;
+    unsigned int               max_iterations = 10000;
+  };
+
   /**
    * A Krylov method for the effective operator, or for an operator close to it,
-   * with a preconditioner chosen at run time (section Linear solver).
+   * with a preconditioner chosen at run time.
    *
    * Conjugate gradients for what is symmetric; if these meet a direction of
    * negative curvature, the operator is indefinite and MINRES goes on from
@@ -35,10 +62,11 @@ namespace corotet
   class LinearSolver
   {
   public:
-    LinearSolver();
-
-    void
-    declare_parameters(dealii::ParameterHandler &prm);
+    /// @p parameters must outlive this object. Residuals are to be below
+    /// @p largest_tolerance, too, relative to the right hand side.
+    explicit LinearSolver(
+      const LinearSolverParameters &parameters,
+      const double largest_tolerance = std::numeric_limits<double>::infinity());
 
     /// Throws InputError if the parameters are not fit for operators other than
     /// the effective one: @p symmetric ones or not.
@@ -51,7 +79,8 @@ namespace corotet
      * further, what round-off makes of J x. @p positions: current positions of
      * the nodes [m]. Returns the number of iterations. Throws ComputationError
      * if it does not get there.
-     * @p A must live until clear(). Collective.
+     * All operators must be the same object, of which the numbers change, and
+     * live as long as this one is used. Collective.
      */
     unsigned int
     solve(const EffectiveOperator &A,
@@ -65,26 +94,15 @@ namespace corotet
     const std::string &
     type() const
     {
-      return preconditioner.name();
+      return parameters.preconditioner.name();
     }
 
-    /// Makes the tolerance no larger than @p limit.
-    void
-    limit_tolerance(const double limit)
-    {
-      tolerance = std::min(tolerance, limit);
-    }
-
-    /// How often a preconditioner has been made since the last clear().
+    /// How often a preconditioner has been made.
     unsigned int
     preconditioner_builds() const
     {
       return n_builds;
     }
-
-    /// Forgets the operator of the last solves.
-    void
-    clear();
 
   private:
     /// Whether b - J x is nothing but round-off.
@@ -116,11 +134,9 @@ namespace corotet
                       const Vector      &b,
                       const double       wanted) const;
 
-    Selectable<Preconditioner> preconditioner;
-    std::string                method         = "automatic";
-    std::string                operator_type  = "matrix-free";
-    double                     tolerance      = 1e-8;
-    unsigned int               max_iterations = 10000;
+    const LinearSolverParameters         &parameters;
+    const double                          tolerance;
+    const std::unique_ptr<Preconditioner> preconditioner;
 
     bool   is_built         = false;
     double built_mass_ratio = 0;

@@ -5,11 +5,10 @@
 #define corotet_solvers_newton_h
 
 #include <corotet/base/vector.h>
+#include <corotet/operators/tangent.h>
 #include <corotet/solvers/newton_report.h>
 
 #include <deal.II/base/parameter_handler.h>
-
-#include <string>
 
 namespace corotet
 {
@@ -80,7 +79,23 @@ namespace corotet
   };
 
   /**
-   * Newton's method (section Newton).
+   * The parameters of section Newton.
+   */
+  struct NewtonParameters
+  {
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    double       residual_tolerance  = 1e-8;
+    double       increment_tolerance = 1e-8;
+    unsigned int max_iterations      = 50;
+    Tangent      tangent             = Tangent::consistent;
+    bool         linearly_implicit   = false;
+    bool         always_log          = false;
+  };
+
+  /**
+   * Newton's method.
    *
    * It has converged when the residual is below its tolerance and the error
    * that is left in x is below that of the increment (which says nothing more
@@ -111,29 +126,25 @@ namespace corotet
   class Newton
   {
   public:
-    void
-    declare_parameters(dealii::ParameterHandler &prm);
+    explicit Newton(const NewtonParameters &parameters)
+      : parameters(parameters)
+    {}
 
     /// Throws ComputationError if it does not converge; @p report tells also
     /// then what was done. @p prototype: a vector like x. Collective.
     void
     solve(NewtonProblem &problem,
           const Vector  &prototype,
-          NewtonReport  &report) const;
-
-    double       residual_tolerance  = 1e-8;
-    double       increment_tolerance = 1e-8;
-    unsigned int max_iterations      = 50;
-    std::string  tangent             = "consistent";
-    bool         linearly_implicit   = false;
-    bool         always_log          = false;
+          NewtonReport  &report);
 
   private:
     class Iteration;
 
-    mutable Vector r;
-    mutable Vector dx;
-    mutable Vector best_dx;
+    const NewtonParameters parameters;
+    // Work space.
+    Vector r;
+    Vector dx;
+    Vector best_dx;
   };
 } // namespace corotet
 

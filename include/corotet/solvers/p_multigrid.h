@@ -40,6 +40,13 @@ namespace corotet
       : further(further)
     {}
 
+    /// A copy has the parameters, and nothing that has been built.
+    PMultigrid(const PMultigrid &other)
+      : Preconditioner()
+      , further(other.further)
+      , parameters(other.parameters)
+    {}
+
     void
     declare_parameters(dealii::ParameterHandler &prm) override;
 
@@ -48,9 +55,6 @@ namespace corotet
 
     void
     update(const EffectiveOperator &A) override;
-
-    void
-    clear() override;
 
     void
     vmult(Vector &dst, const Vector &src) const override;
@@ -102,10 +106,15 @@ namespace corotet
 
     const CoarseSolvers further;
 
-    unsigned int smoother_degree = 4;
-    double       smoothing_range = 20;
-    std::string  coarse_type     = "automatic";
-    unsigned int direct_limit    = 15000;
+    struct Parameters
+    {
+      unsigned int smoother_degree = 4;
+      double       smoothing_range = 20;
+      std::string  coarse_type     = "automatic";
+      unsigned int direct_limit    = 15000;
+    };
+
+    Parameters parameters;
 
     /// Finest first.
     std::vector<std::unique_ptr<Level>>            levels;

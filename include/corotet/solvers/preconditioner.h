@@ -26,9 +26,8 @@ namespace corotet
 
     /**
      * Makes P from A as it is now. @p positions are the current positions of
-     * the nodes [m], from which rigid body modes are made. A must live until
-     * clear(); it may change in between, then P is that of an older A.
-     * Collective.
+     * the nodes [m], from which rigid body modes are made. A must live as long
+     * as P is used; when it changes, P is that of an older A. Collective.
      */
     virtual void
     build(const EffectiveOperator &A, const Vector &positions) = 0;
@@ -37,10 +36,6 @@ namespace corotet
     virtual void
     update(const EffectiveOperator & /*A*/)
     {}
-
-    /// Forgets A and P.
-    virtual void
-    clear() = 0;
 
     /// dst = P src. Collective.
     virtual void

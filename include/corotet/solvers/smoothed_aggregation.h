@@ -42,9 +42,6 @@ namespace corotet
     void
     build(const BlockMatrix &A, const double *positions);
 
-    void
-    clear();
-
     /// dst = P src, owned entries, for float or double. Only the first call
     /// allocates memory. Collective.
     template <typename Number>

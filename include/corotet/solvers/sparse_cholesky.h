@@ -53,10 +53,6 @@ namespace corotet
     void
     factorize(const BlockMatrix &A);
 
-    /// Forgets A and L.
-    void
-    clear();
-
     /**
      * dst = A^-1 src, owned entries only; they may be the same. Of float or
      * double, distributed as the rows of A. Only the first call allocates

@@ -4,6 +4,8 @@
 #ifndef corotet_studies_study_parameters_h
 #define corotet_studies_study_parameters_h
 
+#include <corotet/simulation/simulation_parameters.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <optional>
@@ -36,6 +38,19 @@ namespace corotet
     overrides() const;
   };
 
+  /// What the fields of a study's runs are compared with.
+  enum class StudyReference
+  {
+    exact_solution,
+    finer_run,
+    none
+  };
+
+  inline const Enumeration<StudyReference> study_references{
+    {"exact solution", StudyReference::exact_solution},
+    {"finer run", StudyReference::finer_run},
+    {"none", StudyReference::none}};
+
   /**
    * The parameters of section Convergence study.
    */
@@ -60,13 +75,13 @@ namespace corotet
     std::vector<Quantity>
     quantity_list() const;
 
-    std::string               run         = "simulation";
+    RunType                   run         = RunType::simulation;
     std::vector<unsigned int> degrees     = {1, 2, 3};
     std::vector<unsigned int> refinements = {0, 1, 2};
     std::vector<double>       time_steps;
     std::vector<std::string>  masses;
     std::vector<std::string>  rotations;
-    std::string               reference           = "exact solution";
+    StudyReference            reference = StudyReference::exact_solution;
     unsigned int              further_refinements = 1;
     std::string               quantities;
     bool                      pictures = true;

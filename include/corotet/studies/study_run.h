@@ -98,12 +98,6 @@ namespace corotet
       return simulated.get();
     }
 
-    const std::map<unsigned int, IsotropicMaterial> &
-    materials() const
-    {
-      return region_materials;
-    }
-
   private:
     void
     simulate(StudyResult &result);
@@ -116,14 +110,13 @@ namespace corotet
     std::vector<double>
     pick(const nlohmann::ordered_json &values) const;
 
-    ParameterFile                             file;
-    RunParameters                             parameters;
-    StudyCase                                 study_case;
-    MPI_Comm                                  comm;
-    Log                                       log;
-    std::unique_ptr<Simulation>               simulated;
-    std::unique_ptr<ModalAnalysis>            analysis;
-    std::map<unsigned int, IsotropicMaterial> region_materials;
+    ParameterFile                  file;
+    RunParameters                  parameters;
+    StudyCase                      study_case;
+    MPI_Comm                       comm;
+    Log                            log;
+    std::unique_ptr<Simulation>    simulated;
+    std::unique_ptr<ModalAnalysis> analysis;
   };
 } // namespace corotet
 

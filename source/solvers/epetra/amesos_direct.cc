@@ -25,7 +25,8 @@ namespace corotet
   void
   AmesosDirect::build(const EffectiveOperator &A, const Vector &)
   {
-    clear();
+    // What refers to the old matrix goes first.
+    factors.reset();
     matrix = std::make_unique<EpetraMatrix>(A.matrix());
     // Amesos' interface has no constant matrices, but it only reads.
     problem.SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix->get()));
@@ -35,13 +36,6 @@ namespace corotet
     factors.reset(amesos.Create(type, problem));
     check_step("symbolic factorisation", factors->SymbolicFactorization());
     check_step("numeric factorisation", factors->NumericFactorization());
-  }
-
-  void
-  AmesosDirect::clear()
-  {
-    factors.reset();
-    matrix.reset();
   }
 
   void

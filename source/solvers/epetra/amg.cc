@@ -72,13 +72,6 @@ namespace corotet
   }
 
   void
-  AMG::clear()
-  {
-    amg.clear();
-    matrix.reset();
-  }
-
-  void
   AMG::vmult(Vector &dst, const Vector &src) const
   {
     amg.vmult(dst, src);

@@ -21,11 +21,15 @@ namespace corotet
   class AmesosDirect : public DirectSolver
   {
   public:
-    void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    AmesosDirect() = default;
+
+    /// A copy has no factors.
+    AmesosDirect(const AmesosDirect &)
+      : DirectSolver()
+    {}
 
     void
-    clear() override;
+    build(const EffectiveOperator &A, const Vector &positions) override;
 
     void
     vmult(Vector &dst, const Vector &src) const override;

@@ -40,6 +40,13 @@ namespace corotet
       : parameters(parameters)
     {}
 
+    /// A copy has parameters of its own, with the same values, and no matrix.
+    AMG(const AMG &other)
+      : Preconditioner()
+      , CoarseSolver()
+      , parameters(std::make_shared<AMGParameters>(*other.parameters))
+    {}
+
     void
     declare_parameters(dealii::ParameterHandler &prm) override
     {
@@ -53,19 +60,16 @@ namespace corotet
     build(const BlockMatrix &A, const Vector &positions) override;
 
     void
-    clear() override;
-
-    void
     vmult(Vector &dst, const Vector &src) const override;
 
   private:
     const std::shared_ptr<AMGParameters> parameters;
 
-    /// Lives longer than amg, which refers to it.
-    std::unique_ptr<EpetraMatrix>             matrix;
+    // What amg refers to lives longer.
+    std::unique_ptr<EpetraMatrix> matrix;
+    /// Six vectors over the owned unknowns, one after another.
+    std::vector<double>                       rigid_body_modes;
     dealii::TrilinosWrappers::PreconditionAMG amg;
-    /// Six vectors over the owned unknowns, one after another; ML refers to it.
-    std::vector<double> rigid_body_modes;
   };
 } // namespace corotet
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_acceleration_solver_h
+#define corotet_simulation_acceleration_solver_h
+
+#include <corotet/operators/surface_matrix.h>
+#include <corotet/simulation/equation_of_motion.h>
+#include <corotet/solvers/mass_solver.h>
+
+#include <limits>
+#include <memory>
+
+namespace corotet
+{
+  /**
+   * Solves the equation of motion for the acceleration: at the start of a run
+   * and in explicit steps. The argument of the constructor must outlive this
+   * object. Members are collective.
+   */
+  class AccelerationSolver
+  {
+  public:
+    explicit AccelerationSolver(EquationOfMotion &equation);
+
+    /// As SecondOrderSystem has them.
+    StageReport
+    solve_acceleration(State       &state,
+                       const double time,
+                       const double velocity_factor);
+    bool
+    step_many(State &state, const double dt, const unsigned int n);
+
+    /// Whether step_many() is possible.
+    bool
+    can_step_many() const;
+
+    /// Estimate of the largest angular frequency of M^-1 K [rad/s], from above
+    /// by less than 0.1 percent. K is the tangent at @p state, with frozen
+    /// rotations if the exact one is not symmetric, and the stiffness that
+    /// force terms have on the surface at @p time.
+    double
+    largest_frequency(const State &state, const double time = 0);
+
+  private:
+    /// With a lumped mass, without damping on the surface; @p c is the part of
+    /// damping by mass that is in the velocity to come.
+    void
+    solve_lumped(State       &state,
+                 const double time,
+                 const double velocity_factor,
+                 const double c);
+    /// @p factor times the matrix of damping on the surface.
+    const SurfaceOperator<double> &
+    surface_damping(const double time, const double factor);
+
+    EquationOfMotion &equation;
+    Body             &body;
+    const MassSolver  mass_solver;
+
+    std::unique_ptr<SurfaceMatrix>           surface;
+    std::unique_ptr<SurfaceOperator<double>> damping_operator;
+    double damping_time   = std::numeric_limits<double>::quiet_NaN();
+    double damping_factor = std::numeric_limits<double>::quiet_NaN();
+
+    /// Work space; empty until it is needed.
+    Vector residual, acceleration, ghosted;
+  };
+} // namespace corotet
+
+#endif

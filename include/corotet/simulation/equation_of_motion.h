@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_equation_of_motion_h
+#define corotet_simulation_equation_of_motion_h
+
+#include <corotet/base/timing.h>
+#include <corotet/operators/force_terms.h>
+#include <corotet/simulation/body.h>
+#include <corotet/time_integration/second_order_system.h>
+
+#include <limits>
+#include <string>
+
+namespace corotet
+{
+  /**
+   * The terms of a body's equation of motion
+   *
+   *   M a + f_int(u) + f_d + f_e = f_ext
+   *
+   * at a state [seed, 2.71 and 2.75], with the force terms of damping f_d, the
+   * elastic ones f_e, and all others f_ext. The arguments of the constructor
+   * must outlive this object. Members are collective.
+   */
+  class EquationOfMotion
+  {
+  public:
+    /// The terms [N], complete on owned entries.
+    struct Forces
+    {
+      Vector external;
+      Vector internal;
+      Vector damping;
+      Vector inertia;
+      /// Of the elastic terms that do not depend on time, as a resistance.
+      /// Empty if there are none.
+      Vector elastic;
+    };
+
+    /// Throws InputError.
+    EquationOfMotion(Body                       &body,
+                     const SimulationParameters &parameters,
+                     WallTimes                  &wall_times,
+                     Log                        &log);
+
+    /// Evaluates all terms at a state, with the rotations of its displacement.
+    /// Who solves for an acceleration completes inertia and damping.
+    Forces &
+    evaluate(const State &state, const double time, const double load_factor);
+
+    /// All but inertia.
+    Forces &
+    evaluate_forces(const State &state,
+                    const double time,
+                    const double load_factor);
+
+    /// Sets the inertia of the forces to M @p acceleration.
+    void
+    evaluate_inertia(const Vector &acceleration);
+
+    /// r = f_ext - f_int - f_d - f_e - M a of the last evaluation, zero where
+    /// the displacement is prescribed.
+    void
+    residual(Vector &r) const;
+
+    /**
+     * The terms of the last evaluation: after a step, those for which the
+     * equation of motion holds (for linearly implicit steps, up to the error of
+     * the linearization).
+     */
+    const Forces &
+    last_forces() const
+    {
+      return forces;
+    }
+
+    /// Time [s] and motion of the last evaluation, with the velocity if a force
+    /// needs it.
+    Motion
+    last_motion() const
+    {
+      return {time, u, v};
+    }
+
+    double
+    last_time() const
+    {
+      return time;
+    }
+
+    /// Whether the external forces of the last evaluation are those of any
+    /// time, with loads times 1.
+    bool
+    has_constant_loads() const
+    {
+      return terms.is_constant() && known_load_factor == 1;
+    }
+
+    /// Takes displacement, velocity and rotations from a state, no forces.
+    void
+    set_state(const State &state);
+
+    /// Displacement and velocity of the last evaluation, or of the last
+    /// set_state(), with ghost entries.
+    const Vector &
+    displacement() const
+    {
+      return u;
+    }
+
+    const Vector &
+    velocity() const
+    {
+      return v;
+    }
+
+    /// Whether the equation is linear in the motion.
+    bool
+    is_linear() const
+    {
+      return body.law->is_linear() && terms.is_linear();
+    }
+
+    /// Whether the forces are the gradient of an energy.
+    bool
+    has_energy() const
+    {
+      return body.elasticity.is_symmetric(Tangent::consistent) &&
+             terms.has_potential();
+    }
+
+    /// What may be the reason that the forces of the last evaluation are not
+    /// finite: cells without a stress, or nothing that is known. To be appended
+    /// to an error.
+    std::string
+    why_not_finite() const;
+
+    Body      &body;
+    WallTimes &wall_times;
+    /// All forces but the internal one.
+    ForceTerms terms;
+
+  private:
+    Forces forces;
+    double time = 0;
+    /// Of the external forces that are known, and are needed again.
+    double known_load_factor = std::numeric_limits<double>::quiet_NaN();
+    double known_time        = std::numeric_limits<double>::quiet_NaN();
+    Vector u;
+    Vector v;
+    Vector a;
+  };
+} // namespace corotet
+
+#endif

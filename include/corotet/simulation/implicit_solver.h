@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_implicit_solver_h
+#define corotet_simulation_implicit_solver_h
+
+#include <corotet/base/log.h>
+#include <corotet/operators/effective_operator.h>
+#include <corotet/operators/surface_matrix.h>
+#include <corotet/operators/tangent_operator.h>
+#include <corotet/simulation/equation_of_motion.h>
+#include <corotet/solvers/linear_solver.h>
+#include <corotet/solvers/newton.h>
+
+#include <limits>
+#include <memory>
+#include <set>
+#include <utility>
+
+namespace corotet
+{
+  /**
+   * Solves the equation of motion at the stages of implicit steps and of load
+   * steps by Newton's method. The matrix is made at the first solve. The
+   * arguments of the constructor must outlive this object. Members are
+   * collective.
+   */
+  class ImplicitSolver : private NewtonProblem
+  {
+  public:
+    /// Throws InputError if the linear solver is not fit for the equation.
+    ImplicitSolver(EquationOfMotion             &equation,
+                   const NewtonParameters       &newton_parameters,
+                   const LinearSolverParameters &linear_solver_parameters,
+                   Log                          &log);
+
+    /// As SecondOrderSystem has them.
+    StageReport
+    solve_stage(State &state, const Stage &stage);
+    StageReport
+    move_supports(State &state, const double time, const double load_factor);
+
+    /// Cells where the derivative of a rotation was clamped, over all ranks,
+    /// largest number since the last call.
+    unsigned int
+    take_clamped_cells()
+    {
+      return std::exchange(clamped_cells, 0u);
+    }
+
+    /// How often a preconditioner has been made.
+    unsigned int
+    preconditioner_builds() const
+    {
+      return linear_solver.preconditioner_builds();
+    }
+
+  private:
+    Norm
+    residual(Vector &r) override;
+    unsigned int
+    solve_linearized(Vector &dx, const Vector &r) override;
+    Norm
+    add(const double factor, const Vector &dx) override;
+    void
+    keep() override;
+    void
+    restore() override;
+    bool
+    is_linear() const override;
+    bool
+    has_energy() const override;
+    bool
+    use_definite_tangent(const bool use) override;
+
+    void
+    make_operators();
+    /// Takes the tangent at the last evaluation, for the stage. Returns its
+    /// operator; null if it is the effective operator.
+    const TangentOperator *
+    linearize();
+    /// Makes the matrix of the surface that of the stage. Returns whether it
+    /// has changed.
+    bool
+    update_surface();
+    /// Solves J dx = r, or A dx = r if @p J is null. Returns the number of
+    /// linear iterations. Throws ComputationError.
+    unsigned int
+    solve_tangent_system(Vector &dx, const Vector &r, const TangentOperator *J);
+    /// What round-off may make of the sum of the last evaluation's forces [N].
+    double
+    round_off() const;
+    /// Says once that round-off has ended Newton's iterations.
+    void
+    report_round_off(const NewtonReport &report);
+    /// Says once that a direct solver is faster, if @p n_iterations of a solve
+    /// with p-multigrid and those of slow ones before tell so.
+    void
+    advise_direct_solver(const unsigned int n_iterations);
+
+    EquationOfMotion      &equation;
+    Body                  &body;
+    const NewtonParameters parameters;
+    Newton                 newton;
+    LinearSolver           linear_solver;
+    Log                   &log;
+    Tangent                tangent;
+
+    std::unique_ptr<EffectiveOperator> effective_operator;
+    std::unique_ptr<TangentOperator>   tangent_operator;
+
+    /// What force terms have of a matrix of the surface, and for which stage;
+    /// null if they have none.
+    std::unique_ptr<SurfaceMatrix> surface;
+    double surface_time   = std::numeric_limits<double>::quiet_NaN();
+    double surface_factor = std::numeric_limits<double>::quiet_NaN();
+
+    // The stage that is being solved.
+    State *stage_state = nullptr;
+    Stage  stage       = {};
+    State  kept;
+    /// Size of the forces [N]: of the last residual, of the last stage that was
+    /// solved, and what residuals of the stage are compared with at least.
+    double force_scale  = 0;
+    double solved_scale = 0;
+    double stage_scale  = 0;
+    /// Which ends by round-off the log has shown.
+    std::set<NewtonReport::RoundOff> shown_round_off;
+    // Of the last update of the operator.
+    double operator_c_K = -1;
+    double operator_c_M = -1;
+
+    unsigned int clamped_cells = 0;
+    /// Of linear solves that were slow.
+    unsigned int slow_iterations = 0;
+    Vector       positions;
+  };
+} // namespace corotet
+
+#endif

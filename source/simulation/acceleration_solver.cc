@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/ghosted_copy.h>
+#include <corotet/simulation/acceleration_solver.h>
+#include <corotet/solvers/largest_eigenvalue.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  AccelerationSolver::AccelerationSolver(EquationOfMotion &equation)
+    : equation(equation)
+    , body(equation.body)
+    , mass_solver(body.discretization, body.mass, body.motion)
+  {}
+
+  void
+  AccelerationSolver::solve_lumped(State       &state,
+                                   const double time,
+                                   const double velocity_factor,
+                                   const double c)
+  {
+    EquationOfMotion::Forces &forces =
+      equation.evaluate_forces(state, time, 1.);
+    ScopedTimer          timer(equation.wall_times.solve);
+    const unsigned char *is_prescribed = body.motion.is_prescribed().data();
+    const double        *m             = body.mass.diagonal().begin();
+    const double        *external      = forces.external.begin();
+    const double        *internal      = forces.internal.begin();
+    const double        *elastic =
+      equation.terms.has_elastic() ? forces.elastic.begin() : nullptr;
+    double            *damping = forces.damping.begin();
+    double            *inertia = forces.inertia.begin();
+    double            *a       = state.a.begin();
+    double            *v       = state.v.begin();
+    const unsigned int n       = state.a.locally_owned_size();
+    for (unsigned int i = 0; i < n; ++i)
+      if (is_prescribed[i])
+        inertia[i] = m[i] * a[i];
+      else
+        {
+          const double e = elastic != nullptr ? elastic[i] : 0.;
+          inertia[i] = (external[i] - internal[i] - damping[i] - e) / (1 + c);
+          a[i]       = inertia[i] / m[i];
+          v[i] += velocity_factor * a[i];
+          damping[i] += c * inertia[i];
+        }
+  }
+
+  StageReport
+  AccelerationSolver::solve_acceleration(State       &state,
+                                         const double time,
+                                         const double velocity_factor)
+  {
+    // Of damping by mass and on the surface, a part is in the velocity to come.
+    const ForceTerms &terms = equation.terms;
+    const double      c     = velocity_factor * terms.damping_shares().mass;
+    const bool        has_surface_damping =
+      velocity_factor != 0 && terms.has_surface_damping();
+    if (body.mass.is_lumped() && !has_surface_damping)
+      {
+        solve_lumped(state, time, velocity_factor, c);
+        return {};
+      }
+
+    StageReport report;
+    if (residual.size() == 0)
+      for (Vector *vector : {&residual, &acceleration, &ghosted})
+        body.discretization.initialize_vector(*vector);
+    // Free accelerations from those that are prescribed: M_ff a_f = r_f.
+    for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
+      if (!body.motion.is_prescribed()[i])
+        state.a.local_element(i) = 0;
+    EquationOfMotion::Forces &forces = equation.evaluate(state, time, 1.);
+    Vector                   &r      = residual;
+    Vector                   &a      = acceleration;
+    equation.residual(r);
+
+    ScopedTimer                    timer(equation.wall_times.solve);
+    const SurfaceOperator<double> *C =
+      has_surface_damping ? &surface_damping(time, velocity_factor) : nullptr;
+    if (C != nullptr)
+      report.linear_iterations = mass_solver.solve(a, r, 1 + c, *C);
+    else
+      {
+        report.linear_iterations = mass_solver.solve(a, r);
+        a *= 1 / (1 + c);
+      }
+    state.a += a;
+    state.v.add(velocity_factor, a);
+    equation.evaluate_inertia(state.a);
+    if (c > 0 || C != nullptr)
+      copy_with_ghosts(ghosted, a);
+    if (c > 0)
+      {
+        body.mass.apply(r, ghosted);
+        forces.damping.add(c, r);
+      }
+    if (C != nullptr)
+      C->add(forces.damping, ghosted);
+    return report;
+  }
+
+  const SurfaceOperator<double> &
+  AccelerationSolver::surface_damping(const double time, const double factor)
+  {
+    if (!damping_operator)
+      {
+        surface =
+          std::make_unique<SurfaceMatrix>(body.discretization, body.reference);
+        damping_operator =
+          std::make_unique<SurfaceOperator<double>>(body.discretization);
+      }
+    if (factor != damping_factor ||
+        (time != damping_time &&
+         equation.terms.surface_matrix_depends_on_time()))
+      {
+        equation.terms.surface_matrix(*surface, time, 0., factor);
+        damping_operator->set(*surface);
+        damping_time   = time;
+        damping_factor = factor;
+      }
+    return *damping_operator;
+  }
+
+  bool
+  AccelerationSolver::can_step_many() const
+  {
+    return body.mass.is_lumped() && !equation.terms.has_damping() &&
+           !equation.terms.has_elastic() && equation.has_constant_loads() &&
+           body.motion.is_at_rest();
+  }
+
+  bool
+  AccelerationSolver::step_many(State             &state,
+                                const double       dt,
+                                const unsigned int n)
+  {
+    if (!can_step_many())
+      return false;
+    ScopedTimer timer(equation.wall_times.assembly);
+    for (unsigned int i = 0; i < n; ++i)
+      body.elasticity.explicit_step(state.u,
+                                    state.v,
+                                    equation.last_forces().external,
+                                    mass_solver.inverse_diagonal_vector(),
+                                    dt);
+    return true;
+  }
+
+  double
+  AccelerationSolver::largest_frequency(const State &state, const double time)
+  {
+    equation.set_state(state);
+    const Discretization &discretization = body.discretization;
+    Elasticity           &elasticity     = body.elasticity;
+    const auto springs = equation.terms.springs(body.reference, time);
+    SurfaceOperator<double> surface_stiffness(discretization);
+    if (springs)
+      surface_stiffness.set(*springs);
+    // The exact tangent where it is symmetric: tension stiffens.
+    const Tangent tangent = elasticity.is_symmetric(Tangent::consistent) ?
+                              Tangent::consistent :
+                              Tangent::frozen_rotation;
+    if (!elasticity.is_by_cell(tangent))
+      elasticity.linearize(equation.displacement(), tangent);
+    if (ghosted.size() == 0)
+      discretization.initialize_vector(ghosted);
+    const SymmetricPencil pencil{
+      [&](Vector &f, const Vector &v) {
+        copy_with_ghosts(ghosted, v);
+        elasticity.apply_stiffness(f, ghosted, tangent);
+        if (springs)
+          surface_stiffness.add(f, ghosted);
+        body.motion.set_zero(f);
+      },
+      [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },
+      [&](Vector &v, const Vector &f) { mass_solver.solve(v, f); }};
+    // A start without pattern, the same on any number of ranks.
+    Vector       start(state.u);
+    const double length = discretization.node_positions().linfty_norm();
+    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          const dealii::Point<3> x = discretization.node_position(n) / length;
+          const double           s =
+            std::sin(12.9898 * x[0] + 78.233 * x[1] + 37.719 * x[2] + a) *
+            43758.5453;
+          start.local_element(3 * n + a) = s - std::floor(s) - 0.5;
+        }
+    body.motion.set_zero(start);
+    return std::sqrt(largest_eigenvalue(pencil, start, 2e-3));
+  }
+} // namespace corotet

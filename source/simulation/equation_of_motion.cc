@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/ghosted_copy.h>
+#include <corotet/simulation/equation_of_motion.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace corotet
+{
+  EquationOfMotion::EquationOfMotion(Body                       &body,
+                                     const SimulationParameters &parameters,
+                                     WallTimes                  &wall_times,
+                                     Log                        &log)
+    : body(body)
+    , wall_times(wall_times)
+    , terms(
+        parameters.forces.make(body.force_context(log, parameters.start_time)))
+  {
+    body.problem.add_to(
+      terms, body.discretization, body.reference, body.materials, body.law);
+    for (Vector *vector : {&forces.external,
+                           &forces.internal,
+                           &forces.damping,
+                           &forces.inertia,
+                           &u,
+                           &v,
+                           &a})
+      body.discretization.initialize_vector(*vector);
+    if (terms.has_elastic())
+      body.discretization.initialize_vector(forces.elastic);
+  }
+
+  void
+  EquationOfMotion::set_state(const State &state)
+  {
+    ScopedTimer timer(wall_times.assembly);
+    copy_with_ghosts(u, state.u);
+    copy_with_ghosts(v, state.v);
+    body.elasticity.update_rotations(u);
+  }
+
+  EquationOfMotion::Forces &
+  EquationOfMotion::evaluate_forces(const State &state,
+                                    const double time,
+                                    const double load_factor)
+  {
+    ScopedTimer timer(wall_times.assembly);
+    this->time = time;
+    copy_with_ghosts(u, state.u);
+    if (terms.depends_on_velocity())
+      copy_with_ghosts(v, state.v);
+    body.elasticity.update_rotations_and_force(forces.internal, u);
+
+    if (load_factor != known_load_factor ||
+        (time != known_time && !terms.is_constant()) || terms.follows_motion())
+      {
+        terms.external_force(forces.external, last_motion(), load_factor);
+        known_load_factor = load_factor;
+        known_time        = time;
+      }
+
+    if (terms.has_elastic())
+      terms.elastic_force(forces.elastic, last_motion());
+
+    // Without damping it is zero for good.
+    if (terms.has_damping())
+      terms.damping_force(forces.damping, last_motion());
+    return forces;
+  }
+
+  EquationOfMotion::Forces &
+  EquationOfMotion::evaluate(const State &state,
+                             const double time,
+                             const double load_factor)
+  {
+    evaluate_forces(state, time, load_factor);
+    ScopedTimer timer(wall_times.assembly);
+    evaluate_inertia(state.a);
+    return forces;
+  }
+
+  void
+  EquationOfMotion::evaluate_inertia(const Vector &acceleration)
+  {
+    copy_with_ghosts(a, acceleration);
+    body.mass.apply(forces.inertia, a);
+  }
+
+  void
+  EquationOfMotion::residual(Vector &r) const
+  {
+    r = forces.external;
+    r -= forces.internal;
+    r -= forces.damping;
+    r -= forces.inertia;
+    if (terms.has_elastic())
+      r -= forces.elastic;
+    body.motion.set_zero(r);
+  }
+
+  std::string
+  EquationOfMotion::why_not_finite() const
+  {
+    const ElasticState state = body.elasticity.state(u);
+    if (std::isfinite(state.energy))
+      return "";
+    return fmt::format(
+      ": cells are flat or inside out (smallest det F {:.3g}), "
+      "where the material has no stress",
+      state.min_det_F);
+  }
+} // namespace corotet

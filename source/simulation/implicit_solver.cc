@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/operators/force_round_off.h>
+#include <corotet/simulation/implicit_solver.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corotet
+{
+  namespace
+  {
+    constexpr double machine_precision = std::numeric_limits<double>::epsilon();
+  } // namespace
+
+  ImplicitSolver::ImplicitSolver(
+    EquationOfMotion             &equation,
+    const NewtonParameters       &newton_parameters,
+    const LinearSolverParameters &linear_solver_parameters,
+    Log                          &log)
+    : equation(equation)
+    , body(equation.body)
+    , parameters(newton_parameters)
+    , newton(newton_parameters)
+    , linear_solver(linear_solver_parameters)
+    , log(log)
+    , tangent(newton_parameters.tangent)
+  {
+    const ForceTerms &terms = equation.terms;
+    if (TangentOperator::is_needed(body.elasticity, terms, tangent))
+      linear_solver.check_fit(
+        TangentOperator::is_symmetric(body.elasticity, terms, tangent));
+    if (terms.has_surface_matrix())
+      surface =
+        std::make_unique<SurfaceMatrix>(body.discretization, body.reference);
+    body.discretization.initialize_vector(positions);
+  }
+
+  void
+  ImplicitSolver::make_operators()
+  {
+    ScopedTimer timer(equation.wall_times.assembly);
+    effective_operator =
+      std::make_unique<EffectiveOperator>(body.discretization,
+                                          body.elasticity,
+                                          body.mass,
+                                          body.motion.is_prescribed(),
+                                          surface.get());
+    if (TangentOperator::is_needed(body.elasticity,
+                                   equation.terms,
+                                   parameters.tangent))
+      tangent_operator = std::make_unique<TangentOperator>(*effective_operator,
+                                                           body.elasticity,
+                                                           equation.terms);
+  }
+
+  StageReport
+  ImplicitSolver::solve_stage(State &state, const Stage &stage)
+  {
+    if (!effective_operator)
+      make_operators();
+    this->stage        = stage;
+    stage_state        = &state;
+    const bool statics = stage.acceleration_factor == 0;
+    // Where forces vanish, those that there were before are what counts.
+    stage_scale = solved_scale;
+    NewtonReport report;
+    try
+      {
+        newton.solve(*this, state.u, report);
+      }
+    catch (const ComputationError &)
+      {
+        log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
+        if (report.iterations == 0 &&
+            !std::isfinite(norm(equation.last_forces().internal)))
+          throw ComputationError(
+            "the forces are not finite where Newton's method starts" +
+            equation.why_not_finite());
+        throw;
+      }
+    solved_scale = force_scale;
+    if (parameters.linearly_implicit)
+      // Newton's method ends before it looks at the forces again.
+      equation.evaluate(state, stage.time, stage.load_factor);
+    if (statics || parameters.always_log || report.line_searches > 0)
+      log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
+    report_round_off(report);
+    return {report.iterations,
+            report.linear_iterations,
+            report.observed_order()};
+  }
+
+  StageReport
+  ImplicitSolver::move_supports(State       &state,
+                                const double time,
+                                const double load_factor)
+  {
+    Vector before(state.u);
+    body.motion.apply(time, load_factor, state.u, state.v, state.a);
+    Vector motion_of_supports(state.u);
+    motion_of_supports -= before;
+    if (is_linear() || norm(motion_of_supports) == 0)
+      return {};
+    if (!effective_operator)
+      make_operators();
+    // With the state before, at which the tangent is taken.
+    state.u.swap(before);
+    stage       = {time, 0., 0., load_factor};
+    stage_state = &state;
+    Vector r, du, f;
+    for (Vector *vector : {&r, &du, &f})
+      body.discretization.initialize_vector(*vector);
+    residual(r);
+    // The solve before may have ended with the other one.
+    use_definite_tangent(false);
+    const TangentOperator *J = linearize();
+    // Without the derivatives of loads: it is a guess.
+    motion_of_supports.update_ghost_values();
+    body.elasticity.apply_stiffness(f, motion_of_supports, tangent);
+    effective_operator->add_surface(f, motion_of_supports);
+    r -= f;
+    body.motion.set_zero(r);
+    unsigned int n_iterations = 0;
+    try
+      {
+        n_iterations = solve_tangent_system(du, r, J);
+        if (!std::isfinite(norm(du)))
+          du = 0;
+      }
+    catch (const ComputationError &)
+      {
+        // Newton's method has other tangents.
+        du = 0;
+      }
+    state.u.swap(before);
+    state.u += du;
+    return {1, n_iterations};
+  }
+
+  NewtonProblem::Norm
+  ImplicitSolver::residual(Vector &r)
+  {
+    const auto &forces =
+      equation.evaluate(*stage_state, stage.time, stage.load_factor);
+    equation.residual(r);
+    force_scale =
+      std::max({norm(forces.external),
+                norm(forces.internal),
+                norm(forces.damping),
+                norm(forces.inertia),
+                equation.terms.has_elastic() ? norm(forces.elastic) : 0.});
+    // Far from the solution of a nonlinear problem forces may be of any size.
+    if (is_linear())
+      stage_scale = std::max(stage_scale, force_scale);
+    return {norm(r), std::max(stage_scale, force_scale), round_off()};
+  }
+
+  double
+  ImplicitSolver::round_off() const
+  {
+    const ForceRoundOff &noise = effective_operator->force_round_off();
+    const double         sum   = noise.of_force(equation.displacement()) +
+                       4 * machine_precision * force_scale;
+    return sum + equation.terms.round_off(equation.last_motion(),
+                                          norm(equation.last_forces().external),
+                                          noise);
+  }
+
+  void
+  ImplicitSolver::report_round_off(const NewtonReport &report)
+  {
+    using RoundOff = NewtonReport::RoundOff;
+    if (report.round_off == RoundOff::none ||
+        !shown_round_off.insert(report.round_off).second)
+      return;
+    const double size = equation.displacement().linfty_norm();
+    log.line(fmt::format(
+      "t = {:.6g}: round-off ended Newton's iterations, which is not said "
+      "again: {}; the residual is {:.2g} of the forces",
+      stage.time,
+      report.round_off == RoundOff::of_residual ?
+        fmt::format("displacements of up to {:.3g} m, known to {:.1g} m, leave "
+                    "no smaller residual",
+                    size,
+                    machine_precision * size) :
+        "an increment was no more than the round-off of the displacement",
+      report.final_residual));
+  }
+
+  bool
+  ImplicitSolver::is_linear() const
+  {
+    return equation.is_linear();
+  }
+
+  bool
+  ImplicitSolver::update_surface()
+  {
+    if (!surface || (surface_factor == stage.velocity_factor &&
+                     (surface_time == stage.time ||
+                      !equation.terms.surface_matrix_depends_on_time())))
+      return false;
+    equation.terms.surface_matrix(*surface,
+                                  stage.time,
+                                  1.,
+                                  stage.velocity_factor);
+    surface_time   = stage.time;
+    surface_factor = stage.velocity_factor;
+    return true;
+  }
+
+  const TangentOperator *
+  ImplicitSolver::linearize()
+  {
+    const bool         has_new_surface = update_surface();
+    const MatrixShares damping         = equation.terms.damping_shares();
+    const double       c_K = 1 + stage.velocity_factor * damping.stiffness;
+    const double       c_M =
+      stage.acceleration_factor + stage.velocity_factor * damping.mass;
+    if (!body.law->is_linear() || c_K != operator_c_K || c_M != operator_c_M ||
+        has_new_surface)
+      {
+        ScopedTimer timer(equation.wall_times.assembly);
+        effective_operator->update(c_K, c_M);
+        operator_c_K = c_K;
+        operator_c_M = c_M;
+      }
+    if (!TangentOperator::is_needed(body.elasticity, equation.terms, tangent))
+      return nullptr;
+    ScopedTimer timer(equation.wall_times.assembly);
+    clamped_cells = std::max(clamped_cells,
+                             tangent_operator->update(equation.last_motion(),
+                                                      tangent,
+                                                      stage.load_factor,
+                                                      stage.velocity_factor));
+    return tangent_operator.get();
+  }
+
+  unsigned int
+  ImplicitSolver::solve_linearized(Vector &dx, const Vector &r)
+  {
+    return solve_tangent_system(dx, r, linearize());
+  }
+
+  unsigned int
+  ImplicitSolver::solve_tangent_system(Vector                &dx,
+                                       const Vector          &r,
+                                       const TangentOperator *J)
+  {
+    ScopedTimer timer(equation.wall_times.solve);
+    positions.copy_locally_owned_data_from(
+      body.discretization.node_positions());
+    positions += stage_state->u;
+    try
+      {
+        // One solve is all that a linear problem needs if it is as good as
+        // Newton's method wants it; a tenth is for the round-off between this
+        // residual and that of the forces.
+        const double       limit = is_linear() ?
+                                     0.9 * parameters.residual_tolerance *
+                                 std::max(stage_scale, force_scale) :
+                                     std::numeric_limits<double>::infinity();
+        const unsigned int n_iterations =
+          linear_solver.solve(*effective_operator, dx, r, positions, J, limit);
+        advise_direct_solver(n_iterations);
+        return n_iterations;
+      }
+    catch (const ComputationError &)
+      {
+        advise_direct_solver(std::numeric_limits<unsigned int>::max());
+        throw;
+      }
+  }
+
+  void
+  ImplicitSolver::advise_direct_solver(const unsigned int n_iterations)
+  {
+    // Measured on plates of one layer of cells (doc/algorithms.md): up to this
+    // size a factorisation takes as long as this many iterations, or less.
+    constexpr unsigned int small      = 50000;
+    constexpr unsigned int worthwhile = 1000;
+    const auto n_unknowns = 3 * body.discretization.n_global_nodes();
+    if (n_iterations <= 100 || slow_iterations > worthwhile ||
+        n_unknowns > small || linear_solver.type() != "p-multigrid")
+      return;
+    slow_iterations += std::min(n_iterations, worthwhile + 1);
+    if (slow_iterations > worthwhile)
+      log.line(fmt::format("p-multigrid converges slowly on this body, as on "
+                           "thin ones: with {} unknowns, 'Linear solver/Type = "
+                           "direct' may be faster",
+                           n_unknowns));
+  }
+
+  NewtonProblem::Norm
+  ImplicitSolver::add(const double factor, const Vector &dx)
+  {
+    stage_state->u.add(factor, dx);
+    stage_state->v.add(factor * stage.velocity_factor, dx);
+    stage_state->a.add(factor * stage.acceleration_factor, dx);
+    const double size = norm(stage_state->u);
+    return {std::abs(factor) * norm(dx), size, 4 * machine_precision * size};
+  }
+
+  void
+  ImplicitSolver::keep()
+  {
+    kept = *stage_state;
+  }
+
+  void
+  ImplicitSolver::restore()
+  {
+    *stage_state = kept;
+  }
+
+  bool
+  ImplicitSolver::has_energy() const
+  {
+    return equation.has_energy();
+  }
+
+  bool
+  ImplicitSolver::use_definite_tangent(const bool use)
+  {
+    tangent = use ? Tangent::frozen_rotation : parameters.tangent;
+    return parameters.tangent != Tangent::frozen_rotation &&
+           !body.law->is_linear();
+  }
+} // namespace corotet
