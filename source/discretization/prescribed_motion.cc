@@ -34,25 +34,26 @@ namespace corotet
     length_scale = std::cbrt(
       dealii::Utilities::MPI::sum(volume, discretization.communicator()));
 
-    std::vector<unsigned int> entry_of_dof(flags.size());
+    std::vector<unsigned int> entry_of_unknown(flags.size());
     for (unsigned int d = 0; d < conditions.displacements.size(); ++d)
       {
         const auto &condition = conditions.displacements[d];
         const std::vector<unsigned char> is_common =
           common_nodes(reference, condition);
-        for (unsigned int dof = 0; dof < flags.size(); ++dof)
-          if (is_common[dof / 3] && condition.components[dof % 3])
+        for (unsigned int unknown = 0; unknown < flags.size(); ++unknown)
+          if (is_common[unknown / 3] && condition.components[unknown % 3])
             {
-              const bool is_owned = dof < 3 * discretization.n_owned_nodes();
-              if (is_owned && flags[dof])
-                shared.push_back({{dof, d}, entry_of_dof[dof]});
+              const bool is_owned =
+                unknown < 3 * discretization.n_owned_nodes();
+              if (is_owned && flags[unknown])
+                shared.push_back({{unknown, d}, entry_of_unknown[unknown]});
               else if (is_owned)
                 {
-                  entry_of_dof[dof] = entries.size();
-                  entries.push_back({dof, d});
-                  prescribed.push_back(dof);
+                  entry_of_unknown[unknown] = entries.size();
+                  entries.push_back({unknown, d});
+                  prescribed.push_back(unknown);
                 }
-              flags[dof] = 1;
+              flags[unknown] = 1;
             }
       }
   }
@@ -100,7 +101,8 @@ namespace corotet
     const Expression &formula = expression(entry);
     return formula.is_zero() ?
              0. :
-             formula.value(discretization.node_position(entry.dof / 3), time);
+             formula.value(discretization.node_position(entry.unknown / 3),
+                           time);
   }
 
   void
@@ -119,7 +121,7 @@ namespace corotet
                 conditions.displacements[entry.condition].boundaries);
             };
             const dealii::Point<3> x =
-              discretization.node_position(other.dof / 3);
+              discretization.node_position(other.unknown / 3);
             throw InputError(
               blamed_entry,
               fmt::format("boundaries '{}' and '{}' prescribe different "
@@ -128,7 +130,7 @@ namespace corotet
                           "ones",
                           name(entries[first]),
                           name(other),
-                          "xyz"[other.dof % 3],
+                          "xyz"[other.unknown % 3],
                           x[0],
                           x[1],
                           x[2],
@@ -153,7 +155,7 @@ namespace corotet
     if (time_scale == 0 || !formula.depends_on_time())
       return {{u, 0, 0}};
     const auto [v, a] =
-      formula.time_derivatives(discretization.node_position(entry.dof / 3),
+      formula.time_derivatives(discretization.node_position(entry.unknown / 3),
                                time,
                                0.1 * time_scale);
     if (!std::isfinite(v) || !std::isfinite(a))
@@ -182,15 +184,15 @@ namespace corotet
       known_condition.fill(dealii::numbers::invalid_unsigned_int);
       for (const Entry &entry : entries)
         {
-          const unsigned int component = entry.dof % 3;
+          const unsigned int component = entry.unknown % 3;
           if (known_condition[component] != entry.condition ||
               expression(entry).depends_on_space())
             known[component] = motion(entry, time);
-          known_condition[component]            = entry.condition;
-          const auto &[u, v, a]                 = known[component];
-          displacement.local_element(entry.dof) = load_factor * u;
-          velocity.local_element(entry.dof)     = load_factor * v;
-          acceleration.local_element(entry.dof) = load_factor * a;
+          known_condition[component]                = entry.condition;
+          const auto &[u, v, a]                     = known[component];
+          displacement.local_element(entry.unknown) = load_factor * u;
+          velocity.local_element(entry.unknown)     = load_factor * v;
+          acceleration.local_element(entry.unknown) = load_factor * a;
         }
     });
   }
@@ -208,7 +210,7 @@ namespace corotet
   void
   PrescribedMotion::set_zero(Vector &vector) const
   {
-    for (const unsigned int dof : prescribed)
-      vector.local_element(dof) = 0;
+    for (const unsigned int unknown : prescribed)
+      vector.local_element(unknown) = 0;
   }
 } // namespace corotet

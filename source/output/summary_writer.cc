@@ -33,7 +33,7 @@ namespace corotet
       object["ranks"]          = summary.ranks;
       object["cells"]          = summary.cells;
       object["nodes"]          = summary.nodes;
-      object["dofs"]           = summary.dofs;
+      object["dofs"]           = summary.unknowns;
       object["degree"]         = summary.degree;
       object["mesh_volume"]    = summary.mesh_volume;
       object["total_mass"]     = summary.total_mass;

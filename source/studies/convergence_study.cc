@@ -46,7 +46,7 @@ namespace corotet
     {
       std::string text = fmt::format("{} cells, {} unknowns, {:.2f} s",
                                      result.cells,
-                                     result.dofs,
+                                     result.unknowns,
                                      result.total_wall_time);
       if (result.errors)
         text += fmt::format(", L2 error {:.3e}", result.errors->error.L2);

@@ -74,9 +74,9 @@ namespace corotet
     void
     take(StudyResult &result, const RunSummary &summary)
     {
-      result.cells = summary.cells;
-      result.nodes = summary.nodes;
-      result.dofs  = summary.dofs;
+      result.cells    = summary.cells;
+      result.nodes    = summary.nodes;
+      result.unknowns = summary.unknowns;
       result.h =
         std::cbrt(6 * std::sqrt(2.) * summary.mesh_volume / summary.cells);
       result.errors          = summary.errors;
@@ -106,7 +106,7 @@ namespace corotet
     object["message"] = result.message;
     object["cells"]   = result.cells;
     object["nodes"]   = result.nodes;
-    object["dofs"]    = result.dofs;
+    object["dofs"]    = result.unknowns;
     object["h"]       = result.h;
     if (result.errors)
       {
@@ -138,7 +138,7 @@ namespace corotet
     result.message    = object.at("message");
     result.cells      = object.at("cells");
     result.nodes      = object.at("nodes");
-    result.dofs       = object.at("dofs");
+    result.unknowns   = object.at("dofs");
     result.h          = object.at("h");
     if (object.contains("errors"))
       result.errors = {norms_from_json(object.at("errors")),

@@ -130,7 +130,7 @@ namespace corotet
         row["status"] = result.status;
         row["cells"]  = result.cells;
         row["nodes"]  = result.nodes;
-        row["dofs"]   = result.dofs;
+        row["dofs"]   = result.unknowns;
         row["h"]      = result.h;
         if (!errors.empty() && errors[0].name == "L2")
           {
@@ -202,7 +202,7 @@ namespace corotet
         if (one.rotation)
           row.push_back(*one.rotation);
         row.push_back(fmt::format("{}", result.cells));
-        row.push_back(fmt::format("{}", result.dofs));
+        row.push_back(fmt::format("{}", result.unknowns));
         row.push_back(fmt::format("{:.4g}", result.h));
         for (const double value : result.quantities)
           row.push_back(fmt::format("{:.7g}", value));

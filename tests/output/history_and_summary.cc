@@ -60,7 +60,7 @@ namespace
     summary.degree           = 3;
     summary.cells            = 96;
     summary.nodes            = 637;
-    summary.dofs             = 1911;
+    summary.unknowns         = 1911;
     summary.mesh_volume      = 0.125;
     summary.total_mass       = std::nan("");
     summary.steps            = 1;

@@ -157,9 +157,11 @@ TEST_P(PMultigridTest, HardBodies)
 {
   EXPECT_LE(iterations({.cells = "20, 2, 2", .bent_by = 1.57}), 18u);
   EXPECT_LE(iterations({.cells = "20, 2, 2", .poissons_ratio = "0.45"}), 30u);
+  // 20 or 21 iterations, as round-off falls: with such a jump the residual does
+  // not fall steadily (degree 3, relative: 1.2e-7, 1.3e-8, 2.7e-8, 4.6e-9).
   EXPECT_LE(iterations(
               {.cells = "20, 2, 2", .youngs_modulus = "left: 1e6, right: 1e9"}),
-            20u);
+            21u);
 }
 
 TEST_P(PMultigridTest, Dynamics)

@@ -75,7 +75,7 @@ namespace corotet
     /// An unknown and the condition that sets it.
     struct Entry
     {
-      unsigned int dof;
+      unsigned int unknown;
       unsigned int condition;
     };
 
@@ -83,7 +83,7 @@ namespace corotet
     expression(const Entry &entry) const
     {
       return *conditions.displacements[entry.condition]
-                .components[entry.dof % 3];
+                .components[entry.unknown % 3];
     }
 
     /// Whether all boundaries of the condition have each local node in common

@@ -48,11 +48,11 @@ namespace corotet
     /// Why it failed; empty if it is done.
     std::string message;
 
-    unsigned int ranks  = 1;
-    unsigned int degree = 0;
-    std::size_t  cells  = 0;
-    std::size_t  nodes  = 0;
-    std::size_t  dofs   = 0;
+    unsigned int ranks    = 1;
+    unsigned int degree   = 0;
+    std::size_t  cells    = 0;
+    std::size_t  nodes    = 0;
+    std::size_t  unknowns = 0;
     /// Of the body at rest [m^3].
     double mesh_volume = 0;
     /// In kg.

@@ -29,9 +29,9 @@ namespace corotet
     std::string status = "done";
     std::string message;
 
-    std::size_t cells = 0;
-    std::size_t nodes = 0;
-    std::size_t dofs  = 0;
+    std::size_t cells    = 0;
+    std::size_t nodes    = 0;
+    std::size_t unknowns = 0;
     /// Edge of the regular tetrahedron that has the mean volume of the cells
     /// [m].
     double h = 0;
