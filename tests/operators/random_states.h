@@ -50,7 +50,11 @@ namespace corotet::tests
      0.1,
      0.005,
      0.01},
-    {"inverted", dealii::Tensor<1, 3>({1.1, 0.9, -0.3}), 0.1, 0.01, 0.05}};
+    {"inverted", dealii::Tensor<1, 3>({1.1, 0.9, -0.3}), 0.1, 0.01, 0.05},
+    {"calm", dealii::Tensor<1, 3>({1.2, 0.9, 0.95}), 0.1, 0.002, 0.1}};
+
+  /// Far from inside out at each point of each cell, so one of all laws.
+  inline const RandomState &calm = states.back();
 
   inline Vector
   displacement(const MovingBody  &body,
