@@ -110,55 +110,32 @@ namespace corotet
   }
 
   void
-  ElasticSupport::add_force(Vector &f, const Motion &motion) const
+  SurfaceForce::add_force(Vector &f, const Motion &motion) const
   {
-    stiffness.operator_at(motion.time).add(f, motion.u, -1.);
+    coefficient.operator_at(motion.time).add(f, factor(motion), -1.);
+  }
+
+  void
+  SurfaceForce::add_surface_matrix(SurfaceMatrix &S,
+                                   const double   time,
+                                   const double   c_u,
+                                   const double   c_v) const
+  {
+    S.add(coefficient.matrix(time), depends_on_displacement() ? c_u : c_v);
+  }
+
+  double
+  SurfaceForce::round_off(const Motion &motion,
+                          const double,
+                          const ForceRoundOff &) const
+  {
+    return coefficient.operator_at(motion.time).round_off(factor(motion));
   }
 
   double
   ElasticSupport::energy(const Motion &motion) const
   {
-    return stiffness.operator_at(motion.time).energy(motion.u);
-  }
-
-  void
-  ElasticSupport::add_surface_matrix(SurfaceMatrix &S,
-                                     const double   time,
-                                     const double   c_u,
-                                     const double) const
-  {
-    S.add(stiffness.matrix(time), c_u);
-  }
-
-  double
-  ElasticSupport::round_off(const Motion &motion,
-                            const double,
-                            const ForceRoundOff &) const
-  {
-    return stiffness.operator_at(motion.time).round_off(motion.u);
-  }
-
-  void
-  Dashpots::add_force(Vector &f, const Motion &motion) const
-  {
-    damping.operator_at(motion.time).add(f, motion.v, -1.);
-  }
-
-  void
-  Dashpots::add_surface_matrix(SurfaceMatrix &S,
-                               const double   time,
-                               const double,
-                               const double c_v) const
-  {
-    S.add(damping.matrix(time), c_v);
-  }
-
-  double
-  Dashpots::round_off(const Motion &motion,
-                      const double,
-                      const ForceRoundOff &) const
-  {
-    return damping.operator_at(motion.time).round_off(motion.v);
+    return coefficient.operator_at(motion.time).energy(motion.u);
   }
 
   void

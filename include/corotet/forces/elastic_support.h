@@ -78,15 +78,71 @@ namespace corotet
   };
 
   /**
+   * A force of the ground on a boundary, a coefficient times the displacement
+   * or the velocity, whichever the derived class depends on: f = - D u or - D v
+   * per area at rest.
+   */
+  class SurfaceForce : public ForceTerm
+  {
+  public:
+    bool
+    depends_on_time() const override
+    {
+      return coefficient.depends_on_time();
+    }
+
+    bool
+    is_linear() const override
+    {
+      return true;
+    }
+
+    void
+    add_force(Vector &f, const Motion &motion) const override;
+
+    bool
+    has_surface_matrix() const override
+    {
+      return true;
+    }
+
+    void
+    add_surface_matrix(SurfaceMatrix &S,
+                       const double   time,
+                       const double   c_u,
+                       const double   c_v) const override;
+
+    double
+    round_off(const Motion        &motion,
+              const double         size,
+              const ForceRoundOff &noise) const override;
+
+  protected:
+    explicit SurfaceForce(SurfaceCoefficient &&coefficient)
+      : coefficient(std::move(coefficient))
+    {}
+
+    const SurfaceCoefficient coefficient;
+
+  private:
+    /// What the coefficient multiplies.
+    const Vector &
+    factor(const Motion &motion) const
+    {
+      return depends_on_displacement() ? motion.u : motion.v;
+    }
+  };
+
+  /**
    * Section Supports, entries Elastic and Elastic normal: springs between a
    * boundary and the ground, f = - k u per area at rest, or - k (n . u) n with
    * the normal n at rest.
    */
-  class ElasticSupport : public ForceTerm
+  class ElasticSupport : public SurfaceForce
   {
   public:
     explicit ElasticSupport(SurfaceCoefficient &&stiffness)
-      : stiffness(std::move(stiffness))
+      : SurfaceForce(std::move(stiffness))
     {}
 
     Role
@@ -96,59 +152,24 @@ namespace corotet
     }
 
     bool
-    depends_on_time() const override
-    {
-      return stiffness.depends_on_time();
-    }
-
-    bool
     depends_on_displacement() const override
     {
       return true;
     }
 
-    bool
-    is_linear() const override
-    {
-      return true;
-    }
-
-    void
-    add_force(Vector &f, const Motion &motion) const override;
-
     double
     energy(const Motion &motion) const override;
-
-    bool
-    has_surface_matrix() const override
-    {
-      return true;
-    }
-
-    void
-    add_surface_matrix(SurfaceMatrix &S,
-                       const double   time,
-                       const double   c_u,
-                       const double   c_v) const override;
-
-    double
-    round_off(const Motion        &motion,
-              const double         size,
-              const ForceRoundOff &noise) const override;
-
-  private:
-    const SurfaceCoefficient stiffness;
   };
 
   /**
    * Section Supports, entry Dashpots: f = - c v per area at rest, to the
    * ground.
    */
-  class Dashpots : public ForceTerm
+  class Dashpots : public SurfaceForce
   {
   public:
     explicit Dashpots(SurfaceCoefficient &&damping)
-      : damping(std::move(damping))
+      : SurfaceForce(std::move(damping))
     {}
 
     Role
@@ -158,45 +179,10 @@ namespace corotet
     }
 
     bool
-    depends_on_time() const override
-    {
-      return damping.depends_on_time();
-    }
-
-    bool
     depends_on_velocity() const override
     {
       return true;
     }
-
-    bool
-    is_linear() const override
-    {
-      return true;
-    }
-
-    void
-    add_force(Vector &f, const Motion &motion) const override;
-
-    bool
-    has_surface_matrix() const override
-    {
-      return true;
-    }
-
-    void
-    add_surface_matrix(SurfaceMatrix &S,
-                       const double   time,
-                       const double   c_u,
-                       const double   c_v) const override;
-
-    double
-    round_off(const Motion        &motion,
-              const double         size,
-              const ForceRoundOff &noise) const override;
-
-  private:
-    const SurfaceCoefficient damping;
   };
 
   /**
