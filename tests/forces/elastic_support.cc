@@ -32,6 +32,29 @@ namespace
     return "subsection Supports\n set " + entry + " = " + value + "\nend\n";
   }
 
+  // A block of 2 m x 1 m x 1 m, of distorted cells.
+  struct Block : public MovingBody
+  {
+    Block(const Element element, const std::string &text)
+      : MovingBody(box("2, 1, 1", "3, 2, 2", 0.1), element_text(element) + text)
+    {}
+  };
+
+  Vector
+  translation(const MovingBody &body, const Tensor<1, 3> &u)
+  {
+    return body.interpolate([&](const Point<3> &) { return u; });
+  }
+
+  // c_u times the stiffness of springs and c_v times the damping of dashpots.
+  SurfaceMatrix
+  surface_matrix(const MovingBody &body, const double c_u, const double c_v)
+  {
+    SurfaceMatrix matrix(body.discretization, body.reference);
+    body.system.equation().terms.surface_matrix(matrix, 0., c_u, c_v);
+    return matrix;
+  }
+
   // Sum of the forces on all nodes.
   Tensor<1, 3>
   total(const Vector &f)
@@ -93,11 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Elements,
 // 3 N/m; k_y = 5 everywhere.
 TEST_P(ElasticSupportTest, ForceOfATranslation)
 {
-  MovingBody   body(box("2, 1, 1", "3, 2, 2", 0.1),
-                  element_text(GetParam()) +
-                    supports("Elastic", "z-min: 1 + 2 * x + 3 * y; 5; 0"));
-  const Vector u =
-    body.interpolate([](const Point<3> &) { return Tensor<1, 3>({2, 3, 4}); });
+  Block body(GetParam(), supports("Elastic", "z-min: 1 + 2 * x + 3 * y; 5; 0"));
+  const Vector       u = translation(body, Tensor<1, 3>({2, 3, 4}));
   const Tensor<1, 3> f = total(force(body, u));
   EXPECT_NEAR(f[0], -2 * 9., 1e-13 * 18);
   EXPECT_NEAR(f[1], -3 * 10., 1e-13 * 30);
@@ -110,11 +130,8 @@ TEST_P(ElasticSupportTest, ForceOfATranslation)
 // Springs along the normal resist the motion along it only.
 TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 {
-  MovingBody   body(box("2, 1, 1", "3, 2, 2", 0.1),
-                  element_text(GetParam()) +
-                    supports("Elastic normal", "z-min: 7, x-max: 3"));
-  const Vector u =
-    body.interpolate([](const Point<3> &) { return Tensor<1, 3>({2, 3, 4}); });
+  Block body(GetParam(), supports("Elastic normal", "z-min: 7, x-max: 3"));
+  const Vector       u = translation(body, Tensor<1, 3>({2, 3, 4}));
   const Tensor<1, 3> f = total(force(body, u));
   EXPECT_NEAR(f[0], -2 * 3., 1e-13 * 6);
   EXPECT_NEAR(f[1], 0, 1e-13 * 6);
@@ -126,10 +143,9 @@ TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 // terms.
 TEST_P(ElasticSupportTest, Derivatives)
 {
-  MovingBody        body(box("2, 1, 1", "3, 2, 2", 0.1),
-                  element_text(GetParam()) +
-                    supports("Elastic", "z-min: 1 + x * x; 5 + y; 2") +
-                    supports("Elastic normal", "x-max: 2 + z, y-min: 3"));
+  Block             body(GetParam(),
+             supports("Elastic", "z-min: 1 + x * x; 5 + y; 2") +
+               supports("Elastic normal", "x-max: 2 + z, y-min: 3"));
   const ForceTerms &terms = body.system.equation().terms;
   const Vector      u     = body.interpolate(wavy);
   const Vector      w     = body.interpolate(
@@ -149,10 +165,8 @@ TEST_P(ElasticSupportTest, Derivatives)
               1e-13 * energy);
   EXPECT_NEAR(energy, -0.5 * (f * u), 1e-13 * energy);
 
-  SurfaceMatrix matrix(body.discretization, body.reference);
-  terms.surface_matrix(matrix, 0., 2., 5.);
   SurfaceOperator<double> S(body.discretization);
-  S.set(matrix);
+  S.set(surface_matrix(body, 2., 5.));
   f *= 2;
   S.add(f, u);
   EXPECT_LT(norm(f), 1e-13 * S.energy(u));
@@ -163,16 +177,14 @@ TEST_P(ElasticSupportTest, Derivatives)
 // is; its diagonal has that of S; prescribed unknowns have no springs.
 TEST_P(ElasticSupportTest, MatricesAgree)
 {
-  MovingBody body(
-    box("2, 1, 1", "3, 2, 2", 0.1),
-    element_text(GetParam()) + supports("Elastic", "z-min: 1e6; 2e6; 3e6") +
-      supports("Elastic normal", "x-max: 1e6") +
-      "subsection Boundary conditions\n set Fixed = x-min\nend\n");
+  Block body(GetParam(),
+             supports("Elastic", "z-min: 1e6; 2e6; 3e6") +
+               supports("Elastic normal", "x-max: 1e6") +
+               "subsection Boundary conditions\n set Fixed = x-min\nend\n");
   body.system.equation().evaluate(body.state, 0., 1.);
-  SurfaceMatrix matrix(body.discretization, body.reference);
-  body.system.equation().terms.surface_matrix(matrix, 0., 1., 0.);
-  const auto       &prescribed = body.motion.is_prescribed();
-  EffectiveOperator A(
+  const SurfaceMatrix matrix     = surface_matrix(body, 1., 0.);
+  const auto         &prescribed = body.motion.is_prescribed();
+  EffectiveOperator   A(
     body.discretization, body.elasticity, body.mass, prescribed, &matrix);
   EffectiveOperator without(body.discretization,
                             body.elasticity,
@@ -212,11 +224,10 @@ TEST_P(ElasticSupportTest, CoarserLevels)
 {
   if (GetParam().degree() == 1)
     return;
-  MovingBody    body(half_curved_box(2),
+  MovingBody              body(half_curved_box(2),
                   element_text(GetParam()) +
                     supports("Elastic normal", "x-max: 1 + y, z-min: 2"));
-  SurfaceMatrix matrix(body.discretization, body.reference);
-  body.system.equation().terms.surface_matrix(matrix, 0., 1., 0.);
+  const SurfaceMatrix     matrix = surface_matrix(body, 1., 0.);
   SurfaceOperator<double> fine_S(body.discretization);
   fine_S.set(matrix);
   const CoarserNodes      coarser(body.discretization);
@@ -279,21 +290,18 @@ TEST(ElasticSupportOnCurvedFaces, Area)
 {
   MovingBody   body(thick_shell(8, 3),
                   element_text(3) + supports("Elastic", "z-max: 1; 1; 1"));
-  const Vector u =
-    body.interpolate([](const Point<3> &) { return Tensor<1, 3>({1, 0, 0}); });
+  const Vector u = translation(body, Tensor<1, 3>({1, 0, 0}));
   EXPECT_NEAR(total(force(body, u))[0], -PI / 2 * std::cos(0.3), 1e-5);
 }
 
 // Dashpots resist the velocity.
 TEST(Dashpots, Force)
 {
-  MovingBody        body(box("2, 1, 1", "3, 2, 2", 0.1),
-                  element_text(2) + supports("Dashpots", "z-min: 1 + t; 5; 0"));
+  Block             body(2, supports("Dashpots", "z-min: 1 + t; 5; 0"));
   const ForceTerms &terms = body.system.equation().terms;
   const Vector      u     = body.interpolate(wavy);
-  const Vector      v =
-    body.interpolate([](const Point<3> &) { return Tensor<1, 3>({2, 3, 4}); });
-  Vector f;
+  const Vector      v     = translation(body, Tensor<1, 3>({2, 3, 4}));
+  Vector            f;
   body.discretization.initialize_vector(f);
   terms.damping_force(f, {3., u, v});
   EXPECT_NEAR(total(f)[0], 2 * 4 * 2., 1e-13 * 16);
