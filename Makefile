@@ -3,7 +3,7 @@
 TOOLCHAIN := scripts/toolchain
 # The case that `make run` runs.
 PRM ?= parameters/cantilever.prm
-# Further arguments of the program, e.g. ARGUMENTS='--set "Time/End time = 1"'.
+# Further arguments of the program, e.g. ARGUMENTS='--set "Time integration/End time = 1"'.
 ARGUMENTS ?=
 # The CMake presets that `make test` builds and tests.
 PRESETS ?= release debug
