@@ -14,26 +14,20 @@ namespace corotet
     using V = Simd<double>;
 
     // The energy with the rotations of cells that there are.
-    template <typename CellKernel>
-    struct CellState : PointOperation<CellKernel>
+    struct CellState
     {
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *displacement,
-            double *)
+      apply(Points &points, const double *displacement, double *)
       {
         Tensor2Lanes R;
-        rotations_of(data, batch, R);
-        const LameLanes moduli = lame(data.shapes[batch]);
-        CellState::add_state(
-          is_curved, data, batch, displacement, [&](const Tensor2Lanes &H) {
-            Tensor2Lanes e;
-            corotational_strain(R, H, e);
-            return isotropic_energy(moduli.lambda, moduli.mu, e);
-          });
+        rotations_of(points.data, points.batch, R);
+        const auto [lambda, mu] = points.lame();
+        points.add_state(displacement, [&](const Tensor2Lanes &H) {
+          Tensor2Lanes e;
+          corotational_strain(R, H, e);
+          return isotropic_energy(lambda, mu, e);
+        });
       }
     };
 
@@ -42,31 +36,20 @@ namespace corotet
     // w . m with the moment m, the axial vector of sum_q w_q sigma_q A_q^T, and
     // G w = a(R^T dF) at the centre: a stress P = R W(G^{-1} m) there. It
     // neither reads nor changes the rotations of the cells.
-    template <typename CellKernel>
-    struct VariationalForce : PointOperation<CellKernel>
+    struct VariationalForce
     {
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *displacement,
-            double            *sums)
+      apply(Points &points, const double *displacement, double *sums)
       {
-        using Kernel                        = typename VariationalForce::Kernel;
-        const CellShapes            &shapes = data.shapes[batch];
-        typename Kernel::NodalValues u, f{};
-        typename Kernel::Geometry    g;
-        Kernel::load(data, batch, displacement, g, u);
-        Tensor2Lanes R, F;
-        Kernel::gradient(data.reference.centre, 0, g, u, F);
+        typename Points::NodalValues u, f{};
+        Tensor2Lanes                 R, F;
+        points.load(displacement, u);
+        points.gradient_at_centre(u, F);
         add_identity(F);
-        data.counts.add(polar_decomposition(F, R), shapes);
-        const auto [lambda, mu] = lame(shapes);
-        const V     volume      = lanes(shapes.volume);
-        V           moment[3]{};
-        const auto &rule =
-          cell_rule(is_curved, data.reference, data.batches, batch);
+        points.data.counts.add(polar_decomposition(F, R), points.shapes);
+        const auto [lambda, mu] = points.lame();
+        V          moment[3]{};
         const auto stress =
           [&](const unsigned int q, Tensor2Lanes &F, Tensor2Lanes &P) {
             Tensor2Lanes A, sigma;
@@ -74,17 +57,17 @@ namespace corotet
             transposed_times(R, F, A);
             stress_of_stretch(lambda, mu, A, sigma);
             times(R, sigma, P);
-            add_moment(weight_at(rule, q) * volume, sigma, A, moment);
+            add_moment(points.weight(q), sigma, A, moment);
           };
-        Kernel::integrate(rule, g, volume, u, f, stress);
+        points.integrate(u, f, stress);
         V            S[6], G_inverse[6], n[3];
         Tensor2Lanes RW;
         stretch(R, F, S);
         inverse_spin_tensor(S, G_inverse);
         symmetric_times(G_inverse, moment, n);
         times_skew(R, n, RW);
-        Kernel::add(data.reference.centre, 0, g, RW, f);
-        scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+        points.add_at_centre(RW, f);
+        points.add_to(sums, f);
       }
     };
 
@@ -92,59 +75,42 @@ namespace corotet
     template <bool variational>
     constexpr LinearizationSize linearization_size{variational ? 15u : 6u, 9u};
 
-    template <typename CellKernel, bool variational>
-    struct CellLinearization : PointOperation<CellKernel>
+    template <bool variational>
+    struct CellLinearization
     {
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *displacement,
-            double *)
+      apply(Points &points, const double *displacement, double *)
       {
-        using Kernel = typename CellLinearization::Kernel;
-        const CellShapes            &shapes = data.shapes[batch];
-        typename Kernel::NodalValues u;
-        typename Kernel::Geometry    g;
-        gather_differences<Kernel::n_nodes>(data.batches,
-                                            batch,
+        typename Points::NodalValues u;
+        gather_differences<Points::n_nodes>(points.data.batches,
+                                            points.batch,
                                             displacement,
                                             u);
-        load_rotated(data, batch, g);
-        const auto &rule =
-          cell_rule(is_curved, data.reference, data.batches, batch);
-        NumberWriter numbers{data.new_linearization +
-                             linearization_start<IsCurved::value>(
-                               data, linearization_size<variational>, batch)};
-        const auto [lambda, mu] = lame(shapes);
+        load_rotated(points.data, points.batch, points.g);
+        NumberWriter numbers = points.writer(linearization_size<variational>);
+        const auto [lambda, mu] = points.lame();
         Tensor2Lanes R, B;
         V            S[6], G_inverse[6], moment[3]{};
-        rotations_of(data, batch, R);
-        Kernel::gradient(data.reference.centre, 0, g, u, B);
+        rotations_of(points.data, points.batch, R);
+        points.gradient_at_centre(u, B);
         add_transposed(R, B);
         symmetric_part(B, S);
-        CellLinearization::count_clamped(inverse_spin_tensor(S, G_inverse),
-                                         shapes,
-                                         data);
+        points.count_clamped(inverse_spin_tensor(S, G_inverse));
         numbers.write(G_inverse);
         if constexpr (variational)
           numbers.write(S);
-        for (unsigned int q = 0; q < n_points(rule); ++q)
-          {
-            Kernel::gradient(rule, q, g, u, B);
-            add_transposed(R, B);
-            numbers.write(B);
-            if constexpr (variational)
-              {
-                Tensor2Lanes sigma;
-                stress_of_stretch(lambda, mu, B, sigma);
-                add_moment(weight_at(rule, q) * lanes(shapes.volume),
-                           sigma,
-                           B,
-                           moment);
-              }
-          }
+        const auto linearize = [&](const unsigned int q, Tensor2Lanes &B) {
+          add_transposed(R, B);
+          numbers.write(B);
+          if constexpr (variational)
+            {
+              Tensor2Lanes sigma;
+              stress_of_stretch(lambda, mu, B, sigma);
+              add_moment(points.weight(q), sigma, B, moment);
+            }
+        };
+        points.for_each_point(u, linearize);
         if constexpr (variational)
           {
             V n[3];
@@ -157,38 +123,25 @@ namespace corotet
     // Derivative of the force of one rotation per cell. With H = dF R^T and the
     // change w of the rotation, G w = a(H) at the centre, the strain changes by
     // sym(H - W(w) B) and P R^T by sigma(H - W(w) B) + W(w) sigma.
-    template <typename CellKernel, bool variational>
-    struct CellTangent : PointOperation<CellKernel>
+    template <bool variational>
+    struct CellTangent
     {
-      using Kernel = typename PointOperation<CellKernel>::Kernel;
-
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *source,
-            double            *sums)
+      apply(Points &points, const double *source, double *sums)
       {
-        const CellShapes            &shapes = data.shapes[batch];
-        typename Kernel::NodalValues u, f;
-        typename Kernel::Geometry    g;
-        CellTangent::template gather_with_matrices<IsCurved::value>(
-          data, batch, source, 0., u, f);
-        load_rotated(data, batch, g);
-        const auto [lambda, mu] = lame(shapes);
-        const V     volume      = lanes(shapes.volume);
-        const auto &rule =
-          cell_rule(is_curved, data.reference, data.batches, batch);
-        NumberReader numbers{data.linearization +
-                             linearization_start<IsCurved::value>(
-                               data, linearization_size<variational>, batch)};
+        typename Points::NodalValues u, f;
+        points.gather_with_matrices(source, 0., u, f);
+        load_rotated(points.data, points.batch, points.g);
+        const auto [lambda, mu]    = points.lame();
+        const double frozen_factor = points.data.frozen_factor;
+        NumberReader numbers = points.reader(linearization_size<variational>);
         Tensor2Lanes H;
         V            G_inverse[6], S[6], a[3], w[3], dm[3]{};
         numbers.read(G_inverse);
         if constexpr (variational)
           numbers.read(S);
-        Kernel::gradient(data.reference.centre, 0, g, u, H);
+        points.gradient_at_centre(u, H);
         axial_vector(H, a);
         symmetric_times(G_inverse, a, w);
         const auto stress =
@@ -202,12 +155,12 @@ namespace corotet
             static_for<9>([&](auto ab) {
               constexpr int a = ab / 3, b = ab % 3;
               e[a][b]  = H[a][b] - WB[a][b];
-              WB[a][b] = data.frozen_factor * H[a][b] - WB[a][b];
+              WB[a][b] = frozen_factor * H[a][b] - WB[a][b];
             });
             isotropic_stress(lambda, mu, WB, P);
             if constexpr (variational)
               {
-                const V      weight = weight_at(rule, q) * volume;
+                const V      weight = points.weight(q);
                 Tensor2Lanes d_sigma;
                 isotropic_stress(lambda, mu, e, d_sigma);
                 add_moment(weight, d_sigma, B, dm);
@@ -216,29 +169,29 @@ namespace corotet
             static_for<9>(
               [&](auto ab) { P[ab / 3][ab % 3] += W_sigma[ab / 3][ab % 3]; });
           };
-        Kernel::integrate(rule, g, volume, u, f, stress);
+        points.integrate(u, f, stress);
         if constexpr (variational)
           {
             V n[3];
             numbers.read(n);
-            add_at_centre(data, g, G_inverse, S, H, w, n, dm, f);
+            add_at_centre(points, G_inverse, S, H, w, n, dm, f);
           }
-        scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+        points.add_to(sums, f);
       }
 
     private:
       // In the variational force, the stress W(n) at the centre, G n = m,
       // changes by W(w) W(n) + W(dn), where G dn = dm - dG n.
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      add_at_centre(const ElasticData               &data,
-                    const typename Kernel::Geometry &g,
+      add_at_centre(const Points &points,
                     const V (&G_inverse)[6],
                     const V (&S)[6],
                     const Tensor2Lanes &H,
                     const V (&w)[3],
                     const V (&n)[3],
                     V (&dm)[3],
-                    typename Kernel::NodalValues &f)
+                    typename Points::NodalValues &f)
       {
         V            dS[6], dG[6], dG_n[3], dn[3];
         Tensor2Lanes WS, S_full, Wn{}, P;
@@ -260,7 +213,7 @@ namespace corotet
         add_skew(n, Wn);
         skew_times(w, Wn, P);
         add_skew(dn, P);
-        Kernel::add(data.reference.centre, 0, g, P, f);
+        points.add_at_centre(P, f);
       }
     };
 
@@ -336,32 +289,19 @@ namespace corotet
       sweeps(const Element element) const override
       {
         ElasticSweeps result;
-        result.state = sweep_of_element<double>(
-          element, []<typename Kernel>(const std::type_identity<Kernel>) {
-            return BatchSweep<CellState<Kernel>>::run;
-          });
+        result.state = point_sweep<CellState>(element);
         if constexpr (variational)
-          result.force = sweep_of_element<double>(
-            element, []<typename Kernel>(const std::type_identity<Kernel>) {
-              return BatchSweep<VariationalForce<Kernel>>::run;
-            });
+          result.force = point_sweep<VariationalForce>(element);
         else
           {
             result.force         = rotation_and_force_sweep(element);
             result.force_scale   = stiffness_scale(element);
             result.force_rotates = true;
           }
-        result.consistent = {
-          linearization_size<variational>,
-          sweep_of_element<double>(
-            element,
-            []<typename Kernel>(const std::type_identity<Kernel>) {
-              return BatchSweep<CellLinearization<Kernel, variational>>::run;
-            }),
-          sweep_of_element<double>(
-            element, []<typename Kernel>(const std::type_identity<Kernel>) {
-              return BatchSweep<CellTangent<Kernel, variational>>::run;
-            })};
+        result.consistent = {linearization_size<variational>,
+                             point_sweep<CellLinearization<variational>>(
+                               element),
+                             point_sweep<CellTangent<variational>>(element)};
         return result;
       }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/operators/batch_sweep.h>
-#include <corotet/operators/gather.h>
-#include <corotet/operators/quadrature_kernel.h>
-#include <corotet/operators/sweep.h>
+#include <corotet/operators/point_operations.h>
 
 namespace corotet
 {
@@ -179,39 +176,27 @@ namespace corotet
       }
     };
 
-    template <typename CellKernel>
     struct TangentByQuadrature
     {
-      using Data   = ElasticData;
-      using Number = double;
-
-      static constexpr unsigned int n_batches = 1;
-
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *source,
-            double            *sums)
+      apply(Points &points, const double *source, double *sums)
       {
-        using Kernel = QuadratureKernel<CellKernel::n_nodes>;
-        const CellShapes            &shapes = data.shapes[batch];
-        typename Kernel::NodalValues u, f{};
-        typename Kernel::Geometry    g;
-        gather_batch<Kernel::n_nodes>(data.batches, batch, source, u);
-        Kernel::load(shapes, g);
-        Tensor2Lanes R;
-        rotations_of(data, batch, R);
-        const auto [lambda, mu] = lame(shapes);
+        typename Points::NodalValues u, f{};
+        Tensor2Lanes                 R;
+        gather_batch<Points::n_nodes>(points.data.batches,
+                                      points.batch,
+                                      source,
+                                      u);
+        points.load_geometry();
+        rotations_of(points.data, points.batch, R);
+        const auto [lambda, mu] = points.lame();
         const auto stress =
           [&](const unsigned int, const Tensor2Lanes &grad_u, Tensor2Lanes &P) {
             corotational_tangent(R, lambda, mu, grad_u, P);
           };
-        const auto &rule =
-          cell_rule(is_curved, data.reference, data.batches, batch);
-        Kernel::integrate(rule, g, lanes(shapes.volume), u, f, stress);
-        scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+        points.integrate(u, f, stress);
+        points.add_to(sums, f);
       }
     };
   } // namespace
@@ -246,9 +231,6 @@ namespace corotet
   ElasticSweep
   tangent_by_quadrature_sweep(const Element element)
   {
-    return sweep_of_element<double>(
-      element, []<typename Kernel>(const std::type_identity<Kernel>) {
-        return BatchSweep<TangentByQuadrature<Kernel>>::run;
-      });
+    return point_sweep<TangentByQuadrature>(element);
   }
 } // namespace corotet

@@ -24,30 +24,23 @@ namespace corotet
     }
 
     /// f_i = sum_q w_q P(F_q) grad N_i.
-    template <typename CellKernel, Law L>
-    struct ForceOfLaw : PointOperation<CellKernel>
+    template <Law L>
+    struct ForceOfLaw
     {
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *displacement,
-            double            *sums)
+      apply(Points &points, const double *displacement, double *sums)
       {
-        using Kernel             = typename ForceOfLaw::Kernel;
-        const L           law    = law_of<L>(data);
-        const CellShapes &shapes = data.shapes[batch];
-        const LameLanes   lame   = corotet::lame(shapes);
-        constexpr bool    has_counts =
+        const L         law  = law_of<L>(points.data);
+        const LameLanes lame = points.lame();
+        constexpr bool  has_counts =
           std::same_as<decltype(law.stress(lame,
                                            std::declval<const Tensor2Lanes &>(),
                                            std::declval<Tensor2Lanes &>())),
                        PolarLanes>;
-        typename Kernel::NodalValues u, f{};
-        typename Kernel::Geometry    g;
-        Kernel::load(data, batch, displacement, g, u);
-        PolarLanes found;
+        typename Points::NodalValues u, f{};
+        PolarLanes                   found;
+        points.load(displacement, u);
         const auto stress =
           [&](const unsigned int, const Tensor2Lanes &H, Tensor2Lanes &P) {
             if constexpr (has_counts)
@@ -55,32 +48,25 @@ namespace corotet
             else
               law.stress(lame, H, P);
           };
-        const auto &rule =
-          cell_rule(is_curved, data.reference, data.batches, batch);
-        Kernel::integrate(rule, g, lanes(shapes.volume), u, f, stress);
+        points.integrate(u, f, stress);
         if constexpr (has_counts)
-          data.counts.add(found, shapes);
-        scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+          points.data.counts.add(found, points.shapes);
+        points.add_to(sums, f);
       }
     };
 
-    template <typename CellKernel, Law L>
-    struct StateOfLaw : PointOperation<CellKernel>
+    template <Law L>
+    struct StateOfLaw
     {
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *displacement,
-            double *)
+      apply(Points &points, const double *displacement, double *)
       {
-        const L         law  = law_of<L>(data);
-        const LameLanes lame = corotet::lame(data.shapes[batch]);
-        StateOfLaw::add_state(
-          is_curved, data, batch, displacement, [&](const Tensor2Lanes &H) {
-            return law.energy_density(lame, H);
-          });
+        const L         law  = law_of<L>(points.data);
+        const LameLanes lame = points.lame();
+        points.add_state(displacement, [&](const Tensor2Lanes &H) {
+          return law.energy_density(lame, H);
+        });
       }
     };
 
@@ -92,95 +78,68 @@ namespace corotet
         return L::n_stored;
     }();
 
-    template <typename CellKernel, Law L, Tangent tangent>
-    struct LinearizationOfLaw : PointOperation<CellKernel>
-    {
-      static constexpr LinearizationSize size{0, n_stored<L, tangent>};
+    template <Law L, Tangent tangent>
+    constexpr LinearizationSize size_of_linearization{0, n_stored<L, tangent>};
 
-      template <typename IsCurved>
+    template <Law L, Tangent tangent>
+    struct LinearizationOfLaw
+    {
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *displacement,
-            double *)
+      apply(Points &points, const double *displacement, double *)
       {
-        using Kernel                     = typename LinearizationOfLaw::Kernel;
-        const L                      law = law_of<L>(data);
-        const CellShapes            &shapes = data.shapes[batch];
-        const LameLanes              lame   = corotet::lame(shapes);
-        typename Kernel::NodalValues u;
-        typename Kernel::Geometry    g;
-        Kernel::load(data, batch, displacement, g, u);
-        const auto &rule =
-          cell_rule(is_curved, data.reference, data.batches, batch);
-        NumberWriter numbers{
-          data.new_linearization +
-          linearization_start<IsCurved::value>(data, size, batch)};
+        const L                      law  = law_of<L>(points.data);
+        const LameLanes              lame = points.lame();
+        typename Points::NodalValues u;
+        points.load(displacement, u);
+        NumberWriter numbers = points.writer(size_of_linearization<L, tangent>);
         unsigned int clamped = 0;
-        for (unsigned int q = 0; q < n_points(rule); ++q)
-          {
-            Tensor2Lanes                      H;
-            NumberLanes<n_stored<L, tangent>> stored;
-            Kernel::gradient(rule, q, g, u, H);
-            if constexpr (tangent == Tangent::frozen_rotation)
-              law.linearize_frozen(H, stored);
-            else
-              clamped |= law.linearize(lame, H, stored);
-            numbers.write(stored);
-          }
-        LinearizationOfLaw::count_clamped(clamped, shapes, data);
+        const auto linearize = [&](const unsigned int, const Tensor2Lanes &H) {
+          NumberLanes<n_stored<L, tangent>> stored;
+          if constexpr (tangent == Tangent::frozen_rotation)
+            law.linearize_frozen(H, stored);
+          else
+            clamped |= law.linearize(lame, H, stored);
+          numbers.write(stored);
+        };
+        points.for_each_point(u, linearize);
+        points.count_clamped(clamped);
       }
     };
 
-    template <typename CellKernel, Law L, Tangent tangent>
-    struct TangentOfLaw : PointOperation<CellKernel>
+    template <Law L, Tangent tangent>
+    struct TangentOfLaw
     {
-      template <typename IsCurved>
+      template <typename Points>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved     is_curved,
-            ElasticData       &data,
-            const unsigned int batch,
-            const double      *source,
-            double            *sums)
+      apply(Points &points, const double *source, double *sums)
       {
-        using Kernel                        = typename TangentOfLaw::Kernel;
-        const L                      law    = law_of<L>(data);
-        const CellShapes            &shapes = data.shapes[batch];
-        const LameLanes              lame   = corotet::lame(shapes);
-        typename Kernel::NodalValues u, f;
-        typename Kernel::Geometry    g;
-        TangentOfLaw::template gather_with_matrices<IsCurved::value>(
-          data,
-          batch,
-          source,
-          LawWithFrozenForm<L> ? 0. : data.frozen_factor - 1.,
-          u,
-          f);
-        Kernel::load(shapes, g);
-        const auto &rule =
-          cell_rule(is_curved, data.reference, data.batches, batch);
-        NumberReader numbers{
-          data.linearization +
-          linearization_start<IsCurved::value>(
-            data, LinearizationOfLaw<CellKernel, L, tangent>::size, batch)};
-        const auto stress =
+        const L                      law    = law_of<L>(points.data);
+        const LameLanes              lame   = points.lame();
+        const double                 factor = points.data.frozen_factor;
+        typename Points::NodalValues u, f;
+        points.gather_with_matrices(source,
+                                    LawWithFrozenForm<L> ? 0. : factor - 1.,
+                                    u,
+                                    f);
+        points.load_geometry();
+        NumberReader numbers = points.reader(size_of_linearization<L, tangent>);
+        const auto   stress =
           [&](const unsigned int, const Tensor2Lanes &dF, Tensor2Lanes &dP) {
             NumberLanes<n_stored<L, tangent>> stored;
             numbers.read(stored);
             if constexpr (tangent == Tangent::frozen_rotation)
-              law.frozen_derivative({data.frozen_factor * lame.lambda,
-                                     data.frozen_factor * lame.mu},
+              law.frozen_derivative({factor * lame.lambda, factor * lame.mu},
                                     stored,
                                     dF,
                                     dP);
             else if constexpr (LawWithFrozenForm<L>)
-              law.derivative(lame, data.frozen_factor, stored, dF, dP);
+              law.derivative(lame, factor, stored, dF, dP);
             else
               law.derivative(lame, stored, dF, dP);
           };
-        Kernel::integrate(rule, g, lanes(shapes.volume), u, f, stress);
-        scatter_add<Kernel::n_nodes>(f, data.batches.nodes(batch), sums);
+        points.integrate(u, f, stress);
+        points.add_to(sums, f);
       }
     };
 
@@ -188,17 +147,9 @@ namespace corotet
     TangentSweeps
     tangent_sweeps(const Element element)
     {
-      return {
-        {0, n_stored<L, tangent>},
-        sweep_of_element<double>(
-          element,
-          []<typename Kernel>(const std::type_identity<Kernel>) {
-            return BatchSweep<LinearizationOfLaw<Kernel, L, tangent>>::run;
-          }),
-        sweep_of_element<double>(
-          element, []<typename Kernel>(const std::type_identity<Kernel>) {
-            return BatchSweep<TangentOfLaw<Kernel, L, tangent>>::run;
-          })};
+      return {size_of_linearization<L, tangent>,
+              point_sweep<LinearizationOfLaw<L, tangent>>(element),
+              point_sweep<TangentOfLaw<L, tangent>>(element)};
     }
   } // namespace internal
 
@@ -218,10 +169,7 @@ namespace corotet
     {
       ElasticSweeps result;
       result.law   = &this->law;
-      result.state = sweep_of_element<double>(
-        element, []<typename Kernel>(const std::type_identity<Kernel>) {
-          return BatchSweep<internal::StateOfLaw<Kernel, L>>::run;
-        });
+      result.state = point_sweep<internal::StateOfLaw<L>>(element);
       if constexpr (is_linear_law<L>)
         {
           result.force       = force_sweep(element);
@@ -229,10 +177,7 @@ namespace corotet
         }
       else
         {
-          result.force = sweep_of_element<double>(
-            element, []<typename Kernel>(const std::type_identity<Kernel>) {
-              return BatchSweep<internal::ForceOfLaw<Kernel, L>>::run;
-            });
+          result.force = point_sweep<internal::ForceOfLaw<L>>(element);
           result.consistent =
             internal::tangent_sweeps<L, Tangent::consistent>(element);
           if constexpr (LawWithFrozenForm<L>)

@@ -62,24 +62,126 @@ namespace corotet
     }
   };
 
-  /// What operations on the quadrature points of a batch have.
-  template <typename CellKernel>
-  struct PointOperation
+  /**
+   * A batch of cells on whose quadrature points an operation works, and the
+   * steps that operations have in common. Nodal values are no members: as the
+   * rare way of reading them is a call, everything beside them would be in
+   * memory then.
+   */
+  template <typename CellKernel, bool is_curved>
+  class PointBatch
   {
-    using Data   = ElasticData;
-    using Number = double;
-    using Kernel = QuadratureKernel<CellKernel::n_nodes>;
+  public:
+    static constexpr int n_nodes = CellKernel::n_nodes;
 
+    using Kernel      = QuadratureKernel<n_nodes>;
     using NodalValues = typename Kernel::NodalValues;
     using Geometry    = typename Kernel::Geometry;
 
-    static constexpr unsigned int n_batches = 1;
+    COROTET_ALWAYS_INLINE
+    PointBatch(ElasticData &data, const unsigned int batch)
+      : data(data)
+      , batch(batch)
+      , shapes(data.shapes[batch])
+    {}
+
+    COROTET_ALWAYS_INLINE LameLanes
+    lame() const
+    {
+      return corotet::lame(shapes);
+    }
+
+    COROTET_ALWAYS_INLINE decltype(auto)
+    rule() const
+    {
+      return cell_rule(std::bool_constant<is_curved>(),
+                       data.reference,
+                       data.batches,
+                       batch);
+    }
+
+    /// The volume at rest that point @p q stands for.
+    COROTET_ALWAYS_INLINE Simd<double>
+                          weight(const unsigned int q) const
+    {
+      return weight_at(rule(), q) * lanes(shapes.volume);
+    }
+
+    /// The geometry at rest.
+    COROTET_ALWAYS_INLINE void
+    load_geometry()
+    {
+      Kernel::load(shapes, g);
+    }
+
+    /// That, and the displacement less that of the first node.
+    COROTET_ALWAYS_INLINE void
+    load(const double *displacement, NodalValues &u)
+    {
+      Kernel::load(data, batch, displacement, g, u);
+    }
+
+    COROTET_ALWAYS_INLINE void
+    gradient_at_centre(const NodalValues &u, Tensor2Lanes &H) const
+    {
+      Kernel::gradient(data.reference.centre, 0, g, u, H);
+    }
+
+    /// Calls @p function(q, grad u) for each point.
+    template <typename Function>
+    COROTET_ALWAYS_INLINE void
+    for_each_point(const NodalValues &u, const Function &function) const
+    {
+      const auto &points = rule();
+      for (unsigned int q = 0; q < n_points(points); ++q)
+        {
+          Tensor2Lanes H;
+          Kernel::gradient(points, q, g, u, H);
+          function(q, H);
+        }
+    }
+
+    /// f_i += sum_q w_q P(q, grad u) grad N_i. @p stress(q, grad u, P)
+    /// computes P.
+    template <typename Stress>
+    COROTET_ALWAYS_INLINE void
+    integrate(const NodalValues &u, NodalValues &f, const Stress &stress) const
+    {
+      Kernel::integrate(rule(), g, lanes(shapes.volume), u, f, stress);
+    }
+
+    /// f_i += P grad N_i at the centre.
+    COROTET_ALWAYS_INLINE void
+    add_at_centre(const Tensor2Lanes &P, NodalValues &f) const
+    {
+      Kernel::add(data.reference.centre, 0, g, P, f);
+    }
+
+    /// Adds the nodal values @p f to a sweep's sums.
+    COROTET_ALWAYS_INLINE void
+    add_to(double *sums, const NodalValues &f) const
+    {
+      scatter_add<n_nodes>(f, data.batches.nodes(batch), sums);
+    }
+
+    /// Where the batch's numbers of a linearization are written.
+    COROTET_ALWAYS_INLINE NumberWriter
+    writer(const LinearizationSize size) const
+    {
+      return {data.new_linearization +
+              linearization_start<is_curved>(data, size, batch)};
+    }
+
+    COROTET_ALWAYS_INLINE NumberReader
+    reader(const LinearizationSize size) const
+    {
+      return {data.linearization +
+              linearization_start<is_curved>(data, size, batch)};
+    }
 
     /// Counts lanes with a cell where a derivative was bounded.
-    static COROTET_ALWAYS_INLINE void
-    count_clamped(const unsigned int clamped,
-                  const CellShapes  &shapes,
-                  ElasticData       &data)
+    COROTET_ALWAYS_INLINE void
+    count_clamped(const unsigned int clamped) const
     {
       if (__builtin_expect(clamped != 0, 0))
         for (unsigned int lane = 0; lane < batch_size; ++lane)
@@ -87,43 +189,24 @@ namespace corotet
             (clamped >> lane & 1u) != 0 && shapes.volume[lane] > 0;
     }
 
-    static COROTET_ALWAYS_INLINE Simd<double>
-                                 determinant_of_F(const Tensor2Lanes &H)
-    {
-      const Simd<double> a = H[0][0] + 1., b = H[1][1] + 1., c = H[2][2] + 1.;
-      return a * (b * c - H[1][2] * H[2][1]) -
-             H[0][1] * (H[1][0] * c - H[1][2] * H[2][0]) +
-             H[0][2] * (H[1][0] * H[2][1] - b * H[2][0]);
-    }
-
-    /// det F and the energy of a batch. @p energy gives that per volume at rest
-    /// from grad u.
-    template <typename IsCurved, typename Energy>
-    static COROTET_ALWAYS_INLINE void
-    add_state(const IsCurved     is_curved,
-              ElasticData       &data,
-              const unsigned int batch,
-              const double      *displacement,
-              const Energy      &energy)
+    /// det F and the energy of the batch. @p energy gives that per volume at
+    /// rest from grad u.
+    template <typename Energy>
+    COROTET_ALWAYS_INLINE void
+    add_state(const double *displacement, const Energy &energy)
     {
       // Of cells that are exactly flat, but for round-off.
-      constexpr double  flat   = 1e-12;
-      const CellShapes &shapes = data.shapes[batch];
-      const auto       &rule =
-        cell_rule(is_curved, data.reference, data.batches, batch);
-      NodalValues  u;
-      Geometry     g;
-      Tensor2Lanes H;
-      Kernel::load(data, batch, displacement, g, u);
-      Kernel::gradient(data.reference.centre, 0, g, u, H);
-      Simd<double> det_F = determinant_of_F(H), sum{};
-      for (unsigned int q = 0; q < n_points(rule); ++q)
-        {
-          Kernel::gradient(rule, q, g, u, H);
-          const Simd<double> det = determinant_of_F(H);
-          det_F                  = det < det_F ? det : det_F;
-          sum += weight_at(rule, q) * energy(H);
-        }
+      constexpr double flat = 1e-12;
+      NodalValues      u;
+      Tensor2Lanes     centre;
+      load(displacement, u);
+      gradient_at_centre(u, centre);
+      Simd<double> det_F = determinant_of_F(centre), sum{};
+      for_each_point(u, [&](const unsigned int q, const Tensor2Lanes &H) {
+        const Simd<double> det = determinant_of_F(H);
+        det_F                  = det < det_F ? det : det_F;
+        sum += weight_at(rule(), q) * energy(H);
+      });
       PointResults &results = data.results;
       for (unsigned int lane = 0; lane < batch_size; ++lane)
         if (shapes.volume[lane] > 0)
@@ -138,16 +221,12 @@ namespace corotet
      * f = (mass_factor M + stiffness_factor K) source, with K that of the
      * cells' frozen rotations; u is the source.
      */
-    template <bool is_curved>
-    static COROTET_ALWAYS_INLINE void
-    gather_with_matrices(const ElasticData &data,
-                         const unsigned int batch,
-                         const double      *source,
-                         const double       stiffness_factor,
-                         NodalValues       &u,
-                         NodalValues       &f)
+    COROTET_ALWAYS_INLINE void
+    gather_with_matrices(const double *source,
+                         const double  stiffness_factor,
+                         NodalValues  &u,
+                         NodalValues  &f) const
     {
-      constexpr int n_nodes = CellKernel::n_nodes;
       gather_batch<n_nodes>(data.batches, batch, source, u);
       if (data.masses != nullptr)
         {
@@ -167,20 +246,29 @@ namespace corotet
         static_for<3 * n_nodes>(
           [&](auto ia) { f[ia / 3][ia % 3] = Simd<double>{}; });
       if (stiffness_factor != 0.)
-        add_frozen<is_curved>(data, batch, stiffness_factor, u, f);
+        add_frozen(stiffness_factor, u, f);
     }
 
+    ElasticData       &data;
+    const unsigned int batch;
+    const CellShapes  &shapes;
+    /// That of load(), or what an operation takes instead.
+    Geometry g;
+
   private:
-    template <bool is_curved>
-    static COROTET_ALWAYS_INLINE void
-    add_frozen(const ElasticData &data,
-               const unsigned int batch,
-               const double       factor,
-               const NodalValues &u,
-               NodalValues       &f)
+    static COROTET_ALWAYS_INLINE Simd<double>
+                                 determinant_of_F(const Tensor2Lanes &H)
     {
-      constexpr int n_nodes = CellKernel::n_nodes;
-      NodalValues   copy, Ku;
+      const Simd<double> a = H[0][0] + 1., b = H[1][1] + 1., c = H[2][2] + 1.;
+      return a * (b * c - H[1][2] * H[2][1]) -
+             H[0][1] * (H[1][0] * c - H[1][2] * H[2][0]) +
+             H[0][2] * (H[1][0] * H[2][1] - b * H[2][0]);
+    }
+
+    COROTET_ALWAYS_INLINE void
+    add_frozen(const double factor, const NodalValues &u, NodalValues &f) const
+    {
+      NodalValues copy, Ku;
       static_for<3 * n_nodes>(
         [&](auto ia) { copy[ia / 3][ia % 3] = u[ia / 3][ia % 3]; });
       if constexpr (is_curved)
@@ -201,6 +289,42 @@ namespace corotet
         [&](auto ia) { f[ia / 3][ia % 3] += scale * Ku[ia / 3][ia % 3]; });
     }
   };
+
+  /**
+   * An operation on points as one of BatchSweep. Operation::apply(points,
+   * source, sums) does the work on the PointBatch @p points.
+   */
+  template <typename Operation, typename CellKernel>
+  struct PointOperation
+  {
+    using Data   = ElasticData;
+    using Number = double;
+
+    static constexpr unsigned int n_batches = 1;
+
+    template <typename IsCurved>
+    static COROTET_ALWAYS_INLINE void
+    apply(const IsCurved,
+          ElasticData       &data,
+          const unsigned int batch,
+          const double      *source,
+          double            *sums)
+    {
+      PointBatch<CellKernel, IsCurved::value> points(data, batch);
+      Operation::apply(points, source, sums);
+    }
+  };
+
+  /// The sweep of an operation on points, for one element.
+  template <typename Operation>
+  ElasticSweep
+  point_sweep(const Element element)
+  {
+    return sweep_of_element<double>(
+      element, []<typename Kernel>(const std::type_identity<Kernel>) {
+        return BatchSweep<PointOperation<Operation, Kernel>>::run;
+      });
+  }
 } // namespace corotet
 
 #endif
