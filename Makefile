@@ -18,7 +18,7 @@ help:
 	@echo 'make verify                      compare cases with known answers; status 1 if one is off'
 	@echo 'make bench [QUICK=1]             measure; status 1 if a required ratio is not reached'
 	@echo 'make format                      format the C++ files'
-	@echo 'make check                       check formatting, layering and the lines of the documentation'
+	@echo 'make check                       check formatting, layering, the lines of the documentation, and what has changed by clang-tidy'
 	@echo 'make clean                       remove what was built (not results)'
 
 run:
@@ -48,6 +48,7 @@ check:
 	@$(TOOLCHAIN) scripts/check_format
 	@$(TOOLCHAIN) scripts/check_layers
 	@$(TOOLCHAIN) scripts/check_docs
+	@$(TOOLCHAIN) scripts/check_tidy
 
 clean:
 	rm -rf build

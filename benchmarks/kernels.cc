@@ -127,7 +127,7 @@ namespace corotet::benchmarks
 
       QuadratureCells()
         : reference(p)
-        , shapes(this->n)
+        , constants(this->n)
         , rotations(this->n)
       {
         for (unsigned int cell = 0; cell < this->n; ++cell)
@@ -135,12 +135,13 @@ namespace corotet::benchmarks
             {
               for (unsigned int i = 0; i < 9; ++i)
                 {
-                  shapes[cell].inverse_jacobian[i][lane] = std::cos(i + lane);
-                  rotations[cell].rotation[i][lane]      = i % 4 == 0;
+                  constants[cell].inverse_jacobian[i][lane] =
+                    std::cos(i + lane);
+                  rotations[cell].rotation[i][lane] = i % 4 == 0;
                 }
-              shapes[cell].volume[lane] = 1;
-              shapes[cell].lambda[lane] = 1.5;
-              shapes[cell].mu[lane]     = 1;
+              constants[cell].volume[lane] = 1;
+              constants[cell].lambda[lane] = 1.5;
+              constants[cell].mu[lane]     = 1;
             }
       }
 
@@ -159,13 +160,13 @@ namespace corotet::benchmarks
               R[i / 3][i % 3] =
                 load_aligned<batch_size>(rotations[cell].rotation[i]);
             });
-            const V lambda = load_aligned<batch_size>(shapes[cell].lambda);
-            const V mu     = load_aligned<batch_size>(shapes[cell].mu);
+            const V lambda = load_aligned<batch_size>(constants[cell].lambda);
+            const V mu     = load_aligned<batch_size>(constants[cell].mu);
             typename Kernel::Geometry g;
-            Kernel::load(shapes[cell], g);
+            Kernel::load(constants[cell], g);
             Kernel::integrate(reference.stiffness_rule,
                               g,
-                              load_aligned<batch_size>(shapes[cell].volume),
+                              load_aligned<batch_size>(constants[cell].volume),
                               u,
                               f,
                               [&](const unsigned int,
@@ -180,9 +181,9 @@ namespace corotet::benchmarks
           }
       }
 
-      const ReferenceElement            reference;
-      dealii::AlignedVector<CellShapes> shapes;
-      dealii::AlignedVector<Rotations>  rotations;
+      const ReferenceElement               reference;
+      dealii::AlignedVector<CellConstants> constants;
+      dealii::AlignedVector<Rotations>     rotations;
     };
 
     template <typename CellsType>

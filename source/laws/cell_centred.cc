@@ -47,7 +47,7 @@ namespace corotet
         points.load(displacement, u);
         points.gradient_at_centre(u, F);
         add_identity(F);
-        points.data.counts.add(polar_decomposition(F, R), points.shapes);
+        points.data.counts.add(polar_decomposition(F, R), points.constants);
         const auto [lambda, mu] = points.lame();
         V          moment[3]{};
         const auto stress =

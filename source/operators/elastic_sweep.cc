@@ -10,7 +10,7 @@ namespace corotet
     // F = I + grad u at the centres of the cells.
     template <typename Kernel>
     COROTET_ALWAYS_INLINE void
-    deformation_gradient(const CellShapes                   &shapes,
+    deformation_gradient(const CellConstants                &constants,
                          const typename Kernel::NodalValues &u,
                          Simd<double> (&F)[3][3])
     {
@@ -20,8 +20,8 @@ namespace corotet
         static_for<3>([&](auto a) {
           Simd<double> sum = broadcast(a == b ? 1. : 0.);
           static_for<3>([&](auto k) {
-            sum += by_xi[a][k] *
-                   load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
+            sum += by_xi[a][k] * load_aligned<batch_size>(
+                                   constants.inverse_jacobian[3 * k + b]);
           });
           F[a][b] = sum;
         });
@@ -31,15 +31,15 @@ namespace corotet
     // Rotates the gradients of the cells.
     COROTET_ALWAYS_INLINE void
     store_rotated(const Simd<double> (&R)[3][3],
-                  const CellShapes         &shapes,
+                  const CellConstants      &constants,
                   CellCoefficients<double> &coefficients)
     {
-      const Simd<double> scale = load_aligned<batch_size>(shapes.scale);
+      const Simd<double> scale = load_aligned<batch_size>(constants.scale);
       static_for<3>([&](auto k) {
         Simd<double> g[3];
         static_for<3>([&](auto b) {
-          g[b] = scale *
-                 load_aligned<batch_size>(shapes.inverse_jacobian[3 * k + b]);
+          g[b] = scale * load_aligned<batch_size>(
+                           constants.inverse_jacobian[3 * k + b]);
         });
         static_for<3>([&](auto a) {
           store_aligned(R[a][0] * g[0] + R[a][1] * g[1] + R[a][2] * g[2],
@@ -53,11 +53,11 @@ namespace corotet
     template <typename Kernel>
     COROTET_ALWAYS_INLINE void
     strain_offset(const Simd<double> (&R)[3][3],
-                  const CellShapes       &shapes,
+                  const CellConstants    &constants,
                   typename Kernel::Strain offset)
     {
       const Simd<double> s =
-        load_aligned<batch_size>(shapes.scale) * Kernel::strain_scale;
+        load_aligned<batch_size>(constants.scale) * Kernel::strain_scale;
       static_for<3>([&](auto a) { offset[a] = s * (R[a][a] - 1.); });
       offset[3] = s * (R[1][2] + R[2][1]);
       offset[4] = s * (R[0][2] + R[2][0]);
@@ -74,9 +74,9 @@ namespace corotet
                  const typename Kernel::NodalValues &u,
                  typename Kernel::NodalValues       &f)
     {
-      using Quadrature        = QuadratureKernel<Kernel::n_nodes>;
-      const CellShapes &cells = data.shapes[batch];
-      const auto [lambda, mu] = lame(cells);
+      using Quadrature           = QuadratureKernel<Kernel::n_nodes>;
+      const CellConstants &cells = data.constants[batch];
+      const auto [lambda, mu]    = lame(cells);
       typename Quadrature::Geometry g;
       Quadrature::load(cells, g);
       static_for<3 * Kernel::n_nodes>(
@@ -116,12 +116,12 @@ namespace corotet
       {
         if constexpr (rotate)
           {
-            const CellShapes &shapes = data.shapes[batch];
-            Tensor2Lanes      F;
-            deformation_gradient<CellKernel>(shapes, u, F);
+            const CellConstants &constants = data.constants[batch];
+            Tensor2Lanes         F;
+            deformation_gradient<CellKernel>(constants, u, F);
             const PolarLanes found = polar_decomposition(F, R);
-            data.counts.add(found, shapes);
-            store_rotated(R, shapes, data.new_coefficients[batch]);
+            data.counts.add(found, constants);
+            store_rotated(R, constants, data.new_coefficients[batch]);
           }
         else
           rotations_of(data, batch, R);
@@ -168,7 +168,7 @@ namespace corotet
         else
           {
             typename CellKernel::Strain offset;
-            strain_offset<CellKernel>(R, data.shapes[batch], offset);
+            strain_offset<CellKernel>(R, data.constants[batch], offset);
             CellKernel::template apply<true, false, true>(
               &data.coefficients[batch], Simd<double>{}, &offset, u, f);
           }

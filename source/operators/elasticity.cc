@@ -23,7 +23,7 @@ namespace corotet
     , material_law(law)
     , sweeps(law->sweeps(discretization.element()))
     , cell_loop(discretization)
-    , shapes(discretization.batches().n_batches())
+    , constants(discretization.batches().n_batches())
     , cell_coefficients(discretization.batches().n_batches())
   {
     std::map<unsigned int, unsigned int> index;
@@ -45,20 +45,20 @@ namespace corotet
       {
         const auto [batch, lane]     = discretization.batches().place(c);
         const CellGeometry &geometry = discretization.geometry(c);
-        CellShapes         &shape    = shapes[batch];
-        shape.volume[lane]           = geometry.volume;
-        shape.lambda[lane]           = material(c).lambda;
-        shape.mu[lane]               = material(c).mu;
-        shape.scale[lane] = std::sqrt(material(c).mu * geometry.volume);
+        CellConstants      &cells    = constants[batch];
+        cells.volume[lane]           = geometry.volume;
+        cells.lambda[lane]           = material(c).lambda;
+        cells.mu[lane]               = material(c).mu;
+        cells.scale[lane] = std::sqrt(material(c).mu * geometry.volume);
         cell_coefficients[batch].lame_ratio[lane] =
           material(c).lambda / material(c).mu;
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int a = 0; a < 3; ++a)
             {
-              shape.inverse_jacobian[3 * k + a][lane] =
+              cells.inverse_jacobian[3 * k + a][lane] =
                 geometry.inverse_jacobian[k][a];
               cell_coefficients[batch].gradients[3 * k + a][lane] =
-                shape.scale[lane] * geometry.inverse_jacobian[k][a];
+                cells.scale[lane] * geometry.inverse_jacobian[k][a];
             }
       }
   }
@@ -68,7 +68,7 @@ namespace corotet
   {
     return {discretization.batches(),
             reference,
-            shapes.data(),
+            constants.data(),
             cell_coefficients.data(),
             !material_law->is_linear(),
             sweeps.law};
@@ -93,7 +93,7 @@ namespace corotet
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int a = 0; a < 3; ++a)
         rotated[k][a] = cell_coefficients[batch].gradients[3 * k + a][lane] /
-                        shapes[batch].scale[lane];
+                        constants[batch].scale[lane];
     return transpose(rotated) *
            transpose(invert(discretization.geometry(cell).inverse_jacobian));
   }

@@ -236,7 +236,7 @@ namespace corotet
 
     // In the batches of the discretization. Gradients among the coefficients
     // are rotated: that is how rotations are stored.
-    dealii::AlignedVector<CellShapes>               shapes;
+    dealii::AlignedVector<CellConstants>            constants;
     dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
 
     /// Of the last linearize(); see TangentSweeps.

@@ -50,7 +50,7 @@ namespace corotet
           };
         points.integrate(u, f, stress);
         if constexpr (has_counts)
-          points.data.counts.add(found, points.shapes);
+          points.data.counts.add(found, points.constants);
         points.add_to(sums, f);
       }
     };

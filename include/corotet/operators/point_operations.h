@@ -82,13 +82,13 @@ namespace corotet
     PointBatch(ElasticData &data, const unsigned int batch)
       : data(data)
       , batch(batch)
-      , shapes(data.shapes[batch])
+      , constants(data.constants[batch])
     {}
 
     COROTET_ALWAYS_INLINE LameLanes
     lame() const
     {
-      return corotet::lame(shapes);
+      return corotet::lame(constants);
     }
 
     COROTET_ALWAYS_INLINE decltype(auto)
@@ -104,14 +104,14 @@ namespace corotet
     COROTET_ALWAYS_INLINE Simd<double>
                           weight(const unsigned int q) const
     {
-      return weight_at(rule(), q) * lanes(shapes.volume);
+      return weight_at(rule(), q) * lanes(constants.volume);
     }
 
     /// The geometry at rest.
     COROTET_ALWAYS_INLINE void
     load_geometry()
     {
-      Kernel::load(shapes, g);
+      Kernel::load(constants, g);
     }
 
     /// That, and the displacement less that of the first node.
@@ -147,7 +147,7 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     integrate(const NodalValues &u, NodalValues &f, const Stress &stress) const
     {
-      Kernel::integrate(rule(), g, lanes(shapes.volume), u, f, stress);
+      Kernel::integrate(rule(), g, lanes(constants.volume), u, f, stress);
     }
 
     /// f_i += P grad N_i at the centre.
@@ -186,7 +186,7 @@ namespace corotet
       if (__builtin_expect(clamped != 0, 0))
         for (unsigned int lane = 0; lane < batch_size; ++lane)
           data.n_clamped +=
-            (clamped >> lane & 1u) != 0 && shapes.volume[lane] > 0;
+            (clamped >> lane & 1u) != 0 && constants.volume[lane] > 0;
     }
 
     /// det F and the energy of the batch. @p energy gives that per volume at
@@ -209,9 +209,9 @@ namespace corotet
       });
       PointResults &results = data.results;
       for (unsigned int lane = 0; lane < batch_size; ++lane)
-        if (shapes.volume[lane] > 0)
+        if (constants.volume[lane] > 0)
           {
-            results.energy += sum[lane] * shapes.volume[lane];
+            results.energy += sum[lane] * constants.volume[lane];
             results.min_det_F = std::min(results.min_det_F, det_F[lane]);
             results.inverted_cells += det_F[lane] < -flat;
           }
@@ -249,9 +249,9 @@ namespace corotet
         add_frozen(stiffness_factor, u, f);
     }
 
-    ElasticData       &data;
-    const unsigned int batch;
-    const CellShapes  &shapes;
+    ElasticData         &data;
+    const unsigned int   batch;
+    const CellConstants &constants;
     /// That of load(), or what an operation takes instead.
     Geometry g;
 

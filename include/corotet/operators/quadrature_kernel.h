@@ -34,10 +34,10 @@ namespace corotet
 
     /// The geometry at rest.
     static COROTET_ALWAYS_INLINE void
-    load(const CellShapes &shapes, Geometry &g)
+    load(const CellConstants &constants, Geometry &g)
     {
       static_for<9>([&](auto i) {
-        g[i] = load_aligned<batch_size>(shapes.inverse_jacobian[i]);
+        g[i] = load_aligned<batch_size>(constants.inverse_jacobian[i]);
       });
     }
 
@@ -50,7 +50,7 @@ namespace corotet
          NodalValues       &u)
     {
       gather_differences<n_nodes>(data.batches, batch, displacement, u);
-      load(data.shapes[batch], g);
+      load(data.constants[batch], g);
     }
 
     /// grad u at point @p q of @p rule: row a is the gradient of component a.

@@ -21,7 +21,7 @@ namespace corotet
                Simd<double> (&g)[9])
   {
     const Simd<double> scale =
-      load_aligned<batch_size>(data.shapes[batch].scale);
+      load_aligned<batch_size>(data.constants[batch].scale);
     // Lanes without a cell have zeros throughout.
     const Simd<double> factor = 1. / (scale > 0. ? scale : broadcast(1.));
     static_for<9>([&](auto i) {

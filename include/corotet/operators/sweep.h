@@ -21,8 +21,9 @@
  */
 namespace corotet
 {
-  /// Shape of the cells of a batch at rest. Zeros in lanes without a cell.
-  struct alignas(sizeof(Simd<double>)) CellShapes
+  /// Geometry at rest and material of the cells of a batch. Zeros in lanes
+  /// without a cell.
+  struct alignas(sizeof(Simd<double>)) CellConstants
   {
     /// Gradients of the reference coordinates, [3 (k - 1) + component] [1/m].
     double inverse_jacobian[9][batch_size];
@@ -44,9 +45,9 @@ namespace corotet
 
   /// Lamé's parameters of a batch.
   COROTET_ALWAYS_INLINE LameLanes
-  lame(const CellShapes &shapes)
+  lame(const CellConstants &constants)
   {
-    return {lanes(shapes.lambda), lanes(shapes.mu)};
+    return {lanes(constants.lambda), lanes(constants.mu)};
   }
 
   /// The terms of a linear form.
@@ -111,13 +112,13 @@ namespace corotet
 
     /// Counts the cells of a batch.
     COROTET_ALWAYS_INLINE void
-    add(const PolarLanes &lanes, const CellShapes &shapes)
+    add(const PolarLanes &lanes, const CellConstants &constants)
     {
       if (__builtin_expect(lanes.irregular != 0, 0))
         {
           unsigned int valid = 0;
           for (unsigned int lane = 0; lane < batch_size; ++lane)
-            valid |= (shapes.scale[lane] > 0 ? 1u : 0u) << lane;
+            valid |= (constants.scale[lane] > 0 ? 1u : 0u) << lane;
           robust += std::popcount(lanes.irregular & valid);
           inverted += std::popcount(lanes.inverted & valid);
           degenerate += std::popcount(lanes.degenerate & valid);
@@ -141,7 +142,7 @@ namespace corotet
   {
     const CellBatches              &batches;
     const ReferenceElement         &reference;
-    const CellShapes               *shapes;
+    const CellConstants            *constants;
     const CellCoefficients<double> *coefficients;
     /// Whether the cells have rotations; otherwise R = I.
     bool has_rotations;
@@ -183,10 +184,10 @@ namespace corotet
           [&](auto i) { R[i / 3][i % 3] = broadcast(i % 4 == 0 ? 1. : 0.); });
         return;
       }
-    const CellShapes &shapes = data.shapes[batch];
-    V                 G[3][3], C[3][3];
+    const CellConstants &constants = data.constants[batch];
+    V                    G[3][3], C[3][3];
     static_for<9>([&](auto i) {
-      G[i / 3][i % 3] = load_aligned<batch_size>(shapes.inverse_jacobian[i]);
+      G[i / 3][i % 3] = load_aligned<batch_size>(constants.inverse_jacobian[i]);
     });
     // dx / dxi_k is row k of the cofactors of G over det G.
     static_for<9>([&](auto i) {
@@ -196,7 +197,7 @@ namespace corotet
       C[k][a] = G[k1][a1] * G[k2][a2] - G[k1][a2] * G[k2][a1];
     });
     const V det   = G[0][0] * C[0][0] + G[0][1] * C[0][1] + G[0][2] * C[0][2];
-    const V scale = load_aligned<batch_size>(shapes.scale) * det;
+    const V scale = load_aligned<batch_size>(constants.scale) * det;
     // Lanes without a cell have zeros throughout.
     const V factor = 1. / (scale > 0. ? scale : broadcast(1.));
     static_for<9>([&](auto i) {
