@@ -90,14 +90,15 @@ namespace
 } // namespace
 
 class CurvedCells : public testing::TestWithParam<Curved>
-{};
+{
+protected:
+  MovingBody body{half_curved_box(GetParam().q), material(GetParam().element)};
+};
 
 // Both kinds of cells are there, and the batches know.
 TEST_P(CurvedCells, MeshIsMixed)
 {
-  const MovingBody body(half_curved_box(GetParam().q),
-                        material(GetParam().element));
-  unsigned int     n = 0;
+  unsigned int n = 0;
   for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
     n += body.discretization.is_curved(c);
   EXPECT_EQ(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 40u);
@@ -110,8 +111,6 @@ TEST_P(CurvedCells, MeshIsMixed)
 // motion has P = 0; the force is compared with that of a stretch.
 TEST_P(CurvedCells, PatchTest)
 {
-  const MovingBody   body(half_curved_box(GetParam().q),
-                        material(GetParam().element));
   const auto        &reference = body.reference;
   const Tensor<2, 3> Q = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 1.1);
   Tensor<2, 3>       stretch({{1.2, 0.1, 0.}, {0.1, 0.9, 0.2}, {0., 0.2, 1.1}});
@@ -171,9 +170,7 @@ TEST_P(CurvedCells, PatchTest)
 // elasticity in the rotated frame: symmetric.
 TEST_P(CurvedCells, Derivatives)
 {
-  const MovingBody body(half_curved_box(GetParam().q),
-                        material(GetParam().element));
-  const double     h = 1e-5;
+  const double h = 1e-5;
   for (const auto &[name, text, law] : nonlinear_laws())
     {
       Elasticity   elastic = elasticity_of(body, law);
@@ -231,9 +228,7 @@ TEST_P(CurvedCells, Derivatives)
 // mass that there is.
 TEST_P(CurvedCells, EffectiveOperator)
 {
-  const Element element = GetParam().element;
-  MovingBody    body(half_curved_box(GetParam().q), material(element));
-  Elasticity    elastic =
+  Elasticity elastic =
     elasticity_of(body, corotational_law(Rotation::cell_centre));
   elastic.update_rotations(displacement(body, states[1], 1., 1));
   const std::vector<unsigned char> free(3 * body.discretization.n_local_nodes(),
@@ -263,7 +258,6 @@ TEST_P(CurvedCells, EffectiveOperator)
 TEST_P(CurvedCells, CoarserForms)
 {
   const Element element = GetParam().element;
-  MovingBody    body(half_curved_box(GetParam().q), material(element));
   Elasticity    elastic =
     elasticity_of(body, corotational_law(Rotation::cell_centre));
   elastic.update_rotations(displacement(body, states[1], 1., 1));
