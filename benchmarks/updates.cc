@@ -250,6 +250,10 @@ namespace corotet::benchmarks
             "quadrature_points",
             corotational_law(Rotation::quadrature_points));
     add_law(data, "saint_venant_kirchhoff", saint_venant_kirchhoff_law());
+    // The same as programs write theirs: a call for each point.
+    add_law(data,
+            "saint_venant_kirchhoff_by_points",
+            material_law(saint_venant_kirchhoff_law()));
     add_law(data, "neo_hookean", neo_hookean_law());
   }
 } // namespace corotet::benchmarks

@@ -9,11 +9,18 @@
 #include <corotet/forces/pressure.h>
 #include <corotet/forces/rayleigh_damping.h>
 #include <corotet/forces/traction.h>
+#include <corotet/operators/mass.h>
 
 #include <algorithm>
 
 namespace corotet
 {
+  void
+  ForceContext::apply_mass(Vector &f, const Vector &a) const
+  {
+    mass.apply(f, a);
+  }
+
   std::vector<Candidate<ForceKind>>
   force_kinds()
   {

@@ -24,7 +24,7 @@ namespace
   {
   public:
     Pull(const corotet::ForceContext &context, const double w)
-      : mass(context.mass)
+      : context(context)
       , factor(w * w)
     {
       context.discretization.initialize_vector(product);
@@ -63,7 +63,7 @@ namespace
     double
     energy(const corotet::Motion &motion) const override
     {
-      mass.apply(product, motion.u);
+      context.apply_mass(product, motion.u);
       double sum = 0;
       for (unsigned int i = 0; i < product.locally_owned_size(); ++i)
         sum += product.local_element(i) * motion.u.local_element(i);
@@ -82,15 +82,15 @@ namespace
                    const corotet::Vector &w,
                    const double /*velocity_factor*/) const override
     {
-      mass.apply(product, w);
+      context.apply_mass(product, w);
       for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
         f.local_element(i) -= factor * product.local_element(i);
     }
 
   private:
-    const corotet::Mass    &mass;
-    const double            factor;
-    mutable corotet::Vector product;
+    const corotet::ForceContext context;
+    const double                factor;
+    mutable corotet::Vector     product;
   };
 
   class PullKind : public corotet::ForceKind

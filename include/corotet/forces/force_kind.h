@@ -23,7 +23,8 @@ namespace corotet
   class Mass;
 
   /**
-   * What force terms may be made of. All must outlive the terms.
+   * What force terms may be made of, and may keep. All that it refers to must
+   * outlive the terms.
    */
   struct ForceContext
   {
@@ -37,6 +38,11 @@ namespace corotet
     Log                  &log;
     /// Of the run [s].
     double start_time = 0;
+
+    /// f = M a for owned entries. Ghost entries of @p a are up to date.
+    /// Collective.
+    void
+    apply_mass(Vector &f, const Vector &a) const;
   };
 
   /**
