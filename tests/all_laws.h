@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "parameter_text.h"
+
 namespace corotet::tests
 {
   /// A law of the registry, with one placement of rotations.
@@ -17,7 +19,7 @@ namespace corotet::tests
   {
     /// "neo-Hookean", "corotational, cell centre".
     std::string name;
-    /// Its entries in section Material.
+    /// Its choice in a parameter file.
     std::string                        text;
     std::shared_ptr<const MaterialLaw> law;
   };
@@ -33,13 +35,13 @@ namespace corotet::tests
           const auto kind = candidate.make();
           if (kind->has_rotations())
             for (const auto &[name, rotation] : rotations)
-              result.push_back({candidate.name + ", " + name,
-                                " set Type = " + candidate.name +
-                                  "\n set Rotation = " + name + "\n",
-                                kind->make(rotation)});
+              result.push_back(
+                {candidate.name + ", " + name,
+                 material_type(candidate.name) + rotation_at(name),
+                 kind->make(rotation)});
           else
             result.push_back({candidate.name,
-                              " set Type = " + candidate.name + "\n",
+                              material_type(candidate.name),
                               kind->make(Rotation::cell_centre)});
         }
       return result;

@@ -15,6 +15,8 @@
 #include <iostream>
 #include <string>
 
+#include "parameter_text.h"
+
 namespace corotet
 {
   /// For names of tests: "P2", "P2 with bubbles".
@@ -76,16 +78,6 @@ namespace corotet::tests
 
     dealii::ParameterHandler prm;
   };
-
-  /// The entries that give an element, as a .prm file has them.
-  inline std::string
-  element_text(const Element element)
-  {
-    return "subsection Discretization\n set Degree = " +
-           std::to_string(element.degree()) +
-           (element.has_bubbles() ? "\n set Mass = nodal quadrature" : "") +
-           "\nend\n";
-  }
 
   /// What a body is made of beside its mesh.
   struct BodyInput

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <string>
 
+#include "parameter_text.h"
+
 namespace corotet::tests
 {
   /**
@@ -57,7 +59,7 @@ namespace corotet::tests
     {
       const dealii::Tensor<1, 3> b =
         (lambda + mu) * (A * k) * k + mu * (k * k) * A;
-      std::string displacements, tractions;
+      std::string prescribed, pulled;
       for (unsigned int a = 0; a < 3; ++a)
         {
           dealii::Tensor<1, 3> n;
@@ -66,37 +68,17 @@ namespace corotet::tests
             components(lambda * (A * k) * n + mu * (k[a] * A + A[a] * k),
                        "cos");
           const std::string separator = a > 0 ? ", " : "";
-          displacements += fmt::format("{}{}-min: {}",
-                                       separator,
-                                       "xyz"[a],
-                                       components(A, "sin"));
-          tractions +=
-            fmt::format("{}{}-max: {}", separator, "xyz"[a], traction);
+          prescribed += fmt::format("{}{}-min: {}",
+                                    separator,
+                                    "xyz"[a],
+                                    components(A, "sin"));
+          pulled += fmt::format("{}{}-max: {}", separator, "xyz"[a], traction);
         }
-      return fmt::format(R"(
-        subsection Discretization
-          set Degree = {}
-        end
-        subsection Material
-          set Type            = linear
-          set Young's modulus = 10
-          set Poisson's ratio = 0.3
-        end
-        subsection Boundary conditions
-          set Displacement = {}
-          set Traction     = {}
-        end
-        subsection Loads
-          set Body force = {}
-        end
-        subsection Linear solver
-          set Type      = direct
-          set Tolerance = 1e-12
-        end)",
-                         degree,
-                         displacements,
-                         tractions,
-                         components(b, "sin"));
+      return element_text(degree) + material_type("linear") +
+             material_text(E, nu) + displacements(prescribed) +
+             tractions(pulled) +
+             section("Loads", {{"Body force", components(b, "sin")}}) +
+             linear_solver("direct", 1e-12);
     }
 
     const double               E = 10, nu = 0.3;

@@ -84,15 +84,8 @@ TEST(PrescribedMotion, EdgesAndCorners)
   for (const unsigned int degree : {1u, 2u, 3u})
     {
       MovingBody body(box("1, 1, 1", "2, 2, 2"),
-                      fmt::format(R"(
-        subsection Discretization
-          set Degree = {}
-        end
-        subsection Boundary conditions
-          set Fixed        = x-max & y-max & z-max
-          set Displacement = x-min & z-min: free; free; 0.1
-        end)",
-                                  degree));
+                      element_text(degree) + fixed("x-max & y-max & z-max") +
+                        displacements("x-min & z-min: free; free; 0.1"));
       body.system.prescribe(body.state, 0., 1.);
       std::vector<unsigned int> n_found(4);
       for (const unsigned int i : body.motion.unknowns())
@@ -117,10 +110,8 @@ TEST(PrescribedMotion, EdgesAndCorners)
 TEST(PrescribedMotion, BoundariesThatDoNotMeetAreRefused)
 {
   EXPECT_EQ(refusal([] {
-              MovingBody body(box("1, 1, 1", "1, 1, 1"), R"(
-                subsection Boundary conditions
-                  set Fixed = x-min & x-max
-                end)");
+              MovingBody body(box("1, 1, 1", "1, 1, 1"),
+                              fixed("x-min & x-max"));
             }),
             "Boundary conditions/Fixed: boundaries have no node in common: "
             "found 'x-min & x-max'; allowed are those that meet in an edge or "
@@ -131,13 +122,10 @@ TEST(PrescribedMotion, BoundariesThatDoNotMeetAreRefused)
 // derivatives, but for round-off of numbers of size one.
 TEST(PrescribedMotion, DerivativesInTime)
 {
-  MovingBody   body(box("1, 1, 1", "2, 2, 2"), R"(
-    subsection Boundary conditions
-      set Displacement = x-min: 0.1*sin(3*t); free; y*t^2, x-max: 0; 0; 0
-    end
-    subsection Time integration
-      set Time step = 0.01
-    end)");
+  MovingBody   body(box("1, 1, 1", "2, 2, 2"),
+                  displacements("x-min: 0.1*sin(3*t); free; y*t^2, "
+                                  "x-max: 0; 0; 0") +
+                    section("Time integration", {{"Time step", 0.01}}));
   const double t = 0.7;
   body.system.prescribe(body.state, t, 1.);
   unsigned int n_found = 0;
@@ -166,11 +154,8 @@ TEST(PrescribedMotion, DerivativesInTime)
 // throw.
 TEST(PrescribedMotion, DisagreementIsRefused)
 {
-  MovingBody body(box("1, 1, 1", "2, 2, 2"), R"(
-    subsection Boundary conditions
-      set Fixed        = x-min
-      set Displacement = z-min: 0.1*t; free; 0
-    end)");
+  MovingBody body(box("1, 1, 1", "2, 2, 2"),
+                  fixed("x-min") + displacements("z-min: 0.1*t; free; 0"));
   EXPECT_EQ(refusal([&] { body.system.prescribe(body.state, 0., 1.); }),
             "nothing was refused");
   const std::string text =
@@ -188,10 +173,7 @@ TEST(PrescribedMotion, DisagreementIsRefused)
 
 TEST(PrescribedMotion, NotFiniteIsRefused)
 {
-  MovingBody body(box("1, 1, 1", "1, 1, 1"), R"(
-    subsection Boundary conditions
-      set Displacement = x-min: 1/t; 0; 0
-    end)");
+  MovingBody body(box("1, 1, 1", "1, 1, 1"), displacements("x-min: 1/t; 0; 0"));
   EXPECT_EQ(
     refusal([&] { body.system.prescribe(body.state, 0., 1.); }),
     "Boundary conditions/Displacement: the displacement at t = 0 is not "
@@ -201,10 +183,8 @@ TEST(PrescribedMotion, NotFiniteIsRefused)
 // Finite at t = 0 only.
 TEST(PrescribedMotion, NoVelocityIsRefused)
 {
-  MovingBody        body(box("1, 1, 1", "1, 1, 1"), R"(
-    subsection Boundary conditions
-      set Displacement = x-min: sqrt(-t^2); 0; 0
-    end)");
+  MovingBody        body(box("1, 1, 1", "1, 1, 1"),
+                  displacements("x-min: sqrt(-t^2); 0; 0"));
   const std::string text =
     refusal([&] { body.system.prescribe(body.state, 0., 1.); });
   EXPECT_EQ(text.find("Boundary conditions/Displacement: the displacement has "

@@ -26,12 +26,6 @@ namespace
                                              3,
                                              Element::quadratic_with_bubbles()};
 
-  std::string
-  supports(const std::string &entry, const std::string &value)
-  {
-    return "subsection Supports\n set " + entry + " = " + value + "\nend\n";
-  }
-
   // A block of 2 m x 1 m x 1 m, of distorted cells.
   struct Block : public MovingBody
   {
@@ -116,8 +110,8 @@ INSTANTIATE_TEST_SUITE_P(Elements,
 // 3 N/m; k_y = 5 everywhere.
 TEST_P(ElasticSupportTest, ForceOfATranslation)
 {
-  Block body(GetParam(), supports("Elastic", "z-min: 1 + 2 * x + 3 * y; 5; 0"));
-  const Vector       u = translation(body, Tensor<1, 3>({2, 3, 4}));
+  Block        body(GetParam(), supports("z-min: 1 + 2 * x + 3 * y; 5; 0"));
+  const Vector u       = translation(body, Tensor<1, 3>({2, 3, 4}));
   const Tensor<1, 3> f = total(force(body, u));
   EXPECT_NEAR(f[0], -2 * 9., 1e-13 * 18);
   EXPECT_NEAR(f[1], -3 * 10., 1e-13 * 30);
@@ -130,7 +124,7 @@ TEST_P(ElasticSupportTest, ForceOfATranslation)
 // Springs along the normal resist the motion along it only.
 TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 {
-  Block body(GetParam(), supports("Elastic normal", "z-min: 7, x-max: 3"));
+  Block              body(GetParam(), supports("", "z-min: 7, x-max: 3"));
   const Vector       u = translation(body, Tensor<1, 3>({2, 3, 4}));
   const Tensor<1, 3> f = total(force(body, u));
   EXPECT_NEAR(f[0], -2 * 3., 1e-13 * 6);
@@ -144,8 +138,7 @@ TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 TEST_P(ElasticSupportTest, Derivatives)
 {
   Block             body(GetParam(),
-             supports("Elastic", "z-min: 1 + x * x; 5 + y; 2") +
-               supports("Elastic normal", "x-max: 2 + z, y-min: 3"));
+             supports("z-min: 1 + x * x; 5 + y; 2", "x-max: 2 + z, y-min: 3"));
   const ForceTerms &terms = body.system.equation().terms;
   const Vector      u     = body.interpolate(wavy);
   const Vector      w     = body.interpolate(
@@ -178,9 +171,7 @@ TEST_P(ElasticSupportTest, Derivatives)
 TEST_P(ElasticSupportTest, MatricesAgree)
 {
   Block body(GetParam(),
-             supports("Elastic", "z-min: 1e6; 2e6; 3e6") +
-               supports("Elastic normal", "x-max: 1e6") +
-               "subsection Boundary conditions\n set Fixed = x-min\nend\n");
+             supports("z-min: 1e6; 2e6; 3e6", "x-max: 1e6") + fixed("x-min"));
   body.system.equation().evaluate(body.state, 0., 1.);
   const SurfaceMatrix matrix     = surface_matrix(body, 1., 0.);
   const auto         &prescribed = body.motion.is_prescribed();
@@ -226,7 +217,7 @@ TEST_P(ElasticSupportTest, CoarserLevels)
     return;
   MovingBody              body(half_curved_box(2),
                   element_text(GetParam()) +
-                    supports("Elastic normal", "x-max: 1 + y, z-min: 2"));
+                    supports("", "x-max: 1 + y, z-min: 2"));
   const SurfaceMatrix     matrix = surface_matrix(body, 1., 0.);
   SurfaceOperator<double> fine_S(body.discretization);
   fine_S.set(matrix);
@@ -264,8 +255,7 @@ TEST(ElasticSupportOnCurvedFaces, Sphere)
       for (const unsigned int level : {0, 1})
         {
           MovingBody        body(thick_shell(4 << level, q),
-                          element_text(q) +
-                            supports("Elastic normal", "z-max: 2"));
+                          element_text(q) + supports("", "z-max: 2"));
           const ForceTerms &terms = body.system.equation().terms;
           const Vector      u     = body.interpolate(
             [](const Point<3> &x) { return Tensor<1, 3>(x / x.norm()); });
@@ -289,7 +279,7 @@ TEST(ElasticSupportOnCurvedFaces, Sphere)
 TEST(ElasticSupportOnCurvedFaces, Area)
 {
   MovingBody   body(thick_shell(8, 3),
-                  element_text(3) + supports("Elastic", "z-max: 1; 1; 1"));
+                  element_text(3) + supports("z-max: 1; 1; 1"));
   const Vector u = translation(body, Tensor<1, 3>({1, 0, 0}));
   EXPECT_NEAR(total(force(body, u))[0], -PI / 2 * std::cos(0.3), 1e-5);
 }
@@ -297,7 +287,7 @@ TEST(ElasticSupportOnCurvedFaces, Area)
 // Dashpots resist the velocity.
 TEST(Dashpots, Force)
 {
-  Block             body(2, supports("Dashpots", "z-min: 1 + t; 5; 0"));
+  Block             body(2, supports("", "", "z-min: 1 + t; 5; 0"));
   const ForceTerms &terms = body.system.equation().terms;
   const Vector      u     = body.interpolate(wavy);
   const Vector      v     = translation(body, Tensor<1, 3>({2, 3, 4}));
@@ -316,8 +306,7 @@ TEST(Dashpots, Force)
 // Without the section there is nothing of it; zero stiffness is none, too.
 TEST(Supports, Absent)
 {
-  for (const std::string &text :
-       {std::string(), supports("Elastic", "z-min: 0; 0; 0")})
+  for (const std::string &text : {std::string(), supports("z-min: 0; 0; 0")})
     {
       MovingBody        body(box("2, 1, 1", "2, 1, 1"), text);
       const ForceTerms &terms = body.system.equation().terms;
@@ -334,7 +323,8 @@ TEST(Supports, Refusals)
   const auto refusal_of = [](const std::string &entry,
                              const std::string &value) {
     return refusal([&] {
-      MovingBody body(box("1, 1, 1", "1, 1, 1"), supports(entry, value));
+      MovingBody body(box("1, 1, 1", "1, 1, 1"),
+                      section("Supports", {{entry, value}}));
     });
   };
   EXPECT_EQ(refusal_of("Elastic", "z-mix: 1; 1; 1"),

@@ -32,7 +32,7 @@ namespace
     Loaded(const Element element, const std::string &text)
       : MovingBody(box("1, 2, 1", "2, 3, 2", 0.2),
                    element_text(element) +
-                     "subsection Material\n set Density = 3\nend\n" + text)
+                     section("Material", {{"Density", 3}}) + text)
     {}
 
     const Vector &
@@ -59,11 +59,10 @@ class LoadsTest : public testing::TestWithParam<Element>
 // four ways through the code, all with the same resultant.
 TEST_P(LoadsTest, GravityAndBodyForce)
 {
-  for (const std::string gravity :
+  for (const std::string acceleration :
        {"0; 0; -10", "0; 0; -5*t", "0; 0; -20*x", "0; 0; -10*t*x"})
     {
-      Loaded body(GetParam(),
-                  "subsection Loads\n set Gravity = " + gravity + "\nend\n");
+      Loaded body(GetParam(), gravity(acceleration));
       expect_near(resultant(body.force(2.)),
                   Tensor<1, 3>({0., 0., -60.}),
                   1e-12 * 60);
@@ -71,8 +70,7 @@ TEST_P(LoadsTest, GravityAndBodyForce)
   for (const std::string force :
        {"4; 0; 0", "2*t; 0; 0", "4*y; 0; 0", "2*t*y; 0; 0"})
     {
-      Loaded body(GetParam(),
-                  "subsection Loads\n set Body force = " + force + "\nend\n");
+      Loaded body(GetParam(), section("Loads", {{"Body force", force}}));
       expect_near(resultant(body.force(2.)), Tensor<1, 3>({8., 0., 0.}), 1e-12);
     }
 }
@@ -80,18 +78,16 @@ TEST_P(LoadsTest, GravityAndBodyForce)
 // Area of x-max: 2. The load rule is exact for the linear traction.
 TEST_P(LoadsTest, Traction)
 {
-  Loaded body(GetParam(),
-              "subsection Boundary conditions\n set Traction = x-max: 1; t; "
-              "6*y*z\nend\n");
+  Loaded body(GetParam(), tractions("x-max: 1; t; 6*y*z"));
   expect_near(resultant(body.force(3.)), Tensor<1, 3>({2., 6., 6.}), 1e-12);
 }
 
 // All of a point force is at the nearest node, on one rank only.
 TEST_P(LoadsTest, PointForce)
 {
-  Loaded        body(GetParam(),
-              "subsection Loads\n set Point forces = 1.1 2 1: 1; 2; 3*t, 0 0 "
-                     "0: 5; 0; 0\nend\n");
+  Loaded body(
+    GetParam(),
+    section("Loads", {{"Point forces", "1.1 2 1: 1; 2; 3*t, 0 0 0: 5; 0; 0"}}));
   const Vector &f = body.force(2.);
   expect_near(resultant(f), Tensor<1, 3>({6., 2., 6.}), 1e-14);
   unsigned int n_loaded = 0;
@@ -109,9 +105,7 @@ TEST_P(LoadsTest, PointForce)
 // however the body is deformed; the rule is exact for it.
 TEST_P(LoadsTest, PressureOnClosedSurface)
 {
-  Loaded body(GetParam(),
-              "subsection Boundary conditions\n set Pressure = x-min: 7, "
-              "x-max: 7, y-min: 7, y-max: 7, z-min: 7, z-max: 7\nend\n");
+  Loaded body(GetParam(), pressures(on_all_sides("7")));
   body.state.u.copy_locally_owned_data_from(
     body.interpolate([](const Point<3> &x) {
       return Tensor<1, 3>(
@@ -145,10 +139,7 @@ TEST_P(LoadsTest, PressureFollows)
 {
   for (const std::string type : {"corotational", "linear"})
     {
-      Loaded             body(GetParam(),
-                  "subsection Material\n set Type = " + type +
-                    "\nend\nsubsection Boundary conditions\n set Pressure = "
-                                "x-max: 3\nend\n");
+      Loaded body(GetParam(), material_type(type) + pressures("x-max: 3"));
       const Tensor<2, 3> R =
         rotation_about(Tensor<1, 3>({0., 0., 1.}), dealii::numbers::PI / 2);
       body.state.u.copy_locally_owned_data_from(body.interpolate(
@@ -178,8 +169,7 @@ TEST_P(LoadsTest, DisplacedVolume)
 TEST(Loads, Refusals)
 {
   EXPECT_EQ(refusal([] {
-              Loaded(1,
-                     "subsection Loads\n set Point forces = 1 2: 0;0;1\nend");
+              Loaded(1, section("Loads", {{"Point forces", "1 2: 0;0;1"}}));
             }),
             "Loads/Point forces: found '1 2: 0;0;1'; allowed: 'x y z: fx; fy; "
             "fz'");

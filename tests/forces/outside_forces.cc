@@ -134,18 +134,10 @@ TEST(OutsideForces, PullOfContributing)
   const AddedCandidate<ForceKind> added(candidate<ForceKind, PullKind>("pull"));
   for (const bool is_explicit : {false, true})
     {
-      MovingBody body(box("1, 1, 1", "2, 2, 2"), R"(
-        subsection Discretization
-          set Mass = diagonal scaling
-        end
-        subsection Material
-          set Type            = linear
-          set Young's modulus = 1
-          set Density         = 1
-        end
-        subsection Loads
-          set Pull = 2
-        end)");
+      MovingBody body(box("1, 1, 1", "2, 2, 2"),
+                      element_text(2, "diagonal scaling") +
+                        material_type("linear") + material_text(1, 0.3, 1) +
+                        section("Loads", {{"Pull", 2}}));
       body.state.v = 1;
       ImplicitMidpoint  implicit;
       CentralDifference explicit_steps;

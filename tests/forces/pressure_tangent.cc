@@ -17,10 +17,12 @@ namespace
   // The force terms of a 1 x 2 x 1 box.
   struct UnderPressure : public MovingBody
   {
-    UnderPressure(const Element element, const std::string &text)
+    UnderPressure(const Element      element,
+                  const std::string &pressure,
+                  const std::string &type = "corotational")
       : MovingBody(box("1, 2, 1", "2, 3, 2", 0.2),
-                   element_text(element) + "subsection Boundary conditions\n" +
-                     text + "\nend\n")
+                   element_text(element) + material_type(type) +
+                     pressures(pressure))
     {}
 
     void
@@ -77,8 +79,7 @@ class PressureTangent : public testing::TestWithParam<Element>
 TEST_P(PressureTangent, IsTheDerivative)
 {
   UnderPressure body(GetParam(),
-                     "set Pressure = z-max: (1+x*y^2)*t, x-max: sin(3*y)+z, "
-                     "y-min: 2-x*z");
+                     "z-max: (1+x*y^2)*t, x-max: sin(3*y)+z, y-min: 2-x*z");
   const Vector  v = random_direction(body), u = body.shape();
   const double  t = 3, h = 1e-2, factor = -0.7;
   EXPECT_TRUE(body.system.equation().terms.follows_motion());
@@ -99,7 +100,7 @@ TEST_P(PressureTangent, IsTheDerivative)
 // It adds: what was in f stays.
 TEST_P(PressureTangent, Adds)
 {
-  UnderPressure body(GetParam(), "set Pressure = z-max: 1+x");
+  UnderPressure body(GetParam(), "z-max: 1+x");
   const Vector  v = random_direction(body);
   body.linearize(0., body.shape());
   const Vector once = body.derivative(v, 2.);
@@ -115,11 +116,7 @@ TEST_P(PressureTangent, SymmetricOnAClosedSurface)
 {
   for (const bool closed : {true, false})
     {
-      UnderPressure body(GetParam(),
-                         closed ?
-                           "set Pressure = x-min: 7, x-max: 7, y-min: 7, "
-                           "y-max: 7, z-min: 7, z-max: 7" :
-                           "set Pressure = x-max: 7");
+      UnderPressure body(GetParam(), closed ? on_all_sides("7") : "x-max: 7");
       const Vector  v = random_direction(body), w = body.shape();
       body.linearize(0., body.shape());
       const Vector Kv = body.derivative(v, 1.), Kw = body.derivative(w, 1.);
@@ -134,10 +131,7 @@ TEST_P(PressureTangent, SymmetricOnAClosedSurface)
 // Linear elasticity has pressures on the surface at rest.
 TEST_P(PressureTangent, NoneInLinearElasticity)
 {
-  UnderPressure body(
-    GetParam(),
-    "set Pressure = z-max: 1\nend\nsubsection Material\n set Type = "
-    "linear");
+  UnderPressure body(GetParam(), "z-max: 1", "linear");
   EXPECT_FALSE(body.system.equation().terms.follows_motion());
   EXPECT_FALSE(
     body.system.equation().terms.has_linearization(Tangent::consistent));

@@ -126,36 +126,14 @@ TEST(RayleighDamping, ModesDecayAtTheirRatio)
   const double              c      = std::sqrt(1e6 / 1000);
   for (const unsigned int mode : {0, 1})
     {
-      MovingBody body(box("1, 0.1, 0.1", "8, 1, 1"),
-                      fmt::format(R"(
-        subsection Discretization
-          set Degree = 3
-        end
-        subsection Material
-          set Type            = linear
-          set Young's modulus = 1e6
-          set Poisson's ratio = 0
-          set Density         = 1000
-        end
-        subsection Boundary conditions
-          set Fixed = x-min
-        end
-        subsection Damping
-          set Frequencies = {}, {}
-          set Ratios      = {}, {}
-        end
-        subsection Newton
-          set Residual tolerance  = 1e-12
-          set Increment tolerance = 1e-12
-        end
-        subsection Linear solver
-          set Type      = direct
-          set Tolerance = 1e-12
-        end)",
-                                  c / 4,
-                                  3 * c / 4,
-                                  ratios[0],
-                                  ratios[1]));
+      MovingBody body(
+        box("1, 0.1, 0.1", "8, 1, 1"),
+        element_text(3) + material_type("linear") + material_text(1e6, 0) +
+          fixed("x-min") +
+          section("Damping",
+                  {{"Frequencies", fmt::format("{}, {}", c / 4, 3 * c / 4)},
+                   {"Ratios", fmt::format("{}, {}", ratios[0], ratios[1])}}) +
+          newton_tolerances(1e-12) + linear_solver("direct", 1e-12));
 
       const double       k     = (2 * mode + 1) * PI / 2;
       const double       omega = c * k;

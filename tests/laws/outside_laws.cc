@@ -76,17 +76,15 @@ TEST(OutsideLaws, IsLikeTheLibrarysOwn)
   for (const unsigned int degree : {1, 2, 3})
     {
       // The entry Type knows it.
-      const std::string text =
-        "subsection Discretization\n set Degree = " + std::to_string(degree) +
-        "\nend\nsubsection Material\n set Young's modulus = 1e3\n set Type = ";
-      const SerialMesh mesh = box("1, 2, 1", "2, 2, 2", 0.2);
-      MovingBody       mine(mesh, text + "my Kirchhoff\nend\n");
-      MovingBody       theirs(mesh, text + "Saint Venant-Kirchhoff\nend\n");
-      Elasticity       a = elasticity_of(mine, mine.law),
-                 b       = elasticity_of(theirs, theirs.law);
-      const Vector u     = displacement(mine, states[2], 1.5, 3),
-                   v     = random_direction(mine);
-      const Vector f     = force(b, u);
+      const std::string text = element_text(degree) + material_text(1e3);
+      const SerialMesh  mesh = box("1, 2, 1", "2, 2, 2", 0.2);
+      MovingBody        mine(mesh, text + material_type("my Kirchhoff"));
+      MovingBody theirs(mesh, text + material_type("Saint Venant-Kirchhoff"));
+      Elasticity a   = elasticity_of(mine, mine.law),
+                 b   = elasticity_of(theirs, theirs.law);
+      const Vector u = displacement(mine, states[2], 1.5, 3),
+                   v = random_direction(mine);
+      const Vector f = force(b, u);
       // Sums of some hundred products.
       EXPECT_LE(largest_difference(force(a, u), f), 1e-13 * f.linfty_norm());
       EXPECT_NEAR(a.state(u).energy,

@@ -28,8 +28,7 @@ using dealii::Tensor;
 
 namespace
 {
-  const std::string with_bubbles =
-    "subsection Discretization\n set Mass = nodal quadrature\nend\n";
+  constexpr Element with_bubbles = Element::quadratic_with_bubbles();
 
   // Weights of central differences of fourth order.
   const std::vector<std::pair<double, double>> differences{{-2, 1. / 12},
@@ -42,7 +41,7 @@ namespace
   protected:
     NamedLaw   law = nonlinear_laws()[GetParam()];
     MovingBody body{box("1, 2, 1", "2, 2, 2", 0.2),
-                    case_text(2, law) + with_bubbles};
+                    case_text(with_bubbles, law)};
   };
 } // namespace
 
@@ -82,11 +81,10 @@ TEST(Bubbles, TablesAreThoseOfTheElement)
 // feels a force.
 TEST(Bubbles, PatchTest)
 {
-  const SerialMesh  mesh = box("1, 2, 1", "2, 4, 2", 0.2);
-  const std::string material =
-    "subsection Material\n set Type = linear\n set Young's modulus = 1e3\n set "
-    "Poisson's ratio = 0.4\nend\n";
-  MovingBody body(mesh, with_bubbles + material), plain(mesh, material);
+  const SerialMesh  mesh   = box("1, 2, 1", "2, 4, 2", 0.2);
+  const std::string linear = material_type("linear") + material_text(1e3, 0.4);
+  MovingBody        body(mesh, element_text(with_bubbles) + linear),
+    plain(mesh, element_text(2) + linear);
   const auto quadratic = [](const Point<3> &x) {
     return Tensor<1, 3>({x[0] * x[1] - x[2], x[1] * x[1], x[2] * x[0] + x[1]});
   };
@@ -248,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(Placements,
 TEST(Bubbles, DisplacedVolume)
 {
   MovingBody   body(box("1, 2, 1", "2, 2, 2", 0.2),
-                  case_text(2, nonlinear_laws()[0]) + with_bubbles);
+                  case_text(with_bubbles, nonlinear_laws()[0]));
   const Vector u = displacement(body, states[0], 2., 5);
   const dealii::QWitherdenVincentSimplex<3> rule(5);
   const auto fe     = make_finite_element(body.discretization.element());
@@ -310,18 +308,8 @@ namespace
     MovingBody        body(box("1, 0.5, 0.5",
                         fmt::format("{}, {}, {}", 2 * n, n, n),
                         0.1),
-                    "subsection Discretization\n set Mass = " + mass + R"(
-              end
-              subsection Material
-                set Type = linear
-                set Young's modulus = 1
-                set Poisson's ratio = 0
-                set Density = 1
-              end
-              subsection Boundary conditions
-                set Displacement = x-min: 0; free; free, y-min: free; 0; free, \
-                  y-max: free; 0; free, z-min: free; free; 0, z-max: free; free; 0
-              end)");
+                    element_text(2, mass) + material_type("linear") +
+                      material_text(1, 0, 1) + sliding_along_x());
     EffectiveOperator A(body.discretization,
                         body.elasticity,
                         body.mass,

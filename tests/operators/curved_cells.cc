@@ -26,12 +26,9 @@ using dealii::Tensor;
 namespace
 {
   std::string
-  material(const Element element, const std::string &text = "")
+  body_text(const Element element, const std::string &mass = "")
   {
-    return element_text(element) +
-           "subsection Material\n set Young's modulus = 1e3\n set Poisson's "
-           "ratio = 0.4\n set Density = 2\n" +
-           text + "end\n";
+    return element_text(element, mass) + material_text(1e3, 0.4, 2);
   }
 
   Vector
@@ -92,7 +89,7 @@ namespace
 class CurvedCells : public testing::TestWithParam<Curved>
 {
 protected:
-  MovingBody body{half_curved_box(GetParam().q), material(GetParam().element)};
+  MovingBody body{half_curved_box(GetParam().q), body_text(GetParam().element)};
 };
 
 // Both kinds of cells are there, and the batches know.
@@ -308,10 +305,7 @@ TEST_P(CurvedCells, Mass)
     types = {"nodal quadrature"};
   for (const std::string &type : types)
     {
-      MovingBody   body(half_curved_box(GetParam().q),
-                      material(element) +
-                        "subsection Discretization\n set Mass = " + type +
-                        "\nend\n");
+      MovingBody body(half_curved_box(GetParam().q), body_text(element, type));
       const Vector one = body.interpolate(
         [](const Point<3> &) { return Tensor<1, 3>({1, 0, 0}); });
       Vector zero(one), f(owned(one));
@@ -341,10 +335,8 @@ TEST_P(CurvedCells, StraightMaps)
   const SerialMesh mapped =
     curved(straight, GetParam().q, [](const Point<3> &x) { return x; });
   const std::string text =
-    material(element) +
-    "subsection Loads\n set Body force = x; 1; y * z\nend\n"
-    "subsection Boundary conditions\n set Traction = x-max: x; y; z\n"
-    " set Pressure = y-max: x + z\nend\n";
+    body_text(element) + section("Loads", {{"Body force", "x; 1; y * z"}}) +
+    tractions("x-max: x; y; z") + pressures("y-max: x + z");
   MovingBody   a(straight, text), b(mapped, text);
   const Vector u = displacement(a, states[1], 1., 1), v = random_vector(a, 4);
   ASSERT_TRUE(b.discretization.is_curved(0));

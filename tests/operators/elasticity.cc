@@ -20,15 +20,12 @@ using dealii::Tensor;
 namespace
 {
   std::string
-  material_text(const unsigned int degree,
-                const std::string &type,
-                const std::string &mass = "consistent")
+  law_text(const unsigned int degree,
+           const std::string &type,
+           const std::string &mass = "consistent")
   {
-    return "subsection Discretization\n set Degree = " +
-           std::to_string(degree) + "\n set Mass = " + mass +
-           "\nend\nsubsection Material\n set Type = " + type +
-           "\n set Young's modulus = 1e3\n set Poisson's ratio = 0.4\n set "
-           "Density = 2\nend\n";
+    return element_text(degree, mass) + material_type(type) +
+           material_text(1e3, 0.4, 2);
   }
 
   // A displacement without any symmetry, with rotations up to a right angle.
@@ -52,8 +49,8 @@ class ElasticityTest : public testing::TestWithParam<unsigned int>
 TEST_P(ElasticityTest, RigidMotionGivesNoForce)
 {
   const SerialMesh mesh = box("1, 2, 1", "2, 3, 2", 0.2);
-  MovingBody       linear(mesh, material_text(GetParam(), "linear"));
-  MovingBody corotational(mesh, material_text(GetParam(), "corotational"));
+  MovingBody       linear(mesh, law_text(GetParam(), "linear"));
+  MovingBody       corotational(mesh, law_text(GetParam(), "corotational"));
   const std::vector<Tensor<1, 3>> axes{Tensor<1, 3>({1., 0., 0.}),
                                        Tensor<1, 3>({0.3, -1., 2.}),
                                        Tensor<1, 3>({-1., 1., 1.})};
@@ -99,7 +96,7 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
   for (const std::string mass : {"consistent", "diagonal scaling"})
     {
       MovingBody body(box("1, 2, 1", "2, 3, 2", 0.2),
-                      material_text(GetParam(), "corotational", mass));
+                      law_text(GetParam(), "corotational", mass));
       body.state.u.copy_locally_owned_data_from(body.interpolate(bend));
       body.system.equation().evaluate(body.state, 0., 1.);
       const std::vector<unsigned char> free(
@@ -128,11 +125,9 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
 // Prescribed unknowns are cut out symmetrically, on every rank.
 TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
 {
-  MovingBody body(
-    box("1, 1, 1", "2, 2, 2"),
-    material_text(GetParam(), "linear") +
-      "subsection Boundary conditions\n set Displacement = x-min: 0; "
-      "free; 0\nend\n");
+  MovingBody        body(box("1, 1, 1", "2, 2, 2"),
+                  law_text(GetParam(), "linear") +
+                    displacements("x-min: 0; free; 0"));
   const auto       &motion = body.motion;
   EffectiveOperator A(body.discretization,
                       body.elasticity,
@@ -154,7 +149,7 @@ TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
 TEST_P(ElasticityTest, LinearEnergy)
 {
   MovingBody   body(box("1, 2, 1", "2, 3, 2", 0.2),
-                  material_text(GetParam(), "linear"));
+                  law_text(GetParam(), "linear"));
   const Vector u = body.interpolate(bend);
   const Vector v = body.interpolate([](const Point<3> &x) { return 2. * x; });
   Vector       f(body.state.u), Ku(f), Kv(f);
@@ -173,8 +168,7 @@ TEST_P(ElasticityTest, LinearEnergy)
 // differences, with error O(h^2) and round-off 1e-16 / h.
 TEST(Elasticity, LinearElementsHaveAnEnergy)
 {
-  MovingBody body(box("1, 2, 1", "1, 2, 1", 0.),
-                  material_text(1, "corotational"));
+  MovingBody body(box("1, 2, 1", "1, 2, 1", 0.), law_text(1, "corotational"));
   Vector     u = body.interpolate(bend);
   Vector     f(body.state.u);
   body.state.u.copy_locally_owned_data_from(u);
@@ -204,7 +198,7 @@ TEST(Elasticity, LinearElementsHaveAnEnergy)
 TEST_P(ElasticityTest, InvertedCellsAreCounted)
 {
   MovingBody   body(box("1, 1, 1", "1, 1, 1"),
-                  material_text(GetParam(), "corotational"));
+                  law_text(GetParam(), "corotational"));
   const Vector u = body.interpolate(
     [](const Point<3> &x) { return Tensor<1, 3>({-2 * x[0], 0., 0.}); });
   const ElasticState state = body.elasticity.state(u);
@@ -216,7 +210,7 @@ TEST_P(ElasticityTest, InvertedCellsAreCounted)
 TEST_P(ElasticityTest, DegenerateCellsAreCounted)
 {
   MovingBody body(box("1, 1, 1", "1, 1, 1"),
-                  material_text(GetParam(), "corotational"));
+                  law_text(GetParam(), "corotational"));
   body.state.u.copy_locally_owned_data_from(body.interpolate(
     [](const Point<3> &x) { return Tensor<1, 3>({0., 0., -x[2]}); }));
   body.system.equation().evaluate(body.state, 0., 1.);
@@ -230,10 +224,9 @@ TEST_P(ElasticityTest, DegenerateCellsAreCounted)
 TEST_P(ElasticityTest, ExplicitStep)
 {
   MovingBody body(box("1, 2, 1", "2, 3, 2", 0.2),
-                  material_text(GetParam(),
-                                "corotational",
-                                GetParam() == 1 ? "row sum" :
-                                                  "diagonal scaling"));
+                  law_text(GetParam(),
+                           "corotational",
+                           GetParam() == 1 ? "row sum" : "diagonal scaling"));
   Vector     u(body.state.u), v(u), external(u), inverse_mass(u);
   u.copy_locally_owned_data_from(body.interpolate(bend));
   const double dt = 0.01;

@@ -92,9 +92,8 @@ TEST_P(MassTest, TotalAndMoments)
 {
   const auto &[degree, type] = GetParam();
   MovingBody  body(box("1, 2, 1", "2, 3, 2", 0.2),
-                  "subsection Discretization\n set Degree = " +
-                    std::to_string(degree) + "\n set Mass = " + type +
-                    "\nend\nsubsection Material\n set Density = 3\nend\n");
+                  element_text(degree, type) +
+                    section("Material", {{"Density", 3}}));
   const Mass &mass = body.mass;
   EXPECT_NEAR(mass.total(), 6, 1e-13);
   const Vector one = body.interpolate(

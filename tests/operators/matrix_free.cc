@@ -33,11 +33,8 @@ namespace
   std::string
   text(const Case &c)
   {
-    return "subsection Discretization\n set Degree = " +
-           std::to_string(c.degree) + "\n set Mass = " + c.mass +
-           "\nend\nsubsection Material\n set Young's modulus = 2e5\n set "
-           "Poisson's ratio = 0.4\nend\nsubsection Boundary conditions\n set "
-           "Displacement = x-min: 0; free; 0, z-max: free; 0; 0\nend\n";
+    return element_text(c.degree, c.mass) + material_text(2e5, 0.4) +
+           displacements("x-min: 0; free; 0, z-max: free; 0; 0");
   }
 
   // A value in [-1, 1] without pattern that depends on place and component

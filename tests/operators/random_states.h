@@ -14,11 +14,9 @@
 namespace corotet::tests
 {
   inline std::string
-  case_text(const unsigned int degree, const NamedLaw &law)
+  case_text(const Element element, const NamedLaw &law)
   {
-    return "subsection Discretization\n set Degree = " +
-           std::to_string(degree) + "\nend\nsubsection Material\n" + law.text +
-           " set Young's modulus = 1e3\n set Poisson's ratio = 0.4\nend\n";
+    return element_text(element) + law.text + material_text(1e3, 0.4);
   }
 
   // The body's elasticity with that law.

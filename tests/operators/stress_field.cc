@@ -55,8 +55,10 @@ namespace
   }
 
   const std::string two_laws =
-    "subsection Material\n set Type = linear\n set Young's modulus = stiff: 100, soft: 1\n set "
-    "Poisson's ratio = stiff: 0.2, soft: 0.4\nend\n";
+    section("Material",
+            {{"Type", "linear"},
+             {"Young's modulus", "stiff: 100, soft: 1"},
+             {"Poisson's ratio", "stiff: 0.2, soft: 0.4"}});
 
   // A displacement of degree p in x: (a^p + y, b^p - x / 2, a^(p-1) b + 0.3 z)
   // with linear a and b, and its strain.
@@ -251,10 +253,8 @@ TEST(StressField, RanksMakeNoDifference)
 TEST(StressField, FindsSingularEdges)
 {
   MovingBody   body(box("2, 1, 1", "8, 4, 4"),
-                  element_text(2) +
-                    "subsection Material\n set Type = linear\nend\n"
-                      "subsection Boundary conditions\n set Fixed = x-min\n"
-                      " set Traction = x-max: 1; 0; 0\nend\n");
+                  element_text(2) + material_type("linear") + fixed("x-min") +
+                    tractions("x-max: 1; 0; 0"));
   LoadStepping load_stepping;
   load_stepping.step(body.system, {0., 1., 1.}, body.state);
   body.system.equation().set_state(body.state);

@@ -19,54 +19,25 @@ namespace
   std::string
   beam(const std::string &integration)
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 4, 1, 1
-          set Cells = 4, 1, 1
-        end
-      end
-      subsection Discretization
-        set Degree = 1
-        set Mass   = diagonal scaling
-      end
-      subsection Material
-        set Rotation        = quadrature points
-        set Young's modulus = 2e4
-        set Density         = 1000
-      end
-      subsection Boundary conditions
-        set Fixed = x-min
-      end
-      subsection Loads
-        set Gravity = 0; 4*exp(-40*(t-2)^2); -0.5*sin(t)^2
-      end
-      subsection Newton
-        set Residual tolerance  = 1e-11
-        set Increment tolerance = 1e-11
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-9
-      end
-      subsection Time integration
-        set End time = 4
-        {}
-      end)",
-                       integration);
+    return box_mesh("4, 1, 1", "4, 1, 1") +
+           element_text(1, "diagonal scaling") +
+           rotation_at("quadrature points") + material_text(2e4) +
+           fixed("x-min") + gravity("0; 4*exp(-40*(t-2)^2); -0.5*sin(t)^2") +
+           newton_tolerances(1e-11) + linear_solver("direct", 1e-9) +
+           integration;
   }
 
   std::string
   adaptive(const std::string &type,
            const double       target,
-           const std::string &further = "")
+           const Entries      further = {})
   {
-    return fmt::format("set Type = {}\n set Time step = 0.05\n subsection "
-                       "Adaptive step\n set Enabled = true\n set Target error "
-                       "= {}\n {} end\n",
-                       type,
-                       target,
-                       further);
+    return time_integration(
+      type,
+      4,
+      0.05,
+      {section("Adaptive step", {{"Enabled", true}, {"Target error", target}}),
+       section("Adaptive step", further)});
   }
 } // namespace
 
@@ -80,8 +51,7 @@ TEST_P(Adaptive, ErrorFollowsTarget)
   if (!on_one_rank())
     GTEST_SKIP();
   // Error 1e-7, from steps 200 times shorter than the push.
-  CompleteRun reference(
-    beam("set Type = central difference\n set Time step = 2e-4"));
+  CompleteRun reference(beam(time_integration("central difference", 4, 2e-4)));
   ASSERT_EQ(reference.run(), "");
   std::vector<double> errors, targets{1e-3, 1e-4, 1e-5, 1e-6};
   for (const double target : targets)
@@ -148,7 +118,7 @@ TEST(AdaptiveStep, Bounds)
   if (!on_one_rank())
     GTEST_SKIP();
   CompleteRun run(beam(adaptive(
-    "Newmark", 1e-9, "set Smallest step = 0.02\n set Largest step = 0.04\n")));
+    "Newmark", 1e-9, {{"Smallest step", 0.02}, {"Largest step", 0.04}})));
   ASSERT_EQ(run.run(), "");
   const auto &steps = run.recorder().steps;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i)
@@ -159,7 +129,7 @@ TEST(AdaptiveStep, Bounds)
   EXPECT_GE(steps.size(), 190u);
   const auto text = refusal([] {
     CompleteRun(beam(adaptive(
-      "Newmark", 1e-3, "set Smallest step = 0.2\n set Largest step = 0.1\n")));
+      "Newmark", 1e-3, {{"Smallest step", 0.2}, {"Largest step", 0.1}})));
   });
   EXPECT_EQ(text,
             "Time integration/Adaptive step/Smallest step: found 0.2; allowed: "
@@ -169,7 +139,7 @@ TEST(AdaptiveStep, Bounds)
             }).find("Time integration/Adaptive step/Enabled: found true;"),
             0u);
   EXPECT_EQ(refusal([] {
-              CompleteRun(beam("set Type = Newmark\n set Time step = 0\n"));
+              CompleteRun(beam(time_integration("Newmark", 4, 0)));
             }).find("Time integration/Time step: found 0;"),
             0u);
 }

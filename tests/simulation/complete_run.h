@@ -15,16 +15,6 @@
 
 namespace corotet::tests
 {
-  /// The section Discretization.
-  inline std::string
-  discretization(const unsigned int degree, const std::string &mass)
-  {
-    return fmt::format(
-      "subsection Discretization\n set Degree = {}\n set Mass = {}\nend\n",
-      degree,
-      mass);
-  }
-
   /// Keeps what an observer is shown.
   class Recorder : public Observer
   {

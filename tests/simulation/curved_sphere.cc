@@ -61,24 +61,12 @@ namespace
          const unsigned int n_refinements)
   {
     MovingBody   body(octant(geometry_degree, n_refinements),
-                    fmt::format(R"(
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-        set Type            = linear
-        set Young's modulus = 1
-        set Poisson's ratio = 0.3
-      end
-      subsection Boundary conditions
-        set Displacement = x-min: 0; free; free, y-min: free; 0; free, \
-                           z-min: free; free; 0
-        set Pressure     = inside: 1
-      end
-      subsection Linear solver
-        set Tolerance = 1e-10
-      end)",
-                                degree));
+                    element_text(degree) + material_type("linear") +
+                      material_text(1) +
+                      displacements("x-min: 0; free; free, y-min: free; 0; "
+                                      "free, z-min: free; free; 0") +
+                      pressures("inside: 1") +
+                      section("Linear solver", {{"Tolerance", 1e-10}}));
     LoadStepping load_stepping;
     load_stepping.step(body.system, {0., 1., 1.}, body.state);
     Vector u =

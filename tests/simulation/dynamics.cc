@@ -43,16 +43,8 @@ namespace
     return record;
   }
 
-  const std::string exact_solvers = R"(
-    subsection Newton
-      set Residual tolerance  = 1e-13
-      set Increment tolerance = 1e-13
-    end
-    subsection Linear solver
-      set Type      = jacobi
-      set Tolerance = 1e-13
-    end
-  )";
+  const std::string exact_solvers =
+    newton_tolerances(1e-13) + linear_solver("jacobi", 1e-13);
 
   void
   vibrate(MovingBody &body)
@@ -77,30 +69,16 @@ TEST_P(DynamicsTest, PatchTest)
   const auto &[degree, mass] = GetParam();
   for (const std::string type : {"linear", "corotational"})
     {
-      std::string sides;
-      for (const std::string side :
-           {"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"})
-        sides += (sides.empty() ? "" : ", ") + side +
-                 ": (0.1*x+0.02*y)*(1+t); (0.02*x-0.05*y+0.03*z)*(1+t); "
-                 "(0.03*y+0.07*z)*(1+t)";
-      MovingBody       body(box("1, 1, 1", "2, 2, 2", 0.2),
-                      discretization(degree, mass) + exact_solvers +
-                        fmt::format(R"(
-        subsection Material
-          set Type = {}
-        end
-        subsection Boundary conditions
-          set Displacement = {}
-        end
-        subsection Initial conditions
-          set Displacement = 0.1*x+0.02*y; 0.02*x-0.05*y+0.03*z; 0.03*y+0.07*z
-          set Velocity     = 0.1*x+0.02*y; 0.02*x-0.05*y+0.03*z; 0.03*y+0.07*z
-        end
-        subsection Time integration
-          set Time step = 0.1
-        end)",
-                                    type,
-                                    sides));
+      const std::string field =
+        "0.1*x+0.02*y; 0.02*x-0.05*y+0.03*z; 0.03*y+0.07*z";
+      MovingBody body(
+        box("1, 1, 1", "2, 2, 2", 0.2),
+        element_text(degree, mass) + exact_solvers + material_type(type) +
+          displacements(on_all_sides("(0.1*x+0.02*y)*(1+t); "
+                                     "(0.02*x-0.05*y+0.03*z)*(1+t); "
+                                     "(0.03*y+0.07*z)*(1+t)")) +
+          initial_conditions(field, field) +
+          section("Time integration", {{"Time step", 0.1}}));
       GeneralizedAlpha integrator;
       run(body, integrator, 1., 10);
       double error = 0;
@@ -133,8 +111,7 @@ TEST_P(DynamicsTest, FreeFall)
        std::initializer_list<TimeIntegrator *>{&newmark, &generalized_alpha})
     {
       MovingBody       body(box("1, 1, 1", "2, 2, 2", 0.2),
-                      discretization(degree, mass) +
-                        "subsection Loads\n set Gravity = 1; 0; -10\nend\n");
+                      element_text(degree, mass) + gravity("1; 0; -10"));
       const StepRecord record = run(body, *integrator, 2., 20);
       const Vector     exact  = body.interpolate(
         [](const Point<3> &) { return Tensor<1, 3>({2., 0., -20.}); });
@@ -154,13 +131,8 @@ TEST_P(DynamicsTest, TrapezoidalRuleKeepsEnergy)
     GTEST_SKIP();
   const auto &[degree, mass] = GetParam();
   MovingBody body(box("2, 1, 1", "2, 1, 1", 0.),
-                  discretization(degree, mass) + exact_solvers + R"(
-    subsection Material
-      set Type = linear
-    end
-    subsection Boundary conditions
-      set Fixed = x-min
-    end)");
+                  element_text(degree, mass) + exact_solvers +
+                    material_type("linear") + fixed("x-min"));
   vibrate(body);
   Newmark          newmark;
   const StepRecord record = run(body, newmark, 10., 1000);
@@ -191,13 +163,8 @@ namespace
     for (const unsigned int i : {0, 1, 2})
       {
         MovingBody body(box("2, 1, 1", "2, 1, 1", 0.),
-                        discretization(1, "consistent") + exact_solvers + R"(
-          subsection Material
-            set Young's modulus = 2e4
-          end
-          subsection Boundary conditions
-            set Fixed = x-min
-          end)");
+                        element_text(1, "consistent") + exact_solvers +
+                          material_text(2e4) + fixed("x-min"));
         vibrate(body);
         run(body, integrator, 0.4, n << i);
         tip[i] = 0;
@@ -230,16 +197,11 @@ TEST(Dynamics, MovingSupports)
 {
   for (const std::string mass : {"consistent", "diagonal scaling"})
     {
-      MovingBody body(box("1, 1, 1", "2, 2, 2"), discretization(2, mass) + R"(
-        subsection Material
-          set Young's modulus = 1e9
-        end
-        subsection Boundary conditions
-          set Displacement = x-min: t^3/6; 0; 0, x-max: t^3/6; 0; 0
-        end
-        subsection Time integration
-          set Time step = 0.01
-        end)");
+      MovingBody body(box("1, 1, 1", "2, 2, 2"),
+                      element_text(2, mass) + material_text(1e9) +
+                        displacements(
+                          "x-min: t^3/6; 0; 0, x-max: t^3/6; 0; 0") +
+                        section("Time integration", {{"Time step", 0.01}}));
       // Damps the body's own vibrations, whose periods are below the step.
       GeneralizedAlpha integrator;
       integrator.spectral_radius = 0;
@@ -257,17 +219,11 @@ TEST(Dynamics, MovingSupports)
 TEST(Dynamics, RayleighDamping)
 {
   MovingBody body(box("2, 1, 1", "2, 1, 1", 0.),
-                  discretization(2, "consistent") + exact_solvers + R"(
-    subsection Material
-      set Type = linear
-    end
-    subsection Boundary conditions
-      set Fixed = x-min
-    end
-    subsection Damping
-      set Mass coefficient      = 0.5
-      set Stiffness coefficient = 1e-3
-    end)");
+                  element_text(2, "consistent") + exact_solvers +
+                    material_type("linear") + fixed("x-min") +
+                    section("Damping",
+                            {{"Mass coefficient", 0.5},
+                             {"Stiffness coefficient", 1e-3}}));
   vibrate(body);
   Newmark          newmark;
   const StepRecord record = run(body, newmark, 1., 100);
@@ -281,11 +237,10 @@ TEST(Dynamics, MassDampingOfRigidMotion)
 {
   if (!on_one_rank())
     GTEST_SKIP();
-  MovingBody body(
-    box("1, 1, 1", "1, 1, 1", 0.),
-    "subsection Damping\n set Mass coefficient = 2\nend\nsubsection "
-    "Initial conditions\n set Velocity = 3; 0; 0\nend\n");
-  Newmark newmark;
+  MovingBody body(box("1, 1, 1", "1, 1, 1", 0.),
+                  section("Damping", {{"Mass coefficient", 2}}) +
+                    initial_conditions("0; 0; 0", "3; 0; 0"));
+  Newmark    newmark;
   run(body, newmark, 1., 1000);
   for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
     // Second order: error (2 dt)^2 / 12 of the value.
@@ -303,18 +258,10 @@ TEST(Dynamics, GentleStartOfStiffBody)
   for (const unsigned int i : {0, 1})
     {
       MovingBody body(box("2, 1, 1", "2, 1, 1"),
-                      discretization(2, "consistent") +
-                        fmt::format(R"(
-        subsection Material
-          set Type            = {}
-          set Young's modulus = 2e11
-          set Density         = 7850
-        end
-        subsection Boundary conditions
-          set Fixed    = x-min
-          set Traction = x-max: 0; 0; 1e3*sin(10*t)^2
-        end)",
-                                    i == 0 ? "linear" : "corotational"));
+                      element_text(2, "consistent") +
+                        material_type(i == 0 ? "linear" : "corotational") +
+                        material_text(2e11, 0.3, 7850) + fixed("x-min") +
+                        tractions("x-max: 0; 0; 1e3*sin(10*t)^2"));
       Newmark    newmark;
       run(body, newmark, 0.1, 100);
       tip[i] = body.state.u.linfty_norm();

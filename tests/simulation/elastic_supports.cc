@@ -21,26 +21,32 @@ using namespace corotet::tests;
 using dealii::Tensor;
 using dealii::numbers::PI;
 
+namespace
+{
+  // The same along all axes.
+  std::string
+  springs(const std::string &boundary, const double k)
+  {
+    return fmt::format("{0}: {1}; {1}; {1}", boundary, k);
+  }
+} // namespace
+
 // A block of 2 kg on springs of 8 N/m^3 under its weight, 10 m/s^2: along x, y,
 // z the springs give by m g / (k A), of 1 m^2. Without lateral contraction only
 // z deforms the block, by g z (H - z / 2) rho / E, which with E = 1e9 is 2e-8
 // of it; across, shear does by as much. Elements of all kinds, both materials.
 TEST(ElasticSupports, BlockSinks)
 {
-  for (const std::string element :
-       {"set Degree = 1",
-        "set Degree = 2",
-        "set Degree = 3",
-        "set Degree = 2\n set Mass = nodal quadrature"})
+  for (const Element element :
+       {Element(1), Element(2), Element(3), Element::quadratic_with_bubbles()})
     for (const std::string type : {"linear", "corotational"})
       {
         // Corotational: no moments, which would turn the block.
         const bool  is_linear = type == "linear";
         CompleteRun run(supported_box("1, 1, 2", "1, 2, 2", 1e9, type) +
-                        "subsection Discretization\n " + element + "\nend\n" +
-                        supports("z-min: 4; 5; 8") +
-                        loads(is_linear ? "0; 0; -10" : "0; 0; -0.1") +
-                        statics);
+                        element_text(element) + supports("z-min: 4; 5; 8") +
+                        gravity(is_linear ? "0; 0; -10" : "0; 0; -0.1") +
+                        statics());
         ASSERT_EQ(run.run(), "");
         const double expected = is_linear ? -2.5 : -0.025;
         EXPECT_NEAR(mean_displacement(run, 2), expected, 1e-7);
@@ -60,7 +66,8 @@ TEST(ElasticSupports, RigidMotions)
 {
   const auto refusal_of = [](const std::string &text) {
     return refusal([&] {
-      CompleteRun run(supported_box("1, 1, 1", "2, 2, 2", 1.) + text + statics);
+      CompleteRun run(supported_box("1, 1, 1", "2, 2, 2", 1.) + text +
+                      statics());
     });
   };
   const std::string begin =
@@ -82,8 +89,7 @@ TEST(ElasticSupports, RigidMotions)
   // Springs where x > 1/2 only hold it as those of the whole side do.
   EXPECT_EQ(refusal_of(supports("z-min: 1; 1; if(x > 0.5, 1, 0)")), nothing);
   EXPECT_EQ(refusal_of(supports("", "z-min: 1") +
-                       "subsection Boundary conditions\n set Displacement = "
-                       "x-min: 0; 0; free\nend\n"),
+                       displacements("x-min: 0; 0; free")),
             nothing);
   // Dashpots hold nothing.
   EXPECT_EQ(refusal_of(supports("", "", "z-min: 1; 1; 1")),
@@ -95,18 +101,15 @@ TEST(ElasticSupports, RigidMotions)
 TEST(ElasticSupports, StiffSpringsFix)
 {
   const std::string text = supported_box("2, 1, 1", "4, 2, 2", 1.) +
-                           "subsection Boundary conditions\n set Traction = "
-                           "x-max: 1; 0; 0\n";
+                           tractions("x-max: 1; 0; 0") + statics();
   for (const double k : {1e2, 1e4, 1e6})
     {
-      CompleteRun run(text + "end\n" +
-                      supports(fmt::format("x-min: {0}; {0}; {0}", k)) +
-                      statics);
+      CompleteRun run(text + supports(springs("x-min", k)));
       ASSERT_EQ(run.run(), "");
       // Without springs: the mean of x / E is 1 m.
-      CompleteRun fixed(text + "set Fixed = x-min\nend\n" + statics);
-      ASSERT_EQ(fixed.run(), "");
-      EXPECT_NEAR(mean_displacement(run, 0) - mean_displacement(fixed, 0),
+      CompleteRun clamped(text + fixed("x-min"));
+      ASSERT_EQ(clamped.run(), "");
+      EXPECT_NEAR(mean_displacement(run, 0) - mean_displacement(clamped, 0),
                   1 / k,
                   1e-11);
     }
@@ -119,16 +122,16 @@ TEST(ElasticSupports, StiffSpringsDoNotStall)
 {
   struct Case
   {
-    std::string text;
-    std::string type = "p-multigrid";
+    Element     element;
+    std::string type          = "p-multigrid";
+    std::string operator_type = "matrix-free";
   };
-  for (const Case &c :
-       {Case{"set Degree = 1"},
-        Case{"set Degree = 2"},
-        Case{"set Degree = 3"},
-        Case{"set Degree = 2\n set Mass = nodal quadrature"},
-        Case{"set Degree = 2", "amg"},
-        Case{"set Degree = 2", "direct\n set Operator = assembled"}})
+  for (const Case &c : {Case{1},
+                        Case{2},
+                        Case{3},
+                        Case{Element::quadratic_with_bubbles()},
+                        Case{2, "amg"},
+                        Case{2, "direct", "assembled"}})
     {
       // Builds without Epetra have no amg.
       bool is_there = c.type != "amg";
@@ -137,28 +140,25 @@ TEST(ElasticSupports, StiffSpringsDoNotStall)
       if (!is_there)
         continue;
       const std::string text =
-        supported_box("4, 1, 1", "8, 2, 2", 1e6) +
-        "subsection Linear solver\n set Tolerance = 1e-8\n set Type = " +
-        c.type +
-        "\nend\nsubsection Newton\n set Residual tolerance = 1e-8\nend\n"
-        "subsection Discretization\n " +
-        c.text +
-        "\nend\nsubsection Boundary conditions\n set Traction = x-max: 1e3; "
-        "200; 100\n";
-      CompleteRun fixed(text + "set Fixed = x-min\nend\n" + statics);
-      ASSERT_EQ(fixed.run(), "");
-      const unsigned int n    = last_record(fixed).linear_iterations;
+        supported_box("4, 1, 1", "8, 2, 2", 1e6) + linear_solver(c.type, 1e-8) +
+        section("Linear solver", {{"Operator", c.operator_type}}) +
+        section("Newton", {{"Residual tolerance", 1e-8}}) +
+        element_text(c.element) + tractions("x-max: 1e3; 200; 100") + statics();
+      CompleteRun clamped(text + fixed("x-min"));
+      ASSERT_EQ(clamped.run(), "");
+      const unsigned int n    = last_record(clamped).linear_iterations;
       unsigned int       most = 0;
       for (const double k : {1e2, 1e5, 1e8, 1e11, 1e14})
         {
-          CompleteRun run(text + "end\n" +
-                          supports(fmt::format("x-min: {0}; {0}; {0}", k)) +
-                          statics);
+          CompleteRun run(text + supports(springs("x-min", k)));
           ASSERT_EQ(run.run(), "");
           EXPECT_EQ(last_record(run).newton_iterations, 1u);
           most = std::max(most, last_record(run).linear_iterations);
         }
-      report(c.text + ", " + c.type + ": iterations when fixed", n);
+      report(fmt::format("{} nodes, {}: iterations when fixed",
+                         c.element.n_nodes(),
+                         c.type),
+             n);
       report("  with springs, at most", most);
       EXPECT_LE(most, n + n / 2 + 4);
     }
@@ -177,13 +177,9 @@ TEST(ElasticSupports, StiffNormalSpringsDoNotStall)
           x = dealii::Point<3>(R * x);
         MovingBody body(
           mesh,
-          fmt::format("subsection Discretization\n set Degree = "
-                      "{}\nend\nsubsection Material\n set Type = "
-                      "linear\n set Young's modulus = 1\nend\n",
-                      degree) +
+          element_text(degree) + material_type("linear") + material_text(1) +
             supports("", fmt::format("x-min: {0}, y-min: {0}, z-min: {0}", k)) +
-            "subsection Boundary conditions\n set Traction = x-max: "
-            "1; 2; -1\nend\n");
+            tractions("x-max: 1; 2; -1"));
         LoadStepping      integrator;
         const StageReport stage =
           integrator.step(body.system, {0., 1., 1.}, body.state);
@@ -210,13 +206,8 @@ TEST(ElasticSupports, BarOnASpring)
           const double middle = 0.5 * (lower + upper);
           (middle * std::tan(middle) < k ? lower : upper) = middle;
         }
-      Analysis body(
-        box_body("0.2, 0.2, 1",
-                 "1, 1, 8",
-                 3,
-                 0.,
-                 6,
-                 supports(fmt::format("z-min: {0}; {0}; {1}", 1e6, k))));
+      Analysis    body(box_body("0.2, 0.2, 1", "1, 1, 8", 3, 0., 6) +
+                    supports(fmt::format("z-min: {0}; {0}; {1}", 1e6, k)));
       const Mode *found = nullptr;
       for (unsigned int i = 6; i > 0; --i)
         if (body.mode(i).effective_mass[2] > 0.5 * 0.04)
@@ -237,13 +228,8 @@ TEST(ElasticSupports, BarOnASpring)
 TEST(ElasticSupports, BlockOnSoftSprings)
 {
   const double k = 1e-5;
-  Analysis     body(box_body(
-    "1, 1, 1",
-    "2, 2, 2",
-    2,
-    0.3,
-    7,
-    supports(fmt::format("x-min: {0}; {0}; {0}, x-max: {0}; {0}; {0}", k))));
+  Analysis     body(box_body("1, 1, 1", "2, 2, 2", 2, 0.3, 7) +
+                supports(springs("x-min", k) + ", " + springs("x-max", k)));
   // The block gives by some k L / E of it.
   for (unsigned int i = 1; i <= 3; ++i)
     EXPECT_NEAR(body.mode(i).angular_frequency / std::sqrt(2 * k), 1, 2 * k);

@@ -21,12 +21,11 @@ TEST(ElasticSupports, StableStep)
   double omega[2];
   for (const unsigned int i : {0, 1})
     {
-      MovingBody body(
-        box("1, 1, 1", "2, 2, 2"),
-        "subsection Discretization\n set Degree = 2\n set Mass = nodal "
-        "quadrature\nend\nsubsection Material\n set Young's modulus = "
-        "1\nend\n" +
-          supports(i == 0 ? "z-min: 1e8; 1e8; 1e8" : "z-min: 4e8; 4e8; 4e8"));
+      MovingBody body(box("1, 1, 1", "2, 2, 2"),
+                      element_text(Element::quadratic_with_bubbles()) +
+                        material_text(1) +
+                        supports(i == 0 ? "z-min: 1e8; 1e8; 1e8" :
+                                          "z-min: 4e8; 4e8; 4e8"));
       omega[i] =
         body.system.acceleration_solver().largest_frequency(body.state, 0.);
     }
@@ -46,11 +45,9 @@ TEST(ElasticSupports, CriticalDamping)
       const bool  is_explicit = method == "central difference";
       CompleteRun run(
         supported_box("1, 1, 1", "1, 1, 1", is_explicit ? 4e3 : 4e6) +
-        "subsection Discretization\n set Degree = 2\n set Mass = nodal "
-        "quadrature\nend\n" +
+        element_text(Element::quadratic_with_bubbles()) +
         supports("z-min: 4; 4; 4", "", "z-min: 4; 4; 4") +
-        "subsection Initial conditions\n set Displacement = 0; 0; 0.1\n set "
-        "Velocity = 0; 0; 0.1\nend\n" +
+        initial_conditions("0; 0; 0.1", "0; 0; 0.1") +
         time_integration(method, 1, is_explicit ? 5e-4 : 2.5e-3));
       ASSERT_EQ(run.run(), "");
       EXPECT_NEAR(mean_displacement(run, 2),
@@ -76,14 +73,13 @@ TEST(ElasticSupports, DashpotsAbsorbWaves)
         // u = -int f, v = f for sigma = E u', u' = -f.
         CompleteRun run(
           supported_box("2, 0.1, 0.1", "48, 1, 1", 1.) +
-          "subsection Discretization\n set Degree = 2\n set Mass = nodal "
-          "quadrature\nend\n" +
+          element_text(Element::quadratic_with_bubbles()) +
           supports("", "", fmt::format("x-max: {}; 0; 0", damping)) +
-          fmt::format(
-            "subsection Initial conditions\n set Displacement = -(3 / 8 * ({0}) "
-            "- sin(2 * pi * ({0})) / (4 * pi) + sin(4 * pi * ({0})) / (32 * "
-            "pi)); 0; 0\n set Velocity = sin(pi * ({0}))^4; 0; 0\nend\n",
-            s) +
+          initial_conditions(
+            fmt::format("-(3 / 8 * ({0}) - sin(2 * pi * ({0})) / (4 * pi) + "
+                        "sin(4 * pi * ({0})) / (32 * pi)); 0; 0",
+                        s),
+            fmt::format("sin(pi * ({}))^4; 0; 0", s)) +
           time_integration(method,
                            1.75,
                            method == "central difference" ? 0. : 0.0125));
@@ -112,15 +108,15 @@ TEST(ElasticSupports, BudgetCloses)
       for (const bool moves : {false, true})
         {
           const std::string motion =
-            moves ? "subsection Boundary conditions\n set Displacement = "
-                    "z-max: free; free; 0.1 * smooth_step(t, 0, 0.5)\nend\n" :
-                    "";
+            moves ?
+              displacements("z-max: free; free; 0.1 * smooth_step(t, 0, 0.5)") :
+              "";
           CompleteRun run(supported_box("1, 1, 1", "2, 2, 2", 100.) +
-                          "subsection Discretization\n set Degree = 2\nend\n" +
+                          element_text(2) +
                           supports("z-min: " + k + ", z-max: 2; 2; 2",
                                    "x-max: 5",
                                    "y-min: 0.1; 0.2; 0.3 * t, z-max: 1; 1; 1") +
-                          loads("1; 2; -10 * cos(4 * t)") + motion +
+                          gravity("1; 2; -10 * cos(4 * t)") + motion +
                           time_integration(name, 1, 0.02));
           ASSERT_EQ(run.run(), "");
           const StepRecord &record = last_record(run);
@@ -139,8 +135,7 @@ TEST(ElasticSupports, StiffnessThatChanges)
 {
   CompleteRun run(supported_box("1, 1, 1", "1, 1, 1", 1e7) +
                   supports("z-min: 1; 1; 2 / (2 - t^2)") +
-                  "subsection Initial conditions\n set Displacement = 0; 0; "
-                  "2\nend\n" +
+                  initial_conditions("0; 0; 2", "0; 0; 0") +
                   time_integration("Newmark", 1, 0.05));
   ASSERT_EQ(run.run(), "");
   const StepRecord &record = last_record(run);
@@ -174,10 +169,9 @@ TEST(ElasticSupports, ExplicitAndImplicitSteps)
         {
           CompleteRun run(
             supported_box("1, 1, 1", "2, 1, 1", 100., "corotational") +
-            "subsection Discretization\n set Degree = 2\n set Mass = nodal "
-            "quadrature\nend\n" +
+            element_text(Element::quadratic_with_bubbles()) +
             supports("x-min: 20; 30; 40", "", "x-min: 1; 1; 2") +
-            loads("0; 0; -3") +
+            gravity("0; 0; -3") +
             time_integration(is_explicit ? "central difference" :
                                            "implicit midpoint",
                              1,

@@ -58,6 +58,16 @@ namespace
     return std::sqrt(largest);
   }
 
+  // Of the central difference method, with entries of its own.
+  std::string
+  steps(const double end, const double step, const Entries own = {})
+  {
+    return time_integration("central difference",
+                            end,
+                            step,
+                            {section("central difference", own)});
+  }
+
   // A free bar that is bent, twisted and stretched and spins.
   std::string
   spinning_bar(const unsigned int degree,
@@ -65,27 +75,12 @@ namespace
                const std::string &integration,
                const double       amplitude = 1)
   {
-    return discretization(degree, mass) + fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 2, 1, 1
-          set Cells = 2, 1, 1
-        end
-      end
-      subsection Material
-        set Rotation        = quadrature points
-        set Young's modulus = 2e6
-      end
-      subsection Initial conditions
-        set Displacement = {0}*0.01*x^2; {0}*0.02*y*z; {0}*0.02*x*y
-        set Velocity     = -{0}*3*y; {0}*3*x; {0}*0.5*x^2
-      end
-      subsection Time integration
-        set Type = central difference
-        {1}
-      end)",
-                                                      amplitude,
-                                                      integration);
+    return box_mesh("2, 1, 1", "2, 1, 1") + element_text(degree, mass) +
+           rotation_at("quadrature points") + material_text(2e6) +
+           initial_conditions(
+             fmt::format("{0}*0.01*x^2; {0}*0.02*y*z; {0}*0.02*x*y", amplitude),
+             fmt::format("-{0}*3*y; {0}*3*x; {0}*0.5*x^2", amplitude)) +
+           integration;
   }
 
   double
@@ -114,13 +109,8 @@ TEST_P(StableStep, LargestFrequency)
     GTEST_SKIP();
   const auto &[degree, mass] = GetParam();
   MovingBody   body(box("2, 1, 1", "2, 1, 1", 0.),
-                  discretization(degree, mass) + R"(
-    subsection Material
-      set Type = linear
-    end
-    subsection Boundary conditions
-      set Fixed = x-min
-    end)");
+                  element_text(degree, mass) + material_type("linear") +
+                    fixed("x-min"));
   const double estimate =
     body.system.acceleration_solver().largest_frequency(body.state);
   const double exact = exact_frequency(body);
@@ -145,10 +135,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Explicit, FrequencyInAnyUnits)
 {
   const auto frequency = [](const double density) {
-    MovingBody body(
-      box("2, 1, 1", "4, 2, 2", 0.2),
-      discretization(2, "diagonal scaling") +
-        fmt::format("subsection Material\n set Density = {}\nend\n", density));
+    MovingBody body(box("2, 1, 1", "4, 2, 2", 0.2),
+                    element_text(2, "diagonal scaling") +
+                      section("Material", {{"Density", density}}));
     return body.system.acceleration_solver().largest_frequency(body.state);
   };
   const double expected = frequency(1000);
@@ -177,11 +166,8 @@ TEST_P(Explicit, EnergyDoesNotDrift)
   const unsigned int degree = GetParam();
   const std::string  mass   = "diagonal scaling";
   const double       dt =
-    0.9 * stable_step(spinning_bar(degree, mass, "set Time step = 1e-9"));
-  CompleteRun run(spinning_bar(
-    degree,
-    mass,
-    fmt::format("set Time step = {}\n set End time = {}\n", dt, n_steps * dt)));
+    0.9 * stable_step(spinning_bar(degree, mass, steps(1, 1e-9)));
+  CompleteRun run(spinning_bar(degree, mass, steps(n_steps * dt, dt)));
   ASSERT_EQ(run.run({100, 0.}), "");
   EXPECT_EQ(run.recorder().summary.steps, n_steps);
   const auto  &records = run.recorder().records;
@@ -206,12 +192,9 @@ TEST_P(Explicit, UnstableStep)
   const auto         bar    = [&](const double dt, const bool refuse) {
     return spinning_bar(degree,
                         "diagonal scaling",
-                        fmt::format("set Time step = {}\n set End time = {}\n "
-                                               "subsection central difference\n set "
-                                               "Refuse unstable steps = {}\n end\n",
-                                    dt,
-                                    1e4 * dt,
-                                    refuse),
+                        steps(1e4 * dt,
+                              dt,
+                                         {{"Refuse unstable steps", refuse}}),
                         0.01);
   };
   const double stable = stable_step(bar(1e-9, true));
@@ -241,14 +224,11 @@ TEST_P(Explicit, OwnStep)
 {
   const unsigned int degree = GetParam();
   const auto         bar = [&](const double step, const unsigned int interval) {
-    return spinning_bar(
-      degree,
-      "diagonal scaling",
-      fmt::format(
-        "set Time step = {}\n set End time = 0.02\n subsection central "
-                "difference\n set Steps between estimates = {}\n end\n",
-        step,
-        interval));
+    return spinning_bar(degree,
+                        "diagonal scaling",
+                        steps(0.02,
+                              step,
+                                      {{"Steps between estimates", interval}}));
   };
   CompleteRun own(bar(0, 1000000));
   ASSERT_EQ(own.run({1000000, 0.005}), "");
@@ -281,29 +261,12 @@ TEST_P(Explicit, OwnStep)
 // and the budget are those of steps one by one.
 TEST_P(Explicit, ManySteps)
 {
-  const std::string bar = discretization(GetParam(), "diagonal scaling") + R"(
-    subsection Mesh
-      subsection box
-        set Size  = 2, 1, 1
-        set Cells = 2, 1, 1
-      end
-    end
-    subsection Material
-      set Young's modulus = 2e5
-    end
-    subsection Boundary conditions
-      set Fixed    = x-min
-      set Traction = x-max: 0; 1; 0
-    end
-    subsection Loads
-      set Gravity = 0; 0; -3
-    end
-    subsection Time integration
-      set Type      = central difference
-      set Time step = 5e-4
-      set End time  = 0.5
-    end)";
-  CompleteRun       many(bar), single(bar);
+  const std::string bar = box_mesh("2, 1, 1", "2, 1, 1") +
+                          element_text(GetParam(), "diagonal scaling") +
+                          material_text(2e5) + fixed("x-min") +
+                          tractions("x-max: 0; 1; 0") + gravity("0; 0; -3") +
+                          steps(0.5, 5e-4);
+  CompleteRun many(bar), single(bar);
   ASSERT_EQ(many.run({70, 0.13}), "");
   ASSERT_EQ(single.run(), "");
   // Every 70th of 1000 steps, three results at 260, 520 and 780, and the end.
@@ -341,10 +304,11 @@ TEST(Explicit, ConsistentMass)
       unsigned int iterations[2];
       for (const unsigned int i : {0, 1})
         {
-          MovingBody body(
-            box("1, 1, 1", fmt::format("{0}, {0}, {0}", 3 << i), 0.2),
-            discretization(degree, "consistent") +
-              "subsection Loads\n set Body force = 0; y^2; x\nend\n");
+          MovingBody body(box("1, 1, 1",
+                              fmt::format("{0}, {0}, {0}", 3 << i),
+                              0.2),
+                          element_text(degree, "consistent") +
+                            section("Loads", {{"Body force", "0; y^2; x"}}));
           iterations[i] =
             body.system.solve_acceleration(body.state, 0.).linear_iterations;
         }

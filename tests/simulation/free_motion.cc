@@ -34,25 +34,10 @@ namespace
       const unsigned int n_steps)
   {
     MovingBody body(box("2, 1, 1", "2, 1, 1"),
-                    fmt::format(R"(
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-{}        set Young's modulus = 2e4
-        set Poisson's ratio = 0.3
-      end
-      subsection Newton
-        set Tangent             = consistent
-        set Residual tolerance  = 1e-13
-        set Increment tolerance = 1e-13
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-10
-      end)",
-                                degree,
-                                law.text));
+                    element_text(degree) + law.text + material_text(2e4) +
+                      section("Newton", {{"Tangent", "consistent"}}) +
+                      newton_tolerances(1e-13) +
+                      linear_solver("direct", 1e-10));
     const auto deformation = [](const Point<3> &x) {
       return Tensor<1, 3>(
         {0.1 * (x[0] - 1), 0.05 * x[1] * x[2], 0.1 * x[0] * x[0]});

@@ -27,61 +27,24 @@ namespace
   // A bar of 1 x 0.1 x 0.1 that is bent far. Too few iterations for large
   // steps.
   std::string
-  bar(const std::string &time_integration,
+  bar(const std::string &integration,
       const unsigned int max_iterations,
       const std::string &traction)
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 1, 0.1, 0.1
-          set Cells = 5, 1, 1
-        end
-      end
-      subsection Discretization
-        set Degree = 2
-      end
-      subsection Material
-        set Rotation        = quadrature points
-        set Young's modulus = 1e6
-      end
-      subsection Boundary conditions
-        set Fixed    = x-min
-        set Traction = x-max: 0; 0; {}
-      end
-      subsection Newton
-        set Tangent             = consistent
-        set Residual tolerance  = 1e-11
-        set Increment tolerance = 1e-11
-        set Maximum iterations  = {}
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-10
-      end
-      subsection Time integration
-        {}
-      end)",
-                       traction,
-                       max_iterations,
-                       time_integration);
-  }
-
-  std::string
-  statics(const unsigned int load_steps, const unsigned int max_halvings)
-  {
-    return fmt::format("set Type = static\n set Maximum halvings = {}\n "
-                       "subsection static\n set Load steps = {}\n end\n",
-                       max_halvings,
-                       load_steps);
+    return box_mesh("1, 0.1, 0.1", "5, 1, 1") + element_text(2) +
+           rotation_at("quadrature points") + material_text(1e6) +
+           fixed("x-min") + tractions("x-max: 0; 0; " + traction) +
+           section("Newton",
+                   {{"Tangent", "consistent"},
+                    {"Maximum iterations", max_iterations}}) +
+           newton_tolerances(1e-11) + linear_solver("direct", 1e-10) +
+           integration;
   }
 
   std::string
   dynamics(const double time_step)
   {
-    return fmt::format("set Type = generalized-alpha\n set End time = 0.2\n "
-                       "set Time step = {}\n",
-                       time_step);
+    return time_integration("generalized-alpha", 0.2, time_step);
   }
 } // namespace
 

@@ -24,47 +24,13 @@ namespace
   std::string
   beam(const std::string &type, const double dt, const double end)
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 4, 1, 1
-          set Cells = 4, 1, 1
-        end
-      end
-      subsection Discretization
-        set Degree = 1
-        set Mass   = diagonal scaling
-      end
-      subsection Material
-        set Rotation        = quadrature points
-        set Young's modulus = 2e4
-        set Density         = 1000
-      end
-      subsection Boundary conditions
-        set Fixed = x-min
-      end
-      subsection Loads
-        set Gravity = 0; 0; -2*sin(4*t)
-      end
-      subsection Initial conditions
-        set Velocity = 0; 0; 0.6*x^2*(6-x)/6
-      end
-      subsection Newton
-        set Residual tolerance  = 1e-12
-        set Increment tolerance = 1e-12
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-10
-      end
-      subsection Time integration
-        set Type      = {}
-        set Time step = {}
-        set End time  = {}
-      end)",
-                       type,
-                       dt,
-                       end);
+    return box_mesh("4, 1, 1", "4, 1, 1") +
+           element_text(1, "diagonal scaling") +
+           rotation_at("quadrature points") + material_text(2e4) +
+           fixed("x-min") + gravity("0; 0; -2*sin(4*t)") +
+           initial_conditions("0; 0; 0", "0; 0; 0.6*x^2*(6-x)/6") +
+           newton_tolerances(1e-12) + linear_solver("direct", 1e-10) +
+           time_integration(type, end, dt);
   }
 
   State
@@ -127,42 +93,16 @@ TEST_P(Integrators, BudgetCloses)
   if (!on_one_rank() && !integrator->closes_budget())
     GTEST_SKIP();
   const auto balance = [&](const double dt) {
-    CompleteRun run(fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 3, 1, 1
-          set Cells = 3, 1, 1
-        end
-      end
-      subsection Material
-        set Type            = linear
-        set Young's modulus = 2e5
-      end
-      subsection Boundary conditions
-        set Displacement = x-min: 0.02*sin(5*t); 0.01*t^2; free
-        set Traction     = x-max: 0; 100*t; 50*sin(9*t)
-      end
-      subsection Loads
-        set Gravity = 0; 1; -9.81
-      end
-      subsection Damping
-        set Mass coefficient      = 0.5
-        set Stiffness coefficient = 1e-3
-      end
-      subsection Newton
-        set Residual tolerance  = 1e-13
-        set Increment tolerance = 1e-13
-      end
-      subsection Linear solver
-        set Tolerance = 1e-13
-      end
-      subsection Time integration
-        set Type      = {}
-        set Time step = {}
-        set End time  = 1
-      end)",
-                                type,
-                                dt));
+    CompleteRun run(
+      box_mesh("3, 1, 1", "3, 1, 1") + material_type("linear") +
+      material_text(2e5) +
+      displacements("x-min: 0.02*sin(5*t); 0.01*t^2; free") +
+      tractions("x-max: 0; 100*t; 50*sin(9*t)") + gravity("0; 1; -9.81") +
+      section("Damping",
+              {{"Mass coefficient", 0.5}, {"Stiffness coefficient", 1e-3}}) +
+      newton_tolerances(1e-13) +
+      section("Linear solver", {{"Tolerance", 1e-13}}) +
+      time_integration(type, 1, dt));
     EXPECT_EQ(run.run(), "");
     double largest = 0, left = 0;
     for (const StepRecord &record : run.recorder().records)
@@ -203,38 +143,12 @@ namespace
 {
   // A free linear bar that vibrates, without supports or loads.
   std::string
-  free_bar(const std::string &integration)
+  free_bar()
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 2, 1, 1
-          set Cells = 2, 1, 1
-        end
-      end
-      subsection Discretization
-        set Degree = 1
-      end
-      subsection Material
-        set Type            = linear
-        set Young's modulus = 2e5
-      end
-      subsection Initial conditions
-        set Displacement = 0.01*x^2; 0.02*y*z; 0.01*x*y
-        set Velocity     = y; z; x^2/4
-      end
-      subsection Newton
-        set Residual tolerance  = 1e-14
-        set Increment tolerance = 1e-14
-      end
-      subsection Linear solver
-        set Type      = jacobi
-        set Tolerance = 1e-13
-      end
-      subsection Time integration
-        {}
-      end)",
-                       integration);
+    return box_mesh("2, 1, 1", "2, 1, 1") + element_text(1) +
+           material_type("linear") + material_text(2e5) +
+           initial_conditions("0.01*x^2; 0.02*y*z; 0.01*x*y", "y; z; x^2/4") +
+           newton_tolerances(1e-14) + linear_solver("jacobi", 1e-13);
   }
 } // namespace
 
@@ -245,14 +159,9 @@ namespace
   double
   change_of_energy(const std::string &type,
                    const double       dt,
-                   const std::string &further = "")
+                   const Entries      further = {})
   {
-    CompleteRun run(free_bar(
-      fmt::format("set Type = {}\n set Time step = {}\n set End time = {}\n{}",
-                  type,
-                  dt,
-                  1e4 * dt,
-                  further)));
+    CompleteRun run(free_bar() + time_integration(type, 1e4 * dt, dt, further));
     EXPECT_EQ(run.run({100, 0.}), "");
     double largest = 0, change = 0;
     for (const StepRecord &record : run.recorder().records)
@@ -294,8 +203,8 @@ TEST(GeneralizedAlphaConservation, LinearBody)
     GTEST_SKIP();
   EXPECT_LE(change_of_energy("generalized-alpha",
                              1e-2,
-                             "subsection generalized-alpha\n set Spectral "
-                             "radius = 1\n end\n"),
+                             {section("generalized-alpha",
+                                      {{"Spectral radius", 1}})}),
             1e-10);
 }
 
@@ -310,39 +219,13 @@ class Reset : public testing::TestWithParam<std::string>
 TEST_P(Reset, RunsDoNotKnowEarlierOnes)
 {
   const auto text = [&](const std::string &cells, const double start) {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = {0}
-          set Cells = {0}
-        end
-      end
-      subsection Discretization
-        set Degree = 1
-        set Mass   = diagonal scaling
-      end
-      subsection Material
-        set Young's modulus = 1e7
-      end
-      subsection Loads
-        set Gravity = 1; 0; -5 * t
-      end
-      subsection Boundary conditions
-        set Fixed = z-min
-      end
-      subsection Linear solver
-        set Type = direct
-      end
-      subsection Time integration
-        set Type       = {1}
-        set Start time = {2}
-        set End time   = {3}
-        set Time step  = 0.001
-      end)",
-                       cells,
-                       GetParam(),
-                       start,
-                       start + 0.005);
+    return box_mesh(cells, cells) + element_text(1, "diagonal scaling") +
+           material_text(1e7) + gravity("1; 0; -5 * t") + fixed("z-min") +
+           linear_solver("direct") +
+           time_integration(GetParam(),
+                            start + 0.005,
+                            0.001,
+                            {{"Start time", start}});
   };
   // Of the nodes that this rank owns.
   const auto final_displacement = [](Parameters    &parameters,

@@ -165,45 +165,23 @@ namespace
                  const unsigned int n)
   {
     const Bending bending;
-    MovingBody    body(box("0.4, 1.5707963267948966, 0.4",
-                        fmt::format("{0}, {1}, {0}", n, 4 * n),
-                        0.1),
-                    fmt::format(R"(
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-        set Rotation        = {}
-        set Young's modulus = {}
-        set Poisson's ratio = {}
-      end
-      subsection Boundary conditions
-        set Displacement = y-min: {}, x-min: {}
-        set Traction     = y-max: {}, x-max: {}, z-min: {}, z-max: {}
-      end
-      subsection Loads
-        set Body force = {}
-      end
-      subsection Newton
-        set Tangent             = consistent
-        set Residual tolerance  = 1e-11
-        set Increment tolerance = 1e-11
-      end
-      subsection Linear solver
-        set Tolerance = 1e-8
-      end)",
-                                degree,
-                                rotation,
-                                bending.E,
-                                bending.nu,
-                                bending.displacement(),
-                                bending.displacement(),
-                                bending.traction(1, 1),
-                                bending.traction(0, 1),
-                                bending.traction(2, -1),
-                                bending.traction(2, 1),
-                                bending.body_force()));
-    Vector        u = body.interpolate([&](const Point<3> &x) {
+    MovingBody    body(
+      box("0.4, 1.5707963267948966, 0.4",
+          fmt::format("{0}, {1}, {0}", n, 4 * n),
+          0.1),
+      element_text(degree) + rotation_at(rotation) +
+        material_text(bending.E, bending.nu) +
+        displacements(
+          fmt::format("y-min: {0}, x-min: {0}", bending.displacement())) +
+        tractions(fmt::format("y-max: {}, x-max: {}, z-min: {}, z-max: {}",
+                              bending.traction(1, 1),
+                              bending.traction(0, 1),
+                              bending.traction(2, -1),
+                              bending.traction(2, 1))) +
+        section("Loads", {{"Body force", bending.body_force()}}) +
+        section("Newton", {{"Tangent", "consistent"}}) +
+        newton_tolerances(1e-11));
+    Vector u = body.interpolate([&](const Point<3> &x) {
       Tensor<1, 3> value;
       for (unsigned int a = 0; a < 3; ++a)
         value[a] = bending.value(x, a);

@@ -31,29 +31,11 @@ namespace
   std::string
   exact_problem(const unsigned int degree, const NamedLaw &law)
   {
-    return fmt::format(R"(
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-      {}
-        set Young's modulus = 10
-        set Poisson's ratio = 0.3
-      end
-      subsection Exact solution
-        set Displacement          = {}
-        set Displacement boundary = x-min, y-max
-      end
-      subsection Time integration
-        set Type = static
-      end
-      subsection Newton
-        set Residual tolerance  = 1e-11
-        set Increment tolerance = 1e-11
-      end)",
-                       degree,
-                       law.text,
-                       exact_displacement);
+    return element_text(degree) + law.text + material_text(10) +
+           section("Exact solution",
+                   {{"Displacement", exact_displacement},
+                    {"Displacement boundary", "x-min, y-max"}}) +
+           statics() + newton_tolerances(1e-11);
   }
 
   FieldNorms
@@ -86,32 +68,12 @@ namespace
   // A cube of neo-Hookean material between two plates, one of which moves.
   std::string
   squeezed(const std::string &displacement,
-           const std::string &time_integration,
+           const std::string &integration,
            const std::string &mass = "consistent")
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 1, 1, 1
-          set Cells = 2, 2, 2
-        end
-      end
-      {}
-      subsection Material
-        set Type            = neo-Hookean
-        set Young's modulus = 1e6
-        set Poisson's ratio = 0.3
-      end
-      subsection Boundary conditions
-        set Fixed        = x-min
-        set Displacement = x-max: {}; 0; 0
-      end
-      subsection Time integration
-        {}
-      end)",
-                       discretization(2, mass),
-                       displacement,
-                       time_integration);
+    return box_mesh("1, 1, 1", "2, 2, 2") + element_text(2, mass) +
+           material_type("neo-Hookean") + material_text(1e6) + fixed("x-min") +
+           displacements("x-max: " + displacement + "; 0; 0") + integration;
   }
 } // namespace
 
@@ -173,11 +135,6 @@ TEST(Laws, Preconditioner)
 // the step is made in parts, and the body ends where small steps end.
 TEST(NeoHookean, FailingStepIsHalved)
 {
-  const auto statics = [](const unsigned int load_steps) {
-    return fmt::format(
-      "set Type = static\n subsection static\n set Load steps = {}\n end\n",
-      load_steps);
-  };
   CompleteRun one(squeezed("3", statics(1)));
   CompleteRun many(squeezed("3", statics(8)));
   EXPECT_EQ(one.run(), "");
@@ -196,17 +153,15 @@ TEST(NeoHookean, FailingStepIsHalved)
 // What the law has no state for fails, and says why.
 TEST(NeoHookean, FlatBodyFails)
 {
-  CompleteRun statics(
-    squeezed("-1", "set Type = static\n set Maximum halvings = 0\n"));
-  const std::string flat = statics.run();
+  CompleteRun       static_run(squeezed("-1", statics(1, 0)));
+  const std::string flat = static_run.run();
   EXPECT_NE(flat.find("cells are flat or inside out"), std::string::npos)
     << flat;
   EXPECT_NE(flat.find("smallest det F"), std::string::npos) << flat;
 
   CompleteRun explicit_run(
     squeezed("-0.98*t/0.1",
-             "set Type = central difference\n set End time = 0.1\n set Time "
-             "step = 0\n",
+             time_integration("central difference", 0.1, 0),
              "nodal quadrature"));
   const std::string crushed = explicit_run.run();
   EXPECT_NE(crushed.find("cells are flat or inside out"), std::string::npos)

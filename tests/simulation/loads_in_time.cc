@@ -45,25 +45,10 @@ namespace
   End
   run(const std::string &folder, const std::string &settings)
   {
-    Parameters parameters(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 1, 0.2, 0.2
-          set Cells = 4, 1, 1
-        end
-      end
-      subsection Time integration
-        set End time  = 0.2
-        set Time step = 0.005
-      end
-      subsection Newton
-        set Residual tolerance  = 1e-11
-        set Increment tolerance = 1e-11
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-12
-      end)" + settings);
+    Parameters parameters(
+      box_mesh("1, 0.2, 0.2", "4, 1, 1") +
+      section("Time integration", {{"End time", 0.2}, {"Time step", 0.005}}) +
+      newton_tolerances(1e-11) + linear_solver("direct", 1e-12) + settings);
     Log        log(MPI_COMM_WORLD, true);
     Simulation simulation(parameters, folder, MPI_COMM_WORLD, log);
 
@@ -87,18 +72,14 @@ TEST(LoadsInTime, MovingSupportByTableOrFormula)
     rows += fmt::format("{}, {}\n", t, (t + 0.5) * (t + 0.5));
   folder.write("foot.csv", rows);
 
-  const std::string initial = R"(
-    subsection Initial conditions
-      set Displacement = 0; 0.05; 0
-      set Velocity     = 0; 0.2; 0
-    end
-    subsection Boundary conditions
-      set Displacement = x-min: 0; 0.2 * )";
-  const End         by_table =
+  const auto carried = [](const std::string &u) {
+    return initial_conditions("0; 0.05; 0", "0; 0.2; 0") +
+           displacements("x-min: 0; 0.2 * " + u + "; 0");
+  };
+  const End by_table =
     run(folder / "",
-        "\nsubsection Tables\n set Cubic = foot: foot.csv\nend" + initial +
-          "foot(t); 0\nend\n");
-  const End    by_formula = run("", initial + "(t + 0.5)^2; 0\nend\n");
+        section("Tables", {{"Cubic", "foot: foot.csv"}}) + carried("foot(t)"));
+  const End    by_formula = run("", carried("(t + 0.5)^2"));
   const double error      = 2e-10;
   // Far from rigid motion: the tip lags behind.
   const double rigid_energy = 0.5 * 40 * 0.28 * 0.28;
@@ -122,26 +103,28 @@ TEST(LoadsInTime, LoadsByTableOrFormula)
 {
   const TemporaryFolder folder;
   folder.write("hit.csv", "0 0\n0.05 1\n0.1 0\n");
-  for (const std::string load :
-       {"Boundary conditions\n set Fixed = x-min\n set Traction = x-max: 0; 0; "
-        "500 * ",
-        "Boundary conditions\n set Fixed = x-min\nend\nsubsection Loads\n set "
-        "Body force = 0; 0; x * 1000 * ",
-        "Boundary conditions\n set Fixed = x-min\nend\nsubsection Loads\n set "
-        "Gravity = 0; 0; 10 * ",
-        "Boundary conditions\n set Fixed = x-min\nend\nsubsection Loads\n set "
-        "Point forces = 1 0.2 0.2: 0; 0; 20 * "})
+  struct Load
+  {
+    std::string section, entry, value;
+  };
+  for (const Load &load :
+       {Load{"Boundary conditions", "Traction", "x-max: 0; 0; 500 * "},
+        Load{"Loads", "Body force", "0; 0; x * 1000 * "},
+        Load{"Loads", "Gravity", "0; 0; 10 * "},
+        Load{"Loads", "Point forces", "1 0.2 0.2: 0; 0; 20 * "}})
     {
-      const End by_table = run(
-        folder / "",
-        "\nsubsection Tables\n set Linear = hit: hit.csv\nend\nsubsection " +
-          load + "hit(t)\nend\n");
-      const End by_formula =
-        run("", "\nsubsection " + load + "triangle(t, 0, 0.1)\nend\n");
+      const auto loaded = [&](const std::string &function) {
+        return fixed("x-min") +
+               section(load.section, {{load.entry, load.value + function}});
+      };
+      const End by_table =
+        run(folder / "",
+            section("Tables", {{"Linear", "hit: hit.csv"}}) + loaded("hit(t)"));
+      const End by_formula = run("", loaded("triangle(t, 0, 0.1)"));
       EXPECT_GT(by_formula.record.max_displacement, 1e-4);
       EXPECT_LE(largest_difference(by_table.displacement,
                                    by_formula.displacement),
                 1e-9 * by_formula.record.max_displacement)
-        << load;
+        << load.entry;
     }
 }

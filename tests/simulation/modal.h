@@ -23,34 +23,11 @@ namespace corotet::tests
            const std::string &cells,
            const unsigned int degree,
            const double       poissons_ratio,
-           const unsigned int n_modes,
-           const std::string &more = "")
+           const unsigned int n_modes)
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = {}
-          set Cells = {}
-        end
-      end
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-        set Young's modulus = 1
-        set Poisson's ratio = {}
-        set Density         = 1
-      end
-      subsection Modes
-        set Number = {}
-      end
-      )",
-                       size,
-                       cells,
-                       degree,
-                       poissons_ratio,
-                       n_modes) +
-           more;
+    return box_mesh(size, cells) + element_text(degree) +
+           material_text(1, poissons_ratio, 1) +
+           section("Modes", {{"Number", n_modes}});
   }
 
   /**

@@ -23,10 +23,7 @@ namespace
   std::vector<double>
   all_eigenvalues(const SerialMesh &mesh, const std::string &text)
   {
-    const MovingBody      body(mesh, text + R"(
-      subsection Material
-        set Type = linear
-      end)");
+    const MovingBody      body(mesh, text + material_type("linear"));
     const Discretization &disc       = body.discretization;
     const unsigned int    n          = 3 * disc.n_global_nodes();
     const auto            gather_row = [&](const Vector &x) {
@@ -78,21 +75,13 @@ namespace
   expect_all_found(const std::string &cells,
                    const unsigned int degree,
                    const std::string &mass,
-                   const std::string &fixed,
+                   const std::string &boundaries,
                    const unsigned int n_modes)
   {
-    SCOPED_TRACE(fmt::format("degree {}, {}, fixed: {}", degree, mass, fixed));
-    const std::string more = fmt::format(R"(
-      subsection Discretization
-        set Mass = {}
-      end
-      subsection Boundary conditions
-        set Fixed = {}
-      end)",
-                                         mass,
-                                         fixed);
-    const std::string text =
-      box_body("1, 1, 1", cells, degree, 0.3, n_modes, more);
+    SCOPED_TRACE(
+      fmt::format("degree {}, {}, fixed: {}", degree, mass, boundaries));
+    const std::string text = box_body("1, 1, 1", cells, degree, 0.3, n_modes) +
+                             element_text(degree, mass) + fixed(boundaries);
     const auto     exact = all_eigenvalues(box("1, 1, 1", cells), text);
     const Analysis computed(text);
     for (unsigned int i = 0; i < n_modes; ++i)
@@ -152,17 +141,12 @@ TEST(ModalAnalysis, FreeBody)
 // residual, evaluated here, its amplitude, and that it keeps to the support.
 TEST(ModalAnalysis, ShapesSolveTheEquation)
 {
-  const std::string text = box_body("1, 0.3, 0.2", "5, 2, 1", 2, 0.3, 6, R"(
-    subsection Boundary conditions
-      set Fixed        = x-min
-      set Displacement = x-max: free; 0.1; free
-    end
-    subsection Material
-      set Type = linear
-    end)");
-  const Analysis    computed(text);
-  const MovingBody  body(box("1, 0.3, 0.2", "5, 2, 1"), text);
-  Vector            f(computed.mode(1).shape), g(f), phi(f);
+  const std::string text =
+    box_body("1, 0.3, 0.2", "5, 2, 1", 2, 0.3, 6) + fixed("x-min") +
+    displacements("x-max: free; 0.1; free") + material_type("linear");
+  const Analysis   computed(text);
+  const MovingBody body(box("1, 0.3, 0.2", "5, 2, 1"), text);
+  Vector           f(computed.mode(1).shape), g(f), phi(f);
   for (unsigned int i = 1; i <= 6; ++i)
     {
       const Mode &mode = computed.mode(i);
@@ -238,13 +222,8 @@ TEST(ModalAnalysis, SaysThatAGroupIsCut)
 TEST(ModalAnalysis, Shift)
 {
   const auto text = [](const double shift) {
-    return box_body("1, 0.3, 0.2",
-                    "5, 2, 1",
-                    2,
-                    0.3,
-                    9,
-                    fmt::format("subsection Modes\n set Shift = {:.17g}\nend\n",
-                                shift));
+    return box_body("1, 0.3, 0.2", "5, 2, 1", 2, 0.3, 9) +
+           section("Modes", {{"Shift", shift}});
   };
   const Analysis reference(text(0));
   const double   lowest = reference.mode(7).eigenvalue;
@@ -276,15 +255,9 @@ TEST(ModalAnalysis, Shift)
 // 1e-8 over the relative gaps between frequencies, some 1e-2.
 TEST(ModalAnalysis, SignsDoNotDependOnRanks)
 {
-  const auto products = [](const std::string &fixed, const MPI_Comm comm) {
-    Parameters    parameters(box_body("1, 0.3, 0.2",
-                                   "6, 2, 2",
-                                   2,
-                                   0.3,
-                                   12,
-                                   "subsection Boundary conditions\n"
-                                      " set Fixed = " +
-                                     fixed + "\nend\n"));
+  const auto products = [](const std::string &boundaries, const MPI_Comm comm) {
+    Parameters    parameters(box_body("1, 0.3, 0.2", "6, 2, 2", 2, 0.3, 12) +
+                          fixed(boundaries));
     Log           log(comm, true);
     ModalAnalysis analysis(parameters, "", comm, log);
     analysis.compute();
@@ -323,8 +296,8 @@ TEST(ModalAnalysis, Refusals)
 {
   const auto refused = [](const std::string &more) {
     return refusal([&] {
-      Parameters    parameters(box_body("1, 1, 1", "1, 1, 1", 1, 0.3, 7, more));
-      Log           log(MPI_COMM_WORLD, true);
+      Parameters parameters(box_body("1, 1, 1", "1, 1, 1", 1, 0.3, 7) + more);
+      Log        log(MPI_COMM_WORLD, true);
       ModalAnalysis analysis(parameters, "", MPI_COMM_WORLD, log);
     });
   };
@@ -333,7 +306,7 @@ TEST(ModalAnalysis, Refusals)
     "Modes/Number: found 7; allowed: at most 6 with the 24 unknowns that "
     "are not prescribed (a quarter of them; none of fewer than 16)");
   EXPECT_EQ(
-    refused("subsection Boundary conditions\nset Fixed = x-min\nend"),
+    refused(fixed("x-min")),
     "Modes/Number: found 7; allowed: at most 0 with the 12 unknowns that "
     "are not prescribed (a quarter of them; none of fewer than 16)");
 }

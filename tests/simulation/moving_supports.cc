@@ -55,52 +55,18 @@ namespace
   }
 
   std::string
-  bar(const std::string &displacement,
-      const std::string &integration,
-      const std::string &further = "",
-      const unsigned int n_cells = 2)
+  bar(const std::string &displacement, const unsigned int n_cells = 2)
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 2, 1, 1
-          set Cells = {}, 1, 1
-        end
-      end
-      subsection Discretization
-        set Degree = 1
-        set Mass   = diagonal scaling
-      end
-      subsection Material
-        set Young's modulus = 10
-        set Density         = 3
-      end
-      subsection Boundary conditions
-        set Displacement = {}
-      end
-      subsection Linear solver
-        set Type = direct
-      end
-      subsection Time integration
-        {}
-      end
-      {})",
-                       n_cells,
-                       displacement,
-                       integration,
-                       further);
+    return box_mesh("2, 1, 1", fmt::format("{}, 1, 1", n_cells)) +
+           element_text(1, "diagonal scaling") + material_text(10, 0.3, 3) +
+           displacements(displacement) + linear_solver("direct");
   }
 
   // All nodes are on sides that move alike.
   std::string
-  carried_bar(const std::string &u,
-              const std::string &integration,
-              const std::string &further)
+  carried_bar(const std::string &u)
   {
-    return bar(fmt::format("x-min: {0}; 0; 0, x-max: {0}; 0; 0", u),
-               integration,
-               further,
-               1);
+    return bar(fmt::format("x-min: {0}; 0; 0, x-max: {0}; 0; 0", u), 1);
   }
 } // namespace
 
@@ -115,10 +81,9 @@ TEST(MovingSupports, ReactionIsMassTimesAcceleration)
   // of kinks are those of steps but for round-off.
   const std::string file =
     folder.write("table.csv", "-1 0\n0 0\n0.5 1\n1 0\n2 0\n");
-  const std::string tables = fmt::format(
-    "subsection Tables\n set Cubic = smooth: {0}\n set Linear = kinked: "
-    "{0}\nend\n",
-    file);
+  const std::string tables =
+    section("Tables",
+            {{"Cubic", "smooth: " + file}, {"Linear", "kinked: " + file}});
   const auto cubic = [](const double t) {
     const double s = t < 0.5 ? 2 * t : 2 * (1 - t);
     return t > 1 - 1e-12 ? 0. : 4 * (6 - 12 * s);
@@ -143,14 +108,11 @@ TEST(MovingSupports, ReactionIsMassTimesAcceleration)
        integrators_with([](const TimeIntegrator &integrator) {
          return integrator.balances_at_end();
        }))
-    for (const std::string end : {"1.5", "15000"})
+    for (const double end : {1.5, 15000.})
       for (const auto &[u, acceleration] : motions)
         for (const StepRecord &record :
-             records(carried_bar(
-                       u,
-                       "set Type = " + type +
-                         "\n set Time step = 0.0625\n set End time = " + end,
-                       tables),
+             records(tables + carried_bar(u) +
+                       time_integration(type, end, 0.0625),
                      20))
           EXPECT_NEAR(record.reaction[0], 6 * acceleration(record.time), 1e-10)
             << u << " at " << record.time << ", " << type;
@@ -165,14 +127,12 @@ TEST(MovingSupports, DurationDoesNotMatter)
                                 "1e-2*abs(sin(20*t))*ramp(t, 0, 0.0625)",
                                 "1e-3*asin(sin(32*pi*t))"})
       {
-        const auto first = [&](const std::string &end) {
-          return records(bar("x-min: " + u + "; 0; 0",
-                             "set Type = " + type +
-                               "\n set Time step = 0.015625\n set End time = " +
-                               end),
+        const auto first = [&](const double end) {
+          return records(bar("x-min: " + u + "; 0; 0") +
+                           time_integration(type, end, 0.015625),
                          8);
         };
-        const auto a = first("0.125"), b = first("16"), c = first("8192");
+        const auto a = first(0.125), b = first(16), c = first(8192);
         for (unsigned int i = 0; i <= 8; ++i)
           for (const auto &other : {b, c})
             {
@@ -194,31 +154,13 @@ TEST(MovingSupports, DurationDoesNotMatter)
 // thousand.
 TEST(MovingSupports, VibrationIsTheSameInALongRun)
 {
-  const auto first = [](const std::string &step, const std::string &end) {
-    return records(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 0.1, 0.01, 0.01
-          set Cells = 10, 1, 1
-        end
-      end
-      subsection Discretization
-        set Degree = 1
-        set Mass   = diagonal scaling
-      end
-      subsection Material
-        set Young's modulus = 7e10
-        set Poisson's ratio = 0.3
-        set Density         = 2700
-      end
-      subsection Boundary conditions
-        set Displacement = x-min: 1e-5 * sin(2 * pi * 20000 * t); 0; 0
-      end
-      subsection Time integration
-        set Type      = central difference
-        set Time step = )" +
-                     step + "\n set End time = " + end + "\nend\n",
-                   10);
+  const auto first = [](const double step, const double end) {
+    return records(
+      box_mesh("0.1, 0.01, 0.01", "10, 1, 1") +
+        element_text(1, "diagonal scaling") + material_text(7e10, 0.3, 2700) +
+        displacements("x-min: 1e-5 * sin(2 * pi * 20000 * t); 0; 0") +
+        time_integration("central difference", end, step),
+      10);
   };
   const auto compare =
     [](const auto &a, const auto &b, const double tolerance) {
@@ -228,17 +170,20 @@ TEST(MovingSupports, VibrationIsTheSameInALongRun)
                     tolerance * std::abs(a[i].reaction[0]))
           << i;
     };
-  compare(first("2e-7", "1e-4"), first("2e-7", "10"), 1e-11);
-  compare(first("0", "1e-2"), first("0", "10"), 1e-3);
+  compare(first(2e-7, 1e-4), first(2e-7, 10), 1e-11);
+  compare(first(0, 1e-2), first(0, 10), 1e-3);
 }
 
 // Statics needs no velocity: that of sqrt(t - 1) at the start is infinite.
 TEST(MovingSupports, StaticsNeedsNoVelocity)
 {
-  CompleteRun run(bar("x-min: 0; 0; 0, x-max: 0.1*sqrt(t - 1); 0; 0",
-                      "set Type = static\n set Start time = 1\n set End time = "
-                      "2\n subsection static\n set Proportional loading = "
-                      "false\n end"));
+  CompleteRun run(
+    bar("x-min: 0; 0; 0, x-max: 0.1*sqrt(t - 1); 0; 0") +
+    section("Time integration",
+            {{"Type", "static"},
+             {"Start time", 1},
+             {"End time", 2},
+             section("static", {{"Proportional loading", false}})}));
   EXPECT_EQ(run.run(), "");
   EXPECT_EQ(run.recorder().records.back().max_displacement, 0.1);
 }
@@ -250,34 +195,11 @@ TEST(MovingSupports, StaticsNeedsNoVelocity)
 TEST(MovingSupports, CarryABendingBeamInOneLoadStep)
 {
   const auto hang = [](const std::string &rotation, const double way) {
-    CompleteRun run(fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 1, 0.2, 0.2
-          set Cells = 5, 1, 1
-        end
-      end
-      subsection Material
-        set Young's modulus = 1e6
-        set Density         = 1000
-        set Rotation        = {}
-      end
-      subsection Boundary conditions
-        set Displacement = x-min: {}; 0; {}
-      end
-      subsection Loads
-        set Gravity = 0; 0; -10
-      end
-      subsection Time integration
-        set Type = static
-        subsection static
-          set Load steps = 1
-        end
-      end
-      )",
-                                rotation,
-                                way,
-                                0.5 * way));
+    CompleteRun run(
+      box_mesh("1, 0.2, 0.2", "5, 1, 1") + material_text(1e6) +
+      rotation_at(rotation) +
+      displacements(fmt::format("x-min: {}; 0; {}", way, 0.5 * way)) +
+      gravity("0; 0; -10") + statics());
     EXPECT_EQ(run.run(), "");
     Vector u = run.recorder().displacement;
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)

@@ -24,23 +24,11 @@ namespace
               const unsigned int n,
               const std::string &mass)
   {
-    const Analysis bar(box_body("1, 0.25, 0.25",
-                                fmt::format("{}, {}, {}", 4 * n, n, n),
-                                degree,
-                                0,
-                                1,
-                                R"(
-      subsection Boundary conditions
-        set Displacement = x-min: 0; free; free, y-min: free; 0; free, \
-                           y-max: free; 0; free, z-min: free; free; 0, \
-                           z-max: free; free; 0
-      end
-      subsection Discretization
-        set Mass = )" + mass + R"(
-      end
-      subsection Modes
-        set Tolerance = 1e-9
-      end)"));
+    const Analysis bar(
+      box_body(
+        "1, 0.25, 0.25", fmt::format("{}, {}, {}", 4 * n, n, n), degree, 0, 1) +
+      sliding_along_x() + element_text(degree, mass) +
+      section("Modes", {{"Tolerance", 1e-9}}));
     return std::abs(bar.mode(1).eigenvalue / (PI * PI / 4) - 1);
   }
 
@@ -124,11 +112,8 @@ TEST(NaturalFrequencies, Cantilever)
                                    degree == 2 ? "20, 4, 4" : "10, 2, 2",
                                    degree,
                                    0,
-                                   8,
-                                   R"(
-        subsection Boundary conditions
-          set Fixed = x-min
-        end)"));
+                                   8) +
+                          fixed("x-min"));
       const auto     compare = [&](const std::string &what,
                                const unsigned int number,
                                const double       expected,
@@ -167,27 +152,12 @@ TEST(NaturalFrequencies, Cantilever)
 // mode in the plane, 193.59 Hz by theory, is the same on all meshes.
 TEST(NaturalFrequencies, PlateOnItsLowerEdges)
 {
-  const Analysis            plate(R"(
-    subsection Mesh
-      subsection box
-        set Size  = 10, 10, 1
-        set Cells = 6, 6, 1
-      end
-    end
-    subsection Discretization
-      set Degree = 2
-    end
-    subsection Material
-      set Young's modulus = 200e9
-      set Poisson's ratio = 0.3
-      set Density         = 8000
-    end
-    subsection Boundary conditions
-      set Displacement = x-min & z-min: free; free; 0, \
-                         x-max & z-min: free; free; 0, \
-                         y-min & z-min: free; free; 0, \
-                         y-max & z-min: free; free; 0
-    end)");
+  const Analysis plate(
+    box_mesh("10, 10, 1", "6, 6, 1") + element_text(2) +
+    material_text(200e9, 0.3, 8000) +
+    displacements("x-min & z-min: free; free; 0, x-max & z-min: free; free; 0, "
+                  "y-min & z-min: free; free; 0, "
+                  "y-max & z-min: free; free; 0"));
   const std::vector<double> expected{
     44.762, 110.52, 110.52, 169.08, 193.93, 206.64, 206.64};
   for (unsigned int i = 1; i <= 3; ++i)

@@ -57,33 +57,12 @@ namespace
                const NamedLaw    &law,
                const std::string &tangent)
       : MovingBody(box("1, 0.1, 0.1", degree == 1 ? "20, 2, 2" : "10, 1, 1"),
-                   fmt::format(R"(
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-{}        set Young's modulus = {}
-        set Poisson's ratio = 0.3
-      end
-      subsection Boundary conditions
-        set Fixed    = x-min
-        set Traction = x-max: 0; 0; t
-      end
-      subsection Newton
-        set Tangent             = {}
-        set Residual tolerance  = 1e-12
-        set Increment tolerance = 1e-12
-        set Maximum iterations  = {}
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-12
-      end)",
-                               degree,
-                               law.text,
-                               E,
-                               tangent,
-                               max_iterations(degree)))
+                   element_text(degree) + law.text + material_text(E) +
+                     fixed("x-min") + tractions("x-max: 0; 0; t") +
+                     section("Newton",
+                             {{"Tangent", tangent},
+                              {"Maximum iterations", max_iterations(degree)}}) +
+                     newton_tolerances(1e-12) + linear_solver("direct", 1e-12))
     {
       load_stepping.proportional = false;
     }

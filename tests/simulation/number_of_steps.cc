@@ -16,17 +16,14 @@ using namespace corotet::tests;
 namespace
 {
   std::string
-  cube(const std::string &integration)
+  cube(const Entries integration)
   {
-    return "subsection Discretization\n set Degree = 1\n set Mass = diagonal "
-           "scaling\nend\nsubsection Linear solver\n set Type = "
-           "direct\nend\nsubsection Boundary conditions\n set Fixed = "
-           "x-min\nend\nsubsection Time integration\n set End time = 1\n" +
-           integration + "\nend";
+    return element_text(1, "diagonal scaling") + linear_solver("direct") +
+           fixed("x-min") + section("Time integration", integration);
   }
 
   std::string
-  run_refusal(const std::string &integration)
+  run_refusal(const Entries integration)
   {
     return refusal([&] { const CompleteRun run(cube(integration)); });
   }
@@ -49,19 +46,19 @@ namespace
 
 TEST(NumberOfSteps, EqualSteps)
 {
-  EXPECT_EQ(run_refusal("set Time step = 1e-12"),
+  EXPECT_EQ(run_refusal({{"Time step", 1e-12}}),
             "Time integration/Time step: found 1e-12, which makes 1e+12 steps "
             "from t = 0 to 1; allowed: at most 4000000000 steps, so at least "
             "2.5e-10");
   EXPECT_EQ(
-    run_refusal("set Type = central difference\n set Time step = 1e-300"),
+    run_refusal({{"Type", "central difference"}, {"Time step", 1e-300}}),
     "Time integration/Time step: found 1e-300, which makes 1e+300 steps "
     "from t = 0 to 1; allowed: at most 4000000000 steps, so at least "
     "2.5e-10");
-  EXPECT_EQ(run_refusal("set Time step = 2.5e-10"), "nothing was refused");
+  EXPECT_EQ(run_refusal({{"Time step", 2.5e-10}}), "nothing was refused");
 
-  CompleteRun few(cube("set Time step = 1e-7"));
-  CompleteRun many(cube("set Time step = 0.99e-7"));
+  CompleteRun few(cube({{"Time step", 1e-7}}));
+  CompleteRun many(cube({{"Time step", 0.99e-7}}));
   EXPECT_EQ(warnings(few), "");
   EXPECT_EQ(warnings(many),
             "warning: steps of 9.9e-08 s: 1.01e+07 of them up to the end "
@@ -71,14 +68,13 @@ TEST(NumberOfSteps, EqualSteps)
 // The stable step of the default material is some microseconds.
 TEST(NumberOfSteps, StableSteps)
 {
-  const std::string type =
-    "set Type = central difference\n set Time step = 0\n";
-  EXPECT_EQ(run_refusal(type + "set End time = 1e9")
+  const Entry type("Type", "central difference"), stable("Time step", 0);
+  EXPECT_EQ(run_refusal({type, stable, {"End time", 1e9}})
               .rfind("Time integration/Time step: found 0 and stable steps of",
                      0),
             0u);
-  EXPECT_EQ(run_refusal(type), "nothing was refused");
-  CompleteRun many(cube(type + "set End time = 1e5"));
+  EXPECT_EQ(run_refusal({type, stable}), "nothing was refused");
+  CompleteRun many(cube({type, stable, {"End time", 1e5}}));
   EXPECT_NE(warnings(many), "");
 }
 
@@ -86,22 +82,23 @@ TEST(NumberOfSteps, StableSteps)
 // that get ever shorter before a load that is not finite, until there are none.
 TEST(NumberOfSteps, AdaptiveSteps)
 {
-  const auto adaptive = [](const std::string &entries) {
-    return cube("set Type = Newmark\n subsection Adaptive step\n set Enabled = "
-                "true\n end\n" +
-                entries);
+  const auto adaptive = [](const double step) {
+    return cube({{"Type", "Newmark"},
+                 {"Time step", step},
+                 section("Adaptive step", {{"Enabled", true}})});
   };
-  CompleteRun few(adaptive("set Time step = 1e-3"));
-  CompleteRun many(adaptive("set Time step = 1e-9"));
+  CompleteRun few(adaptive(1e-3));
+  CompleteRun many(adaptive(1e-9));
   EXPECT_EQ(warnings(few), "");
   EXPECT_EQ(warnings(many),
             "warning: steps of 1e-09 s: 1e+09 of them up to the end "
             "time\n");
 
-  CompleteRun shorter(adaptive("set Time step = 1e-2\n subsection Adaptive "
-                               "step\n set Smallest step = 1e-30\n end\n end\n "
-                               "subsection Loads\n set Gravity = 0; 0; if(t > "
-                               "0.5, 1/0, -1)"));
+  CompleteRun shorter(
+    adaptive(1e-2) +
+    section("Time integration",
+            {section("Adaptive step", {{"Smallest step", 1e-30}})}) +
+    gravity("0; 0; if(t > 0.5, 1/0, -1)"));
   const std::string message = shorter.run();
   EXPECT_NE(message.find("which round-off of the time swallows"),
             std::string::npos)
@@ -117,33 +114,11 @@ class EnergyOverflow : public testing::TestWithParam<std::string>
 
 TEST_P(EnergyOverflow, StepIsTakenBack)
 {
-  CompleteRun       run(R"(
-    subsection Mesh
-      subsection box
-        set Size  = 2, 1, 1
-        set Cells = 2, 1, 1
-      end
-    end
-    subsection Discretization
-      set Degree = 1
-    end
-    subsection Material
-      set Type            = linear
-      set Young's modulus = 1e-20
-      set Density         = 1e-20
-    end
-    subsection Boundary conditions
-      set Fixed        = x-min
-      set Displacement = x-max: 1e155*t^4; 0; 0
-    end
-    subsection Linear solver
-      set Type = direct
-    end
-    subsection Time integration
-      set End time         = 2
-      set Maximum halvings = 3
-      )" + GetParam() +
-                  "\nend");
+  CompleteRun run(
+    box_mesh("2, 1, 1", "2, 1, 1") + element_text(1) + material_type("linear") +
+    material_text(1e-20, 0.3, 1e-20) + fixed("x-min") +
+    displacements("x-max: 1e155*t^4; 0; 0") + linear_solver("direct") +
+    section("Time integration", {{"Maximum halvings", 3}}) + GetParam());
   const std::string message = run.run();
   EXPECT_NE(message.find("the energy is not finite"), std::string::npos)
     << message;
@@ -167,8 +142,13 @@ TEST_P(EnergyOverflow, StepIsTakenBack)
 INSTANTIATE_TEST_SUITE_P(
   All,
   EnergyOverflow,
-  testing::Values("set Type = Newmark\n set Time step = 0.01\n subsection "
-                  "Adaptive step\n set Enabled = true\n set Smallest step = "
-                  "1e-3\n set Largest step = 0.1\n set Target error = 1\n end",
-                  "set Type = Newmark\n set Time step = 0.01",
-                  "set Type = central difference\n set Time step = 0.01"));
+  testing::Values(time_integration("Newmark",
+                                   2,
+                                   0.01,
+                                   {section("Adaptive step",
+                                            {{"Enabled", true},
+                                             {"Smallest step", 1e-3},
+                                             {"Largest step", 0.1},
+                                             {"Target error", 1}})}),
+                  time_integration("Newmark", 2, 0.01),
+                  time_integration("central difference", 2, 0.01)));

@@ -138,46 +138,24 @@ namespace
   // A clamped linear bar that is pulled along its axis from time 0 on by a
   // traction of 100 sin(pi t), from rest.
   std::string
-  pulled_bar(const std::string &integration)
+  pulled_bar(const std::string &type,
+             const double       time_step,
+             const Entries      more = {})
   {
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 2, 1, 1
-          set Cells = 2, 1, 1
-        end
-      end
-      subsection Discretization
-        set Degree = 1
-        set Mass   = diagonal scaling
-      end
-      subsection Material
-        set Type            = linear
-        set Young's modulus = 2e5
-      end
-      subsection Boundary conditions
-        set Fixed    = x-min
-        set Traction = x-max: 100*sin(pi*t); 0; 0
-      end
-      subsection Linear solver
-        set Type      = direct
-        set Tolerance = 1e-12
-      end
-      subsection Newton
-        set Residual tolerance  = 1e-12
-        set Increment tolerance = 1e-12
-      end
-      subsection Time integration
-        set End time = 1
-        {}
-      end)",
-                       integration);
+    return box_mesh("2, 1, 1", "2, 1, 1") +
+           element_text(1, "diagonal scaling") + material_type("linear") +
+           material_text(2e5) + fixed("x-min") +
+           tractions("x-max: 100*sin(pi*t); 0; 0") +
+           linear_solver("direct", 1e-12) + newton_tolerances(1e-12) +
+           time_integration(type, 1, time_step, more);
   }
 
   Vector
-  pulled(const std::string &integration)
+  pulled(const std::string &type,
+         const double       time_step,
+         const Entries      more = {})
   {
-    CompleteRun run(pulled_bar(integration));
+    CompleteRun run(pulled_bar(type, time_step, more));
     EXPECT_EQ(run.run(), "");
     EXPECT_GT(run.recorder().records.back().external_work, 0.);
     return run.simulation.state().u;
@@ -199,10 +177,9 @@ TEST(OutsideIntegrators, AreInTheList)
 TEST(OutsideIntegrators, ImplicitWithAParameter)
 {
   const auto run = [](const double theta, const unsigned int n) {
-    return pulled(fmt::format("set Type = Wilson theta\n set Time step = {}\n "
-                              "subsection Wilson theta\n set Theta = {}\n end",
-                              1. / n,
-                              theta));
+    return pulled("Wilson theta",
+                  1. / n,
+                  {section("Wilson theta", {{"Theta", theta}})});
   };
   // Of second order, too, with steps 16 times shorter than the shorter ones
   // below: errors of half a percent of theirs, of 0.01 in the order.
@@ -227,26 +204,20 @@ TEST(OutsideIntegrators, ImplicitWithAParameter)
 // they agree to round-off.
 TEST(OutsideIntegrators, Explicit)
 {
-  CompleteRun by_itself(
-    pulled_bar("set Type = symplectic Euler\n set Time step = 0"));
+  CompleteRun by_itself(pulled_bar("symplectic Euler", 0));
   ASSERT_EQ(by_itself.run(), "");
   EXPECT_GT(by_itself.recorder().summary.steps, 10u);
 
-  const Vector u = pulled("set Type = symplectic Euler\n set Time step = 2e-3");
-  const Vector v =
-    pulled("set Type = central difference\n set Time step = 2e-3");
+  const Vector u = pulled("symplectic Euler", 2e-3);
+  const Vector v = pulled("central difference", 2e-3);
   EXPECT_GT(u.linfty_norm(), 1e-5);
   EXPECT_LE(largest_difference(u, v), 1e-10 * u.linfty_norm());
 
-  const std::string text = refusal([] {
-    CompleteRun(pulled_bar("set Type = symplectic Euler\n set Time step = 1"));
-  });
+  const std::string text =
+    refusal([] { CompleteRun(pulled_bar("symplectic Euler", 1)); });
   EXPECT_NE(text.find("which is unstable"), std::string::npos) << text;
   // Messages name those that can, whoever they are.
-  EXPECT_EQ(refusal([] {
-              CompleteRun(
-                pulled_bar("set Type = Wilson theta\n set Time step = 0"));
-            }),
+  EXPECT_EQ(refusal([] { CompleteRun(pulled_bar("Wilson theta", 0)); }),
             "Time integration/Time step: found 0; allowed: a positive number "
             "(0, the program's choice, with Type = central difference, "
             "symplectic Euler)");
@@ -259,8 +230,7 @@ TEST(OutsideIntegrators, LeaveTheList)
     return integrators_with([](const TimeIntegrator &) { return true; });
   };
   const auto        before = names();
-  const std::string text =
-    "subsection Time integration\n set Type = third\nend";
+  const std::string text   = section("Time integration", {{"Type", "third"}});
   {
     const AddedCandidate<TimeIntegrator> third(
       candidate<TimeIntegrator, SymplecticEuler>("third"));

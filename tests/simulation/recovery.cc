@@ -27,25 +27,12 @@ namespace
   {
     Cube(const unsigned int degree, const std::string &rotation)
       : MovingBody(box("1, 1, 1", "3, 3, 3"),
-                   fmt::format(R"(
-        subsection Discretization
-          set Degree = {}
-        end
-        subsection Material
-          set Rotation        = {}
-          set Young's modulus = 1e4
-          set Poisson's ratio = 0.3
-          set Density         = 1000
-        end
-        subsection Damping
-          set Mass coefficient = 0.1
-        end
-        subsection Newton
-          set Tangent           = frozen rotation
-          set Linearly implicit = true
-        end)",
-                               degree,
-                               rotation))
+                   element_text(degree) + rotation_at(rotation) +
+                     material_text(1e4) +
+                     section("Damping", {{"Mass coefficient", 0.1}}) +
+                     section("Newton",
+                             {{"Tangent", "frozen rotation"},
+                              {"Linearly implicit", true}}))
     {}
 
     // x -> F x about the centre.

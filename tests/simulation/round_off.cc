@@ -16,33 +16,16 @@ using namespace corotet::tests;
 
 namespace
 {
-  constexpr double gravity = -9.81;
+  constexpr double g = -9.81;
 
-  const std::string steel = R"(
-    subsection Mesh
-      subsection box
-        set Size  = 1, 0.2, 0.2
-        set Cells = 3, 1, 1
-      end
-    end
-    subsection Material
-      set Young's modulus = 2.1e11
-      set Poisson's ratio = 0.3
-      set Density         = 7850
-    end
-    )";
+  const std::string steel =
+    box_mesh("1, 0.2, 0.2", "3, 1, 1") + material_text(2.1e11, 0.3, 7850);
 
   const std::vector<std::string> laws{
     "set Type = linear",
     "set Rotation = cell centre",
     "set Rotation = quadrature points",
     "set Rotation = cell centre, variational"};
-
-  std::string
-  law_text(const std::string &law)
-  {
-    return "subsection Material\n" + law + "\nend\n";
-  }
 
   // Largest distance of a node's displacement from (0, 0, @p z).
   double
@@ -74,12 +57,12 @@ namespace
   {
     Oscillator mass;
     mass.k      = 0;
-    mass.weight = mass.m * gravity;
+    mass.weight = mass.m * g;
     State state = initial_state(mass, 0., 0.);
     for (unsigned int i = 0; i < n; ++i)
       integrator.step(mass, {i * dt, dt, (i + 1.) / n}, state);
     const double z = state.u.local_element(0);
-    EXPECT_NEAR(z / (0.5 * gravity * n * dt * n * dt),
+    EXPECT_NEAR(z / (0.5 * g * n * dt * n * dt),
                 1,
                 2 / std::pow(n, integrator.order()));
     return z;
@@ -101,21 +84,9 @@ TEST_P(FreeFall, OfSteel)
   constexpr double       T = 5;
   for (const std::string &name : integrators_with(is_implicit_dynamic))
     {
-      CompleteRun fall(steel + element_text(degree) + law_text(law) +
-                       fmt::format(R"(
-        subsection Loads
-          set Gravity = 0; 0; {}
-        end
-        subsection Time integration
-          set Type      = {}
-          set End time  = {}
-          set Time step = {}
-        end
-        )",
-                                   gravity,
-                                   name,
-                                   T,
-                                   T / n));
+      CompleteRun fall(
+        steel + element_text(degree) + section("Material", {law}) +
+        gravity(fmt::format("0; 0; {}", g)) + time_integration(name, T, T / n));
       ASSERT_EQ(fall.run(), "") << name;
       const auto &steps = fall.recorder().steps;
       ASSERT_EQ(steps.size(), n);
@@ -135,31 +106,15 @@ TEST_P(FreeFall, OfSteelExplicitly)
 {
   const auto [degree, law] = GetParam();
   constexpr double z = -100, v = -44, T = 2e-3;
-  CompleteRun      fall(steel + element_text(degree) + law_text(law) +
-                   fmt::format(R"(
-    subsection Discretization
-      set Mass = diagonal scaling
-    end
-    subsection Initial conditions
-      set Displacement = 0; 0; {}
-      set Velocity     = 0; 0; {}
-    end
-    subsection Loads
-      set Gravity = 0; 0; {}
-    end
-    subsection Time integration
-      set Type      = central difference
-      set End time  = {}
-      set Time step = 0
-    end
-    )",
-                               z,
-                               v,
-                               gravity,
-                               T));
+  CompleteRun      fall(
+    steel + element_text(degree, "diagonal scaling") +
+    section("Material", {law}) +
+    initial_conditions(fmt::format("0; 0; {}", z), fmt::format("0; 0; {}", v)) +
+    gravity(fmt::format("0; 0; {}", g)) +
+    time_integration("central difference", T, 0));
   ASSERT_EQ(fall.run(), "");
   EXPECT_LE(distance_from(fall.recorder().displacement,
-                          z + v * T + 0.5 * gravity * T * T),
+                          z + v * T + 0.5 * g * T * T),
             1e-9 * std::abs(z));
 }
 
@@ -185,15 +140,10 @@ class StiffBody : public testing::TestWithParam<std::string>
 // which bends by its inertia: far less than a millimetre.
 TEST_P(StiffBody, IsCarriedFar)
 {
-  CompleteRun ride(steel + law_text(GetParam()) + R"(
-    subsection Boundary conditions
-      set Displacement = x-min: 0; 0; 10 * smooth_step(t, 0, 1)
-    end
-    subsection Time integration
-      set End time  = 1.2
-      set Time step = 0.01
-    end
-    )");
+  CompleteRun ride(
+    steel + section("Material", {GetParam()}) +
+    displacements("x-min: 0; 0; 10 * smooth_step(t, 0, 1)") +
+    section("Time integration", {{"End time", 1.2}, {"Time step", 0.01}}));
   ASSERT_EQ(ride.run(), "");
   const auto &steps = ride.recorder().steps;
   EXPECT_LE(distance_from(ride.recorder().displacement, 10), 1e-4);
@@ -215,35 +165,14 @@ class LinearStatics : public testing::TestWithParam<std::string>
 namespace
 {
   CompleteRun
-  linear_statics(const std::string &solver,
-                 const std::string &conditions,
-                 const std::string &box = "")
+  linear_statics(const std::string &solver, const std::string &more)
   {
-    return CompleteRun(R"(
-      subsection Mesh
-        subsection box
-          set Size  = 1, 0.125, 0.125
-          set Cells = 6, 1, 1
-        end
-      end
-      subsection Material
-        set Type            = linear
-        set Young's modulus = 1e7
-      end
-      subsection Boundary conditions
-)" + conditions + R"(
-      end
-      subsection Time integration
-        set Type     = static
-        set End time = 1
-        subsection static
-          set Load steps           = 4
-          set Proportional loading = false
-        end
-      end
-      subsection Linear solver
-        set Type = )" + solver +
-                       "\nend\n" + box);
+    return CompleteRun(
+      box_mesh("1, 0.125, 0.125", "6, 1, 1") + material_type("linear") +
+      material_text(1e7) + statics(4) +
+      section("Time integration",
+              {section("static", {{"Proportional loading", false}})}) +
+      linear_solver(solver) + more);
   }
 
   // The linear solver's tolerance, times what a slender body may make of a
@@ -254,10 +183,10 @@ namespace
 // Loaded and unloaded: in the last step no force is left.
 TEST_P(LinearStatics, Unloads)
 {
-  CompleteRun beam = linear_statics(GetParam(),
-                                    "set Fixed = x-min\n"
-                                    "set Traction = x-max: 0; 0; 200 * "
-                                    "triangle(t, 0, 1)");
+  CompleteRun beam =
+    linear_statics(GetParam(),
+                   fixed("x-min") + tractions("x-max: 0; 0; 200 * "
+                                              "triangle(t, 0, 1)"));
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
   ASSERT_EQ(steps.size(), 4u);
@@ -277,7 +206,7 @@ TEST_P(LinearStatics, IsCarriedBySupport)
 {
   CompleteRun beam =
     linear_statics(GetParam(),
-                   "set Displacement = x-min: 0; 0; 0.1 * triangle(t, 0, 1)");
+                   displacements("x-min: 0; 0; 0.1 * triangle(t, 0, 1)"));
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
   ASSERT_EQ(steps.size(), 4u);
@@ -301,19 +230,9 @@ INSTANTIATE_TEST_SUITE_P(Solvers,
 TEST(RoundOff, ThinBeam)
 {
   CompleteRun beam = linear_statics("direct",
-                                    "set Fixed = x-min\n"
-                                    "set Traction = x-max: 0; 0; 1e-4",
-                                    R"(
-    subsection Mesh
-      subsection box
-        set Size  = 3.75, 0.001, 0.001
-        set Cells = 60, 1, 1
-      end
-    end
-    subsection Material
-      set Poisson's ratio = 0
-    end
-    )");
+                                    box_mesh("3.75, 0.001, 0.001", "60, 1, 1") +
+                                      material_text(1e7, 0) + fixed("x-min") +
+                                      tractions("x-max: 0; 0; 1e-4"));
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
   // F L^3 / (3 E I), with F = 1e-4 h^2 and I = h^4 / 12. Quadratic cells have
@@ -331,21 +250,9 @@ TEST(RoundOff, PreconditionerStays)
 {
   for (const std::string &integrator : integrators_with(is_implicit_dynamic))
     {
-      CompleteRun run(fmt::format(R"(
-        subsection Material
-          set Type = linear
-        end
-        subsection Boundary conditions
-          set Fixed    = x-min
-          set Traction = x-max: 0; 0; 1
-        end
-        subsection Time integration
-          set Type      = {}
-          set End time  = 0.7
-          set Time step = 0.007
-        end
-        )",
-                                  integrator));
+      CompleteRun run(material_type("linear") + fixed("x-min") +
+                      tractions("x-max: 0; 0; 1") +
+                      time_integration(integrator, 0.7, 0.007));
       ASSERT_EQ(run.run(), "");
       EXPECT_EQ(run.recorder().steps.size(), 100u);
       // Multistep methods begin with steps of another method.

@@ -15,35 +15,12 @@ using namespace corotet::tests;
 
 namespace
 {
-  const std::string swinging_beam = R"(
-    subsection Mesh
-      subsection box
-        set Size  = 1, 0.2, 0.2
-        set Cells = 5, 1, 1
-      end
-    end
-    subsection Boundary conditions
-      set Fixed        = x-min
-      set Pressure     = z-max: 2000*t
-    end
-    subsection Loads
-      set Gravity = 0; 0; -9.81
-    end
-    subsection Damping
-      set Stiffness coefficient = 1e-4
-    end
-    subsection Time integration
-      set End time  = 0.2
-      set Time step = 0.01
-    end
-    subsection Newton
-      set Residual tolerance  = 1e-10
-      set Increment tolerance = 1e-10
-    end
-    subsection Linear solver
-      set Tolerance = 1e-11
-    end
-  )";
+  const std::string swinging_beam =
+    box_mesh("1, 0.2, 0.2", "5, 1, 1") + fixed("x-min") +
+    pressures("z-max: 2000*t") + gravity("0; 0; -9.81") +
+    section("Damping", {{"Stiffness coefficient", 1e-4}}) +
+    section("Time integration", {{"End time", 0.2}, {"Time step", 0.01}}) +
+    newton_tolerances(1e-10) + section("Linear solver", {{"Tolerance", 1e-11}});
 
   void
   expect_close(const double a, const double b, const double scale)
@@ -59,7 +36,7 @@ namespace
 TEST(Simulation, ParametersMakeAnyNumberOfRuns)
 {
   const std::string text =
-    swinging_beam + "subsection Time integration\n set Type = BDF2\nend\n";
+    swinging_beam + section("Time integration", {{"Type", "BDF2"}});
   CompleteRun alone(text);
   alone.run();
 
@@ -119,11 +96,9 @@ TEST(Simulation, ParametersMakeAnyNumberOfRuns)
 // to 1e-8, as the solvers' tolerances (1e-11, 1e-10) allow.
 TEST(Simulation, SameOnAnyNumberOfRanks)
 {
-  for (const std::string degree : {"1", "2", "3"})
+  for (const unsigned int degree : {1, 2, 3})
     {
-      const std::string text =
-        swinging_beam + "subsection Discretization\n set Degree = " + degree +
-        "\nend\n";
+      const std::string text = swinging_beam + element_text(degree);
       CompleteRun alone(text, MPI_COMM_SELF), together(text, MPI_COMM_WORLD);
       alone.simulation.run(alone.observers);
       together.simulation.run(together.observers);
@@ -171,10 +146,8 @@ TEST(Simulation, SameOnAnyNumberOfRanks)
 // A failure keeps what was computed, tells the observers, and is thrown on.
 TEST(Simulation, FailureIsTold)
 {
-  CompleteRun run(swinging_beam + R"(
-    subsection Boundary conditions
-      set Traction = x-max: 0; 0; if(t > 0.051, 1/(t-t), 0)
-    end)",
+  CompleteRun run(swinging_beam +
+                    tractions("x-max: 0; 0; if(t > 0.051, 1/(t-t), 0)"),
                   MPI_COMM_WORLD);
   try
     {
@@ -205,11 +178,7 @@ TEST(Simulation, FailureIsTold)
 // The same before the first step: no results, but a summary.
 TEST(Simulation, FailureAtTheStartIsTold)
 {
-  CompleteRun run(swinging_beam + R"(
-    subsection Loads
-      set Gravity = 0; 0; 1/t
-    end)",
-                  MPI_COMM_WORLD);
+  CompleteRun run(swinging_beam + gravity("0; 0; 1/t"), MPI_COMM_WORLD);
   try
     {
       run.simulation.run(run.observers);
@@ -227,9 +196,8 @@ TEST(Simulation, FailureAtTheStartIsTold)
 TEST(Simulation, EndTimeMustBeAfterStart)
 {
   EXPECT_EQ(refusal([] {
-              CompleteRun(
-                "subsection Time integration\n set Start time = 2\nend\n",
-                MPI_COMM_WORLD);
+              CompleteRun(section("Time integration", {{"Start time", 2}}),
+                          MPI_COMM_WORLD);
             }),
             "Time integration/End time: found 1; allowed: a time after the "
             "start time 2");

@@ -91,21 +91,16 @@ TEST(Statics, OrdersOfConvergence)
 // same resultant (area 1), give the same reaction.
 TEST(Statics, Reactions)
 {
-  for (const std::string load :
-       {"subsection Loads\n set Point forces = 2 0.5 0.5: 1; 2; -3\nend\n",
-        "subsection Boundary conditions\n set Traction = x-max: 1; 2; "
-        "-3\nend\n"})
+  for (const std::string &load :
+       {section("Loads", {{"Point forces", "2 0.5 0.5: 1; 2; -3"}}),
+        tractions("x-max: 1; 2; -3")})
     for (const std::string type : {"linear", "corotational"})
       {
-        MovingBody body(
-          box("2, 1, 1", "4, 2, 2", 0.1),
-          "subsection Boundary conditions\n set Fixed = "
-          "x-min\nend\nsubsection Material\n set Type = " +
-            type +
-            "\n set Young's modulus = 200\nend\nsubsection Newton\n set Residual tolerance = "
-            "1e-12\nend\nsubsection Linear solver\n set Type = direct\n "
-            "set Tolerance = 1e-12\nend\n" +
-            load);
+        MovingBody   body(box("2, 1, 1", "4, 2, 2", 0.1),
+                        fixed("x-min") + material_type(type) +
+                          material_text(200) +
+                          section("Newton", {{"Residual tolerance", 1e-12}}) +
+                          linear_solver("direct", 1e-12) + load);
         EnergyBudget budget(body.system.equation(), body.state, 0., 0.);
         solve_static(body);
         StepRecord record;
@@ -130,14 +125,9 @@ TEST(Statics, Reactions)
 // with E eps A; volume grows by the stretch.
 TEST(Statics, PrescribedStretch)
 {
-  MovingBody   body(box("2, 1, 1", "4, 2, 2", 0.1), R"(
-    subsection Material
-      set Young's modulus = 1000
-      set Poisson's ratio = 0
-    end
-    subsection Boundary conditions
-      set Displacement = x-min: 0; 0; 0, x-max: 0.2; free; free
-    end)");
+  MovingBody   body(box("2, 1, 1", "4, 2, 2", 0.1),
+                  material_text(1000, 0) +
+                    displacements("x-min: 0; 0; 0, x-max: 0.2; free; free"));
   EnergyBudget budget(body.system.equation(), body.state, 0., 0.);
   solve_static(body);
   StepRecord record;

@@ -21,10 +21,9 @@ namespace
     "move in any direction and rotate about any axis";
 
   std::string
-  conditions(const std::string &fixed, const std::string &displacement = "")
+  conditions(const std::string &held, const std::string &displacement = "")
   {
-    return "subsection Boundary conditions\n set Fixed = " + fixed +
-           "\n set Displacement = " + displacement + "\nend\n";
+    return fixed(held) + displacements(displacement);
   }
 
   // The unit cube and one that is shifted, with vertices in common where they
@@ -79,14 +78,12 @@ namespace
 
 TEST(Supports, OneBody)
 {
-  for (const std::string degree : {"1", "2"})
+  for (const unsigned int degree : {1, 2})
     {
       const auto found = [&](const std::string &fixed,
                              const std::string &displacement = "") {
         return motions(box("1, 2, 3", "2, 2, 2"),
-                       conditions(fixed, displacement) +
-                         "subsection Discretization\n set Degree = " + degree +
-                         "\nend\n");
+                       conditions(fixed, displacement) + element_text(degree));
       };
       EXPECT_EQ(found(""), "the body can " + anything);
       EXPECT_EQ(found("x-min & z-min"),
@@ -159,16 +156,10 @@ TEST(Supports, Words)
 // Also where the loads are in balance. In dynamics a body may fly.
 TEST(Supports, AreNeededInStatics)
 {
-  const auto refused = [](const std::string &time_integration) {
+  const auto refused = [](const std::string &type) {
     return refusal([&] {
-      CompleteRun run(R"(
-        subsection Boundary conditions
-          set Fixed    = x-min & z-min
-          set Pressure = x-min: 1, x-max: 1
-        end
-        subsection Time integration
-          set Type = )" +
-                      time_integration + "\nend\n");
+      CompleteRun run(fixed("x-min & z-min") + pressures("x-min: 1, x-max: 1") +
+                      section("Time integration", {{"Type", type}}));
     });
   };
   EXPECT_EQ(refused("static"),
@@ -184,17 +175,9 @@ TEST(Supports, SingularMatrixEndsStatics)
 {
   for (const std::string law : {"linear", "corotational"})
     {
-      MovingBody  body(box("1, 1, 1", "2, 2, 2"), R"(
-        subsection Boundary conditions
-          set Traction = x-max: 1; 0; 0
-        end
-        subsection Material
-          set Type = )" + law + R"(
-        end
-        subsection Time integration
-          set Type             = static
-          set Maximum halvings = 8
-        end)");
+      MovingBody  body(box("1, 1, 1", "2, 2, 2"),
+                      material_type(law) + tractions("x-max: 1; 0; 0") +
+                        statics());
       TimeLoop    stepper(body.parameters, body.system, body.log);
       StepRecord  record = stepper.start({});
       std::string message;

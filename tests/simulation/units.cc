@@ -48,42 +48,15 @@ namespace
   {
     const double metre  = std::ldexp(1., units.length);
     const double pascal = std::ldexp(1., units.modulus);
-    return fmt::format(R"(
-      subsection Mesh
-        subsection box
-          set Size  = {:.17g}, {:.17g}, {:.17g}
-          set Cells = 8, 2, 2
-        end
-      end
-      subsection Discretization
-        set Degree = {}
-      end
-      subsection Material
-        set Type            = {}
-        set Young's modulus = {:.17g}
-        set Poisson's ratio = 0.3
-        set Density         = {:.17g}
-      end
-      subsection Boundary conditions
-        set Fixed    = x-min
-        set Traction = x-max: {:.17g}; {:.17g}; 0
-      end
-      subsection Linear solver
-        subsection p-multigrid
-          set Coarse solver = {}
-        end
-      end
-      )",
-                       4 * metre,
-                       metre,
-                       metre,
-                       degree,
-                       law,
-                       pascal,
-                       std::ldexp(1., units.density),
-                       1e-3 * pascal,
-                       1e-4 * pascal,
-                       coarse_solver);
+    return box_mesh(fmt::format("{0}, {1}, {1}", 4 * metre, metre), "8, 2, 2") +
+           element_text(degree) + material_type(law) +
+           material_text(pascal, 0.3, std::ldexp(1., units.density)) +
+           fixed("x-min") +
+           tractions(
+             fmt::format("x-max: {}; {}; 0", 1e-3 * pascal, 1e-4 * pascal)) +
+           section("Linear solver",
+                   {section("p-multigrid",
+                            {{"Coarse solver", coarse_solver}})});
   }
 
   // At the end, in these units.
@@ -110,24 +83,13 @@ namespace
                      const double       end_time)
   {
     const auto found = [&](const Units &units) {
-      return displacement(body(units, degree, law, coarse_solver) +
-                            fmt::format(R"(
-      subsection Discretization
-        set Mass = {}
-      end
-      subsection Time integration
-        set Type      = {}
-        set Time step = {:.17g}
-        set End time  = {:.17g}
-        subsection static
-          set Load steps = 2
-        end
-      end)",
-                                        mass,
-                                        integrator,
-                                        time_step * units.seconds(),
-                                        end_time * units.seconds()),
-                          units);
+      return displacement(
+        body(units, degree, law, coarse_solver) + element_text(degree, mass) +
+          time_integration(integrator,
+                           end_time * units.seconds(),
+                           time_step * units.seconds(),
+                           {section("static", {{"Load steps", 2}})}),
+        units);
     };
     const std::vector<double> reference = found({});
     for (const Units &units : all_units)
@@ -174,7 +136,7 @@ TEST(Units, Modes)
       {
         const auto found = [&](const Units &units) {
           const Analysis computed(body(units, degree, "linear", coarse_solver) +
-                                  "subsection Modes\n set Number = 4\nend\n");
+                                  section("Modes", {{"Number", 4}}));
           std::vector<double> result;
           for (const Mode &mode : computed.analysis.modes())
             result.push_back(mode.frequency * units.seconds());

@@ -19,15 +19,6 @@ using namespace corotet::tests;
 
 namespace
 {
-  std::string
-  beam(const std::string &fixed)
-  {
-    return "subsection Discretization\n set Degree = 2\nend\n" +
-           (fixed.empty() ? std::string() :
-                            "subsection Boundary conditions\n set Fixed = " +
-                              fixed + "\nend\n");
-  }
-
   std::unique_ptr<Preconditioner>
   registered(const std::string &name)
   {
@@ -42,7 +33,8 @@ namespace
 // number of the beam is below 1e6, that of its inertia far below.
 TEST(Direct, InvertsMatrix)
 {
-  MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1), beam("x-min"));
+  MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1),
+                  element_text(2) + fixed("x-min"));
   EffectiveOperator A(body.discretization,
                       body.elasticity,
                       body.mass,
@@ -73,7 +65,7 @@ TEST(Direct, InvertsMatrix)
 // A body that may move without resistance has no inverse.
 TEST(Direct, RefusesFreeBody)
 {
-  MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1), beam(""));
+  MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1), element_text(2));
   EffectiveOperator A(body.discretization,
                       body.elasticity,
                       body.mass,

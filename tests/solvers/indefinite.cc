@@ -26,31 +26,14 @@ namespace
     Bar(const unsigned int degree,
         const std::string &rotation,
         const std::string &method,
-        const std::string &more = "")
+        const Entries      more = {})
       : MovingBody(box("4, 1, 1", "6, 2, 2", 0.1),
-                   fmt::format(R"(
-        subsection Discretization
-          set Degree = {}
-        end
-        subsection Material
-          set Rotation = {}
-        end
-        subsection Boundary conditions
-          set Fixed = x-min
-        end
-        subsection Newton
-          set Tangent = consistent
-        end
-        subsection Linear solver
-          set Method    = {}
-          set Tolerance = {}
-          {}
-        end)",
-                               degree,
-                               rotation,
-                               method,
-                               tolerance,
-                               more))
+                   element_text(degree) + fixed("x-min") +
+                     rotation_at(rotation) +
+                     section("Newton", {{"Tangent", "consistent"}}) +
+                     section("Linear solver",
+                             {{"Method", method}, {"Tolerance", tolerance}}) +
+                     section("Linear solver", more))
       , A(discretization, elasticity, mass, motion.is_prescribed())
       , J(A, elasticity, system.equation().terms)
     {}
@@ -152,7 +135,7 @@ TEST_P(Indefinite, AllMethodsAgree)
       Vector expected;
       for (const std::string method : {"minres", "gmres", "automatic"})
         {
-          Bar bar(2, GetParam(), method, "set Type = " + preconditioner);
+          Bar bar(2, GetParam(), method, {{"Type", preconditioner}});
           bar.linearize(compressed);
           EXPECT_TRUE(bar.J.is_symmetric());
           EXPECT_LE(bar.buckling_curvature(), -1e-3);
@@ -255,7 +238,7 @@ TEST(Unsymmetric, Refusals)
   for (const std::string rotation : {"quadrature points", "cell centre"})
     EXPECT_EQ(
       refusal([&] {
-        Bar(2, rotation, "automatic", "set Operator = assembled");
+        Bar(2, rotation, "automatic", {{"Operator", "assembled"}});
       }).find("Linear solver/Operator: found assembled; allowed: matrix-free"),
       0u);
 }

@@ -22,13 +22,11 @@ class PreconditionerTest : public testing::TestWithParam<std::string>
 // is computed by the matrix itself; the tolerance is what was asked for.
 TEST_P(PreconditionerTest, SolvesClampedBeam)
 {
-  for (const std::string degree : {"1", "2", "3"})
+  for (const unsigned int degree : {1, 2, 3})
     {
       MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1),
-                      "subsection Discretization\n set Degree = " + degree +
-                        "\nend\nsubsection Boundary conditions\n set Fixed = "
-                               "x-min\nend\nsubsection Linear solver\n set Type = " +
-                        GetParam() + "\n set Tolerance = 1e-12\nend\n");
+                      element_text(degree) + fixed("x-min") +
+                        linear_solver(GetParam(), 1e-12));
       const auto       &motion = body.motion;
       EffectiveOperator A(body.discretization,
                           body.elasticity,
@@ -71,13 +69,12 @@ TEST(LinearSolver, MethodsAndOperators)
     for (const std::string operator_type : {"matrix-free", "assembled"})
       {
         MovingBody        body(box("4, 1, 1", "8, 2, 2", 0.1),
-                        "subsection Discretization\n set Degree = 3\nend\n"
-                               "subsection Newton\n set Tangent = frozen "
-                               "rotation\nend\n"
-                               "subsection Boundary conditions\n set Fixed = "
-                               "x-min\nend\nsubsection Linear solver\n set Method = " +
-                          method + "\n set Operator = " + operator_type +
-                          "\n set Tolerance = 1e-10\nend\n");
+                        element_text(3) + fixed("x-min") +
+                          section("Newton", {{"Tangent", "frozen rotation"}}) +
+                          section("Linear solver",
+                                         {{"Method", method},
+                                          {"Operator", operator_type},
+                                          {"Tolerance", 1e-10}}));
         EffectiveOperator A(body.discretization,
                             body.elasticity,
                             body.mass,
@@ -101,9 +98,9 @@ TEST(LinearSolver, MethodsAndOperators)
 TEST(LinearSolver, FailureIsClear)
 {
   MovingBody        body(box("4, 1, 1", "4, 1, 1"),
-                  "subsection Boundary conditions\n set Fixed = x-min\nend\n"
-                         "subsection Linear solver\n set Type = jacobi\n set "
-                         "Maximum iterations = 3\nend\n");
+                  fixed("x-min") +
+                    section("Linear solver",
+                                   {{"Type", "jacobi"}, {"Maximum iterations", 3}}));
   EffectiveOperator A(body.discretization,
                       body.elasticity,
                       body.mass,
@@ -166,18 +163,17 @@ TEST(LinearSolver, PreconditionerOfAnotherProgram)
 {
   const AddedCandidate<Preconditioner> multiple(
     candidate<Preconditioner, Multiple>("multiple"));
-  const auto solve = [](const std::string &factor) {
-    return solve_beam(
-      "4, 1, 1",
-      1,
-      "set Type = multiple\n subsection multiple\n set Factor = " + factor +
-        "\n end");
+  const auto solve = [](const unsigned int factor) {
+    return solve_beam("4, 1, 1",
+                      1,
+                      {{"Type", "multiple"},
+                       section("multiple", {{"Factor", factor}})});
   };
   Multiple::n_builds = 0;
-  const Solved one = solve("1"), four = solve("4");
+  const Solved one = solve(1), four = solve(4);
   EXPECT_EQ(Multiple::n_builds, 2u);
   EXPECT_GT(one.iterations,
-            solve_beam("4, 1, 1", 1, "set Type = direct").iterations);
+            solve_beam("4, 1, 1", 1, {{"Type", "direct"}}).iterations);
   EXPECT_EQ(one.iterations, four.iterations);
   EXPECT_EQ(one.x, four.x);
 }

@@ -53,12 +53,10 @@ namespace
   std::string
   text(const Beam &beam, const unsigned int degree)
   {
-    return "subsection Discretization\n set Degree = " +
-           std::to_string(degree) + "\n set Mass = " + beam.mass +
-           "\nend\nsubsection Material\n set Young's modulus = " +
-           beam.youngs_modulus +
-           "\n set Poisson's ratio = " + beam.poissons_ratio +
-           "\nend\nsubsection Boundary conditions\n set Fixed = x-min\nend\n";
+    return element_text(degree, beam.mass) + fixed("x-min") +
+           section("Material",
+                   {{"Young's modulus", beam.youngs_modulus},
+                    {"Poisson's ratio", beam.poissons_ratio}});
   }
 
   // With the coarse solvers that optional parts bring.

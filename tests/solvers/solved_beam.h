@@ -22,14 +22,11 @@ namespace corotet::tests
   inline Solved
   solve_beam(const std::string &cells,
              const unsigned int degree,
-             const std::string &entries)
+             const Entries      entries)
   {
     MovingBody        body(box("4, 1, 1", cells, 0.1),
-                    "subsection Discretization\n set Degree = " +
-                      std::to_string(degree) +
-                      "\nend\nsubsection Boundary conditions\n set Fixed = "
-                             "x-min\nend\nsubsection Linear solver\n" +
-                      entries + "\nend\n");
+                    element_text(degree) + fixed("x-min") +
+                      section("Linear solver", entries));
     EffectiveOperator A(body.discretization,
                         body.elasticity,
                         body.mass,

@@ -55,31 +55,35 @@ TEST(EpetraMatrix, ShowsTheMatrix)
 // below degree 2, too.
 TEST(AMG, CoarseSolverHasItsParameters)
 {
-  const std::string within =
-    "set Type = p-multigrid\n subsection p-multigrid\n set Coarse solver = "
-    "amg\n end\n";
-  const auto amg = [](const std::string &sweeps, const std::string &threshold) {
-    return "subsection amg\n set Smoother sweeps = " + sweeps +
-           "\n set Aggregation threshold = " + threshold + "\n end\n";
-  };
   // More unknowns than the coarsest level may have.
   const std::string cells = "20, 6, 6";
-  for (const std::string sweeps : {"1", "2", "8"})
-    for (const std::string threshold : {"1e-4", "0.05"})
+  const auto amg = [](const unsigned int sweeps, const double threshold) {
+    return section("amg",
+                   {{"Smoother sweeps", sweeps},
+                    {"Aggregation threshold", threshold}});
+  };
+  const auto solve_within = [&](const unsigned int degree,
+                                const unsigned int sweeps,
+                                const double       threshold) {
+    return solve_beam(cells,
+                      degree,
+                      {{"Type", "p-multigrid"},
+                       section("p-multigrid", {{"Coarse solver", "amg"}}),
+                       amg(sweeps, threshold)});
+  };
+  for (const unsigned int sweeps : {1, 2, 8})
+    for (const double threshold : {1e-4, 0.05})
       {
         const Solved by_itself =
-          solve_beam(cells, 1, "set Type = amg\n" + amg(sweeps, threshold));
-        const Solved coarse =
-          solve_beam(cells, 1, within + amg(sweeps, threshold));
+          solve_beam(cells, 1, {{"Type", "amg"}, amg(sweeps, threshold)});
+        const Solved coarse = solve_within(1, sweeps, threshold);
         EXPECT_EQ(coarse.iterations, by_itself.iterations);
         EXPECT_EQ(coarse.x, by_itself.x) << sweeps << ' ' << threshold;
       }
   for (const unsigned int degree : {1u, 2u})
     {
-      const unsigned int few =
-        solve_beam(cells, degree, within + amg("1", "1e-4")).iterations;
-      const unsigned int many =
-        solve_beam(cells, degree, within + amg("8", "1e-4")).iterations;
+      const unsigned int few  = solve_within(degree, 1, 1e-4).iterations;
+      const unsigned int many = solve_within(degree, 8, 1e-4).iterations;
       report("iterations with 1 sweep", few);
       report("iterations with 8 sweeps", many);
       EXPECT_GT(few, many) << degree;
