@@ -142,6 +142,23 @@ namespace corotet
         }
     }
 
+    // The pattern of @p node, an entry, does not fit what @p statement says.
+    std::string
+    refused_value_message(const ParameterStatement &statement, const Json &node)
+    {
+      const std::string pattern = node.value("pattern_description", "");
+      const std::string message =
+        fmt::format("the value \"{}\" of \"{}\" is not allowed; allowed is {}",
+                    *statement.value,
+                    statement.path,
+                    describe_pattern(pattern));
+      const std::string suggestion =
+        nearest(*statement.value, selection_names(pattern));
+      return suggestion.empty() ?
+               message :
+               fmt::format("{}; did you mean \"{}\"?", message, suggestion);
+    }
+
     std::string
     moved_file_name(const std::string &file,
                     const fs::path    &from,
@@ -227,13 +244,7 @@ namespace corotet
     for (std::size_t i = 0; i < sections.size(); ++i)
       prm.leave_subsection();
     if (!accepted)
-      fail(statement,
-           fmt::format("the value \"{}\" of \"{}\" is not allowed; allowed "
-                       "is {}",
-                       *statement.value,
-                       statement.path,
-                       describe_pattern(
-                         node.value("pattern_description", ""))));
+      fail(statement, refused_value_message(statement, node));
   }
 
   std::string

@@ -181,12 +181,21 @@ namespace corotet
     }
   } // namespace
 
+  std::vector<std::string>
+  selection_names(const std::string &description)
+  {
+    static const std::regex selection(R"(\[Selection (.*\S)\s*\])");
+    std::smatch             match;
+    if (!std::regex_match(description, match, selection))
+      return {};
+    return dealii::Utilities::split_string_list(match[1].str(), '|');
+  }
+
   std::string
   describe_pattern(const std::string &description)
   {
     static const std::regex range(
       R"(\[(Double|Integer range) (\S+)\.\.\.(\S+) \(inclusive\)\])");
-    static const std::regex selection(R"(\[Selection (.*\S)\s*\])");
     static const std::regex list(
       R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\)(?: separated by <(.*)>)?\])");
 
@@ -199,12 +208,8 @@ namespace corotet
                                                    "a whole number",
                             match[2],
                             match[3]);
-    if (std::regex_match(description, match, selection))
-      {
-        const std::string names = match[1];
-        return (names.find('|') == std::string::npos ? "only " : "one of ") +
-               replaced(names, "|", ", ");
-      }
+    if (const auto names = selection_names(description); !names.empty())
+      return (names.size() == 1 ? "only " : "one of ") + join(names);
     if (std::regex_match(description, match, list))
       return describe_list(match[1], match[2], match[3], match[4]);
     if (std::regex_match(description, match, map))

@@ -53,7 +53,12 @@ TEST(ParameterFile, RefusesValuesThatAreNotAllowed)
   EXPECT_EQ(example.refusal("a.prm",
                             "subsection Material\n  set Law = linea\nend\n"),
             "a.prm:2: the value \"linea\" of \"Material/Law\" is not allowed; "
-            "allowed is one of linear, corotational");
+            "allowed is one of linear, corotational; did you mean "
+            "\"linear\"?");
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Law = rubber\nend\n"),
+            "a.prm:2: the value \"rubber\" of \"Material/Law\" is not "
+            "allowed; allowed is one of linear, corotational");
   // ParameterHandler::parse_input() would take any text with a brace.
   EXPECT_EQ(example.refusal("a.prm",
                             "subsection Material\n  set Density = {1}\nend\n"),

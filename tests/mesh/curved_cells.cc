@@ -45,7 +45,7 @@ namespace
   // A tetrahedron with ten nodes, in gmsh's order; the middle of the first edge
   // is at (0.5, y, 0).
   std::string
-  tetrahedron(const std::string &y)
+  tetrahedron_mesh(const std::string &y)
   {
     return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 "
            "0\n3 0 1 0\n4 0 0 1\n5 .5 " +
@@ -154,18 +154,18 @@ TEST(CurvedCells, Refinement)
 TEST(CurvedCells, OneCell)
 {
   const TemporaryFolder folder;
-  const std::string     file = folder.write("cell.msh", tetrahedron("0"));
+  const std::string     file = folder.write("cell.msh", tetrahedron_mesh("0"));
   SerialMesh            mesh = read_gmsh(file);
   EXPECT_EQ(mesh.geometry_degree, 1u);
   EXPECT_TRUE(mesh.curved_nodes.empty());
 
-  folder.write("cell.msh", tetrahedron("-0.1"));
+  folder.write("cell.msh", tetrahedron_mesh("-0.1"));
   mesh = read_gmsh(file);
   EXPECT_EQ(mesh.geometry_degree, 2u);
   ASSERT_EQ(n_curved(mesh), 1u);
   check_mesh(mesh);
 
-  folder.write("cell.msh", tetrahedron("0.3"));
+  folder.write("cell.msh", tetrahedron_mesh("0.3"));
   const std::string text = refusal([&] {
     SerialMesh mesh = read_gmsh(file);
     check_mesh(mesh);
@@ -183,9 +183,9 @@ TEST(CurvedCells, OneCell)
 TEST(CurvedCells, FoldsAreNoMatterToDegreeOne)
 {
   const TemporaryFolder folder;
-  const std::string     file = folder.write("cell.msh", tetrahedron("0.6"));
-  Log                   log(MPI_COMM_WORLD, true);
-  const auto            make = [&](const unsigned int refinements,
+  const std::string file = folder.write("cell.msh", tetrahedron_mesh("0.6"));
+  Log               log(MPI_COMM_WORLD, true);
+  const auto        make = [&](const unsigned int refinements,
                         const unsigned int degree) {
     Mesh(read_gmsh(file), refinements, 1., MPI_COMM_SELF, log, degree);
   };
@@ -223,7 +223,7 @@ TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
 TEST(CurvedCells, Refusals)
 {
   const TemporaryFolder folder;
-  std::string           text = tetrahedron("0");
+  std::string           text = tetrahedron_mesh("0");
   const std::string     elements("1\n1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n");
   text.replace(text.find(elements),
                elements.size(),

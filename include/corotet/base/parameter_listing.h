@@ -8,6 +8,7 @@
 
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace corotet
 {
@@ -17,6 +18,11 @@ namespace corotet
    */
   std::string
   describe_pattern(const std::string &description);
+
+  /// The names among which a deal.II pattern lets one choose; empty if the
+  /// pattern is of another kind.
+  std::vector<std::string>
+  selection_names(const std::string &description);
 
   /**
    * Whether a node of a ParameterHandler's JSON tree is an entry (not a
