@@ -37,7 +37,7 @@ verify:
 	@$(TOOLCHAIN) scripts/verify
 
 bench:
-	@$(TOOLCHAIN) sh -ec 'cmake -G Ninja -B build/bench -DCMAKE_BUILD_TYPE=Release -DCOROTET_TESTS=OFF -DCOROTET_BENCHMARKS=ON; \
+	@$(TOOLCHAIN) sh -ec 'cmake -G Ninja -B build/bench -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCOROTET_TESTS=OFF -DCOROTET_BENCHMARKS=ON; \
 	  cmake --build build/bench --target bench_machine bench_kernels bench_case'
 	@$(TOOLCHAIN) benchmarks/run_benchmarks.py $(if $(QUICK),--quick)
 

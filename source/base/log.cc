@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/whole_file.h>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -93,6 +94,15 @@ namespace corotet
           throw MachineError(path + ": the log file cannot be written (is the "
                                     "disk full, or permission missing?)");
         }
+      kept.clear();
+    });
+  }
+
+  void
+  Log::resume(const std::string &path, const std::int64_t size)
+  {
+    on_root(comm, [&] {
+      continue_file(path, size, "the log file", file);
       kept.clear();
     });
   }

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/text.h>
 
 #include <chrono>
 #include <filesystem>
@@ -144,9 +145,13 @@ namespace corotet
         if (!is_agreed || this_mpi_process(comm) == 0)
           // In one piece: mpirun may lose some of several when the program
           // fails.
-          std::cerr << "corotet: error: " +
-                         (outcome.entry.empty() ? "" : outcome.entry + ": ") +
-                         outcome.message + "\n"
+          std::cerr << (outcome.exit_status == Stopped::status ?
+                          "corotet: stopped: " :
+                          "corotet: error: ") +
+                         printable(
+                           (outcome.entry.empty() ? "" : outcome.entry + ": ") +
+                           outcome.message) +
+                         "\n"
                     << std::flush;
         if (!is_agreed)
           MPI_Abort(comm, outcome.exit_status);

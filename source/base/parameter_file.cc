@@ -73,7 +73,7 @@ namespace corotet
       const std::string message =
         fmt::format("there is no {} \"{}\" {}",
                     kind,
-                    name,
+                    shortened(name),
                     path.empty() ? "at the top level" : "in \"" + path + "\"");
 
       const std::string suggestion = nearest(name, names);
@@ -149,7 +149,7 @@ namespace corotet
       const std::string pattern = node.value("pattern_description", "");
       const std::string message =
         fmt::format("the value \"{}\" of \"{}\" is not allowed; allowed is {}",
-                    *statement.value,
+                    shortened(*statement.value),
                     statement.path,
                     describe_pattern(pattern));
       const std::string suggestion =

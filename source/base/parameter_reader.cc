@@ -3,20 +3,17 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/parameter_reader.h>
+#include <corotet/base/parameter_trees.h>
 #include <corotet/base/text.h>
 
 #include <deal.II/base/utilities.h>
 
-#include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <regex>
+#include <system_error>
 
 namespace corotet
 {
@@ -28,6 +25,7 @@ namespace corotet
 
     // A file that includes itself would otherwise never end.
     constexpr unsigned int max_include_depth = 10;
+    constexpr unsigned int max_includes      = 1000;
 
     [[noreturn]] void
     fail(const std::string &place, const std::string &message)
@@ -38,11 +36,21 @@ namespace corotet
     std::ifstream
     open(const std::string &path)
     {
-      if (!fs::exists(path))
+      std::error_code error;
+      const bool      exists = fs::exists(path, error);
+      if (error)
+        fail(shortened(path), error.message());
+      if (!exists)
         fail(path, "there is no such file");
       std::ifstream file(path);
-      if (fs::is_directory(path) || !file)
+      if (!fs::is_regular_file(path) || !file)
         fail(path, "it cannot be read as a file");
+      // A byte order mark is no part of the text.
+      const std::string mark = "\xEF\xBB\xBF";
+      std::string       start(mark.size(), '\0');
+      file.read(start.data(), start.size());
+      file.clear();
+      file.seekg(start == mark ? mark.size() : 0);
       return file;
     }
 
@@ -124,6 +132,8 @@ namespace corotet
           {
             if (name->empty())
               fail(place, "\"subsection\" without a name");
+            if (sections.size() == max_section_depth)
+              fail_as_too_deep(place);
             sections.emplace_back(*name, place);
             statements.push_back({path_of(""), std::nullopt, place});
           }
@@ -132,7 +142,7 @@ namespace corotet
             if (!rest->empty())
               fail(place,
                    fmt::format("\"{}\" behind \"end\"; nothing may follow",
-                               *rest));
+                               shortened(*rest)));
             if (sections.size() == outer_depth)
               fail(place, "\"end\", but there is no subsection to leave here");
             sections.pop_back();
@@ -146,7 +156,7 @@ namespace corotet
               fail(place,
                    fmt::format("\"{}\" is not of the form \"set Entry = "
                                "value\"",
-                               line));
+                               shortened(line)));
             statements.push_back(
               {path_of(name),
                dealii::Utilities::trim(assignment->substr(equals + 1)),
@@ -158,11 +168,16 @@ namespace corotet
               fail(place,
                    fmt::format("files include each other more than {} deep",
                                max_include_depth));
-            const fs::path path = fs::path(file).parent_path() / *included;
-            if (included->empty() || !fs::is_regular_file(path))
+            if (++n_included > max_includes)
+              fail(place,
+                   fmt::format("more than {} files are included",
+                               max_includes));
+            const fs::path  path = fs::path(file).parent_path() / *included;
+            std::error_code error;
+            if (included->empty() || !fs::is_regular_file(path, error))
               fail(place,
                    fmt::format("the file to include, \"{}\", does not exist",
-                               path.string()));
+                               shortened(path.string())));
             read(path.string(), include_depth + 1);
           }
         else
@@ -170,7 +185,7 @@ namespace corotet
                fmt::format("\"{}\" is no statement; allowed are \"set Entry = "
                            "value\", \"subsection Name\", \"end\" and "
                            "\"include FILE\"",
-                           line));
+                           shortened(line)));
       }
 
       std::string
@@ -186,137 +201,8 @@ namespace corotet
 
       // Names of the subsections that are open, and where they were opened.
       std::vector<std::pair<std::string, std::string>> sections;
+      unsigned int                                     n_included = 0;
     };
-
-    // ParameterHandler's spelling of names in .xml files: all but letters and
-    // digits as _ and two hexadecimal digits.
-    std::string
-    demangle(const std::string &name)
-    {
-      std::string result;
-      for (std::size_t i = 0; i < name.size(); ++i)
-        if (name[i] == '_' && i + 2 < name.size())
-          {
-            result += static_cast<char>(
-              std::strtol(name.substr(i + 1, 2).c_str(), nullptr, 16));
-            i += 2;
-          }
-        else
-          result += name[i];
-      return result;
-    }
-
-    void
-    collect(const boost::property_tree::ptree &tree,
-            const std::string                 &path,
-            const std::string                 &file,
-            Statements                        &statements)
-    {
-      for (const auto &[key, node] : tree)
-        {
-          if (key == "<xmlcomment>" || node.get_optional<std::string>("alias"))
-            continue;
-          const std::string name =
-            path.empty() ? demangle(key) : path + "/" + demangle(key);
-          const auto value = node.get_optional<std::string>("value");
-          if (value || node.empty())
-            {
-              const std::string text =
-                dealii::Utilities::trim(value ? *value : node.data());
-              statements.push_back({name, text, file, !value && text.empty()});
-            }
-          else
-            {
-              statements.push_back({name, std::nullopt, file});
-              collect(node, name, file, statements);
-            }
-        }
-    }
-
-    Statements
-    read_xml(const std::string &path)
-    {
-      std::ifstream               file = open(path);
-      boost::property_tree::ptree tree;
-      try
-        {
-          boost::property_tree::read_xml(
-            file, tree, boost::property_tree::xml_parser::no_comments);
-        }
-      catch (const boost::property_tree::xml_parser_error &error)
-        {
-          fail(fmt::format("{}:{}", path, error.line()),
-               "it is no valid XML: " + error.message());
-        }
-      const auto root = tree.get_child_optional("ParameterHandler");
-      if (!root || tree.size() != 1)
-        fail(path,
-             "it must have one outermost element, called ParameterHandler");
-      Statements statements;
-      collect(*root, "", path, statements);
-      return statements;
-    }
-
-    void
-    collect(const nlohmann::ordered_json &tree,
-            const std::string            &path,
-            const std::string            &file,
-            Statements                   &statements)
-    {
-      for (const auto &[key, node] : tree.items())
-        {
-          const std::string name  = path.empty() ? key : path + "/" + key;
-          const bool        whole = node.is_object() && node.contains("value");
-          const auto       &value = whole ? node.at("value") : node;
-          if (value.is_object())
-            {
-              if (value.contains("alias"))
-                continue;
-              statements.push_back({name, std::nullopt, file});
-              collect(value, name, file, statements);
-            }
-          else if (value.is_string())
-            {
-              const std::string text =
-                dealii::Utilities::trim(value.get<std::string>());
-              statements.push_back({name, text, file, !whole && text.empty()});
-            }
-          else if (value.is_number() || value.is_boolean())
-            statements.push_back({name, value.dump(), file});
-          else
-            fail(file,
-                 fmt::format("\"{}\" is {}; allowed are a text, a number, true "
-                             "and false",
-                             name,
-                             value.is_null() ? "null" : "a list"));
-        }
-    }
-
-    Statements
-    read_json(const std::string &path)
-    {
-      std::ifstream          file = open(path);
-      nlohmann::ordered_json tree;
-      try
-        {
-          tree = nlohmann::ordered_json::parse(file);
-        }
-      catch (const nlohmann::json::exception &error)
-        {
-          // "[...] parse error at line 3, column 5: reason"
-          const std::string text = error.what();
-          std::smatch       match;
-          const bool        found = std::regex_search(
-            text, match, std::regex("at line ([0-9]+), column [0-9]+: (.*)"));
-          fail(found ? path + ":" + match[1].str() : path,
-               "it is no valid JSON: " + (found ? match[2].str() : text));
-        }
-      if (!tree.is_object())
-        fail(path, "it must be one JSON object, {...}");
-      Statements statements;
-      collect(tree, "", path, statements);
-      return statements;
-    }
   } // namespace
 
   std::vector<ParameterStatement>
@@ -324,9 +210,15 @@ namespace corotet
   {
     const std::string ending = fs::path(path).extension().string();
     if (ending == ".json")
-      return read_json(path);
+      {
+        std::ifstream file = open(path);
+        return read_json_statements(path, file);
+      }
     if (ending == ".xml")
-      return read_xml(path);
+      {
+        std::ifstream file = open(path);
+        return read_xml_statements(path, file);
+      }
     if (ending != ".prm")
       fail(path,
            fmt::format("a parameter file cannot end in \"{}\"; allowed are "

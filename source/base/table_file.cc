@@ -48,13 +48,6 @@ namespace corotet
       return words;
     }
 
-    // What is found in a file that is none of ours can be long.
-    std::string
-    shortened(const std::string &text)
-    {
-      return text.size() <= 40 ? text : text.substr(0, 40) + "...";
-    }
-
     double
     checked_number(const std::string &text, const std::string &place)
     {

@@ -52,9 +52,13 @@ namespace corotet
     std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string &candidate : candidates)
       {
+        const std::size_t shorter = std::min(word.size(), candidate.size());
+        const std::size_t longer  = std::max(word.size(), candidate.size());
+        const std::size_t near    = std::max<std::size_t>(1, longer / 3);
+        // No text of any length is compared with a name.
+        if (longer - shorter > near)
+          continue;
         const std::size_t d = distance(word, candidate);
-        const std::size_t near =
-          std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
         if (d <= near && d < best_distance)
           {
             best          = candidate;
@@ -68,6 +72,44 @@ namespace corotet
   join(const std::vector<std::string> &parts, const std::string &separator)
   {
     return fmt::format("{}", fmt::join(parts, separator));
+  }
+
+  namespace
+  {
+    // The first @p size bytes, or some less so as not to cut a character of
+    // UTF-8.
+    std::string
+    start_of(const std::string &text, std::size_t size)
+    {
+      while (size > 0 &&
+             (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80)
+        --size;
+      return text.substr(0, size);
+    }
+  } // namespace
+
+  std::string
+  shortened(const std::string &text)
+  {
+    constexpr std::size_t most = 120;
+    if (text.size() <= most)
+      return text;
+    return fmt::format("{}... ({} characters)",
+                       start_of(text, most),
+                       text.size());
+  }
+
+  std::string
+  printable(const std::string &message)
+  {
+    constexpr std::size_t most = 4000;
+    std::string           result;
+    for (const char c : message)
+      if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
+        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+      else
+        result += c;
+    return result.size() <= most ? result : start_of(result, most) + "...";
   }
 
   std::vector<std::string>

@@ -120,6 +120,7 @@ namespace corotet
             }
 
         active_indices.push_back(cell->active_cell_index());
+        mesh_cells.push_back(cell->id().get_coarse_cell_id());
 
         dealii::Tensor<2, 3> jacobian;
         for (unsigned int k = 0; k < 3; ++k)

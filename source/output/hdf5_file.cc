@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/output/hdf5_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,30 +21,6 @@ namespace corotet
 {
   namespace
   {
-    // Keeps HDF5 from printing its error stack: finish() tells the user.
-    class Silence
-    {
-    public:
-      Silence()
-      {
-        H5Eget_auto2(H5E_DEFAULT, &function, &data);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-      }
-
-      ~Silence()
-      {
-        H5Eset_auto2(H5E_DEFAULT, function, data);
-      }
-
-      Silence(const Silence &) = delete;
-      Silence &
-      operator=(const Silence &) = delete;
-
-    private:
-      H5E_auto2_t function = nullptr;
-      void       *data     = nullptr;
-    };
-
     template <typename Number>
     hid_t
     native_type()
@@ -71,6 +48,16 @@ namespace corotet
         H5Screate_simple(n_columns == 0 ? 1 : 2, sizes.data(), nullptr));
     }
 
+    // Of what is made in the file: without the time of day, so that the same
+    // numbers make the same file.
+    Hdf5Id
+    creation_properties(const hid_t kind)
+    {
+      Hdf5Id properties(H5Pcreate(kind));
+      H5Pset_obj_track_times(properties, 0);
+      return properties;
+    }
+
     // Selects rows of a table.
     herr_t
     select_rows(const Hdf5Id &space,
@@ -94,13 +81,15 @@ namespace corotet
     const std::string temporary = path + ".tmp";
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        const Silence silence;
-        const Hdf5Id  access(H5Pcreate(H5P_FILE_ACCESS));
+        const Hdf5Silence silence;
+        const Hdf5Id      access(H5Pcreate(H5P_FILE_ACCESS));
         // What virtual tables need anyway makes groups and references smaller,
         // too.
         check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
-        file = Hdf5Id(
-          H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+        file = Hdf5Id(H5Fcreate(temporary.c_str(),
+                                H5F_ACC_TRUNC,
+                                creation_properties(H5P_FILE_CREATE),
+                                access));
         check(file);
       }
     // Then it is there, for all to open.
@@ -133,10 +122,10 @@ namespace corotet
   {
     if (file < 0)
       return HADDR_UNDEF;
-    const Silence silence;
-    const Hdf5Id  space = table_space(rows.n_global_rows, rows.n_columns);
+    const Hdf5Silence silence;
+    const Hdf5Id      space = table_space(rows.n_global_rows, rows.n_columns);
     // A place in the file now, which nobody but write_bytes() fills.
-    const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE));
+    const Hdf5Id creation = creation_properties(H5P_DATASET_CREATE);
     check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
     check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
     const Hdf5Id dataset(H5Dcreate2(
@@ -202,8 +191,8 @@ namespace corotet
   {
     if (file < 0)
       return;
-    const Silence silence;
-    const Hdf5Id  creation(H5Pcreate(H5P_DATASET_CREATE));
+    const Hdf5Silence silence;
+    const Hdf5Id      creation = creation_properties(H5P_DATASET_CREATE);
     check(H5Pset_fill_value(creation, H5T_NATIVE_INT64, &value));
     // Rows that are never written have the fill value.
     check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_LATE));
@@ -227,13 +216,13 @@ namespace corotet
   {
     if (file < 0)
       return;
-    const Silence silence;
-    hsize_t       n_rows = 0;
+    const Hdf5Silence silence;
+    hsize_t           n_rows = 0;
     for (const Hdf5Part &part : parts)
       n_rows += part.n_rows;
-    const Hdf5Id space = table_space(n_rows, n_columns);
-    const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE));
-    hsize_t      first = 0;
+    const Hdf5Id space    = table_space(n_rows, n_columns);
+    const Hdf5Id creation = creation_properties(H5P_DATASET_CREATE);
+    hsize_t      first    = 0;
     for (const Hdf5Part &part : parts)
       {
         const Hdf5Id part_space = table_space(part.n_rows, n_columns);
@@ -258,9 +247,10 @@ namespace corotet
   {
     if (file < 0)
       return;
-    const Silence silence;
-    const Hdf5Id  group(
-      H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    const Hdf5Silence silence;
+    const Hdf5Id      creation = creation_properties(H5P_GROUP_CREATE);
+    const Hdf5Id      group(
+      H5Gcreate2(file, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT));
     check(group);
   }
 
@@ -269,7 +259,7 @@ namespace corotet
   {
     if (file < 0)
       return;
-    const Silence silence;
+    const Hdf5Silence silence;
     check(H5Lcreate_hard(
       file, target.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
   }
@@ -281,7 +271,7 @@ namespace corotet
   {
     if (file < 0)
       return;
-    const Silence silence;
+    const Hdf5Silence silence;
     check(H5Lcreate_external(file_name.c_str(),
                              target.c_str(),
                              file,
@@ -297,11 +287,11 @@ namespace corotet
   {
     if (file < 0)
       return;
-    const Silence silence;
-    const hsize_t size = values.size();
-    const Hdf5Id  space(size == 1 ? H5Screate(H5S_SCALAR) :
+    const Hdf5Silence silence;
+    const hsize_t     size = values.size();
+    const Hdf5Id      space(size == 1 ? H5Screate(H5S_SCALAR) :
                                    H5Screate_simple(1, &size, nullptr));
-    const Hdf5Id  attribute(H5Acreate_by_name(file,
+    const Hdf5Id      attribute(H5Acreate_by_name(file,
                                              object.c_str(),
                                              name.c_str(),
                                              H5T_NATIVE_INT64,
@@ -320,8 +310,8 @@ namespace corotet
   {
     if (file < 0)
       return;
-    const Silence silence;
-    const Hdf5Id  type(H5Tcopy(H5T_C_S1));
+    const Hdf5Silence silence;
+    const Hdf5Id      type(H5Tcopy(H5T_C_S1));
     check(H5Tset_size(type, text.size()));
     check(H5Tset_strpad(type, H5T_STR_NULLPAD));
     const Hdf5Id space(H5Screate(H5S_SCALAR));
@@ -338,14 +328,16 @@ namespace corotet
   }
 
   void
-  Hdf5File::finish()
+  Hdf5File::finish(const bool durable)
   {
     if (file >= 0)
       {
-        const Silence silence;
+        const Hdf5Silence silence;
         // Releases the identifier even if the last data cannot be written.
         check(H5Fclose(file.release()));
       }
+    if (descriptor >= 0 && durable)
+      check(fsync(descriptor));
     // Space may be found missing only now.
     if (descriptor >= 0)
       check(close(std::exchange(descriptor, -1)));
@@ -358,7 +350,9 @@ namespace corotet
       std::error_code error;
       if (good)
         std::filesystem::rename(path + ".tmp", path, error);
-      if (good && !error)
+      const std::string folder =
+        std::filesystem::path(path).parent_path().string();
+      if (good && !error && (!durable || sync_to_disk(folder)))
         return;
       std::error_code ignored;
       std::filesystem::remove(path + ".tmp", ignored);

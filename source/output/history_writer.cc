@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/history_writer.h>
 #include <corotet/output/stress_tables.h>
@@ -119,7 +120,23 @@ namespace corotet
   }
 
   void
-  HistoryWriter::write_row(const Snapshot &state, const bool with_names)
+  HistoryWriter::transfer(Archive &archive)
+  {
+    if (!archive.is_reading())
+      saved_size = file.tellp();
+    archive.transfer("history_size", saved_size);
+  }
+
+  void
+  HistoryWriter::resume(const Snapshot &state)
+  {
+    make_row(state);
+    on_root(state.discretization.communicator(),
+            [&] { continue_file(path, saved_size, "the history", file); });
+  }
+
+  void
+  HistoryWriter::make_row(const Snapshot &state)
   {
     *row = history_row(state.record,
                        probes.names(),
@@ -128,6 +145,12 @@ namespace corotet
       add_stress_columns(*row,
                          stress_probes->names(),
                          stress_probes->stresses(state.stress()));
+  }
+
+  void
+  HistoryWriter::write_row(const Snapshot &state, const bool with_names)
+  {
+    make_row(state);
     on_root(state.discretization.communicator(), [&] {
       errno = 0;
       if (with_names)

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/output/directory_lock.h>
 #include <corotet/output/output_directory.h>
 
 #include <algorithm>
@@ -23,19 +24,14 @@ namespace corotet
 
     // Names of what a run writes, as regular expressions of paths relative to
     // the output directory. A folder is removed if it is empty then.
-    const std::array<std::string_view, 6> own_files{
+    const std::array<std::string_view, 5> own_files{
       {R"(study(_[a-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
        R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
-       R"(checkpoint/[^/]+\.h5(\.tmp)?)",
-       R"(checkpoint/[^/]+\.tmp/[^/]+)"}};
-    const std::array<std::string_view, 5> own_folders{
-      {"solution",
-       "stress_points",
-       "rows",
-       "checkpoint",
-       R"(checkpoint/[^/]+\.tmp)"}};
+       R"(checkpoint/step_[0-9]+\.(h5|json)(\.tmp)?)"}};
+    const std::array<std::string_view, 4> own_folders{
+      {"solution", "stress_points", "rows", "checkpoint"}};
 
     template <typename Patterns>
     bool
@@ -56,17 +52,21 @@ namespace corotet
               matches(relative_path.generic_string(), own_folders));
     }
 
-    // Whether files of a folder show that a run has made it. A parameters.prm
-    // or a log.txt alone may be anybody's; a run that failed early leaves both.
+    // It marks the directory, and stays.
     bool
-    made_by_a_run(const fs::path &directory)
+    is_mark(const fs::path &relative_path)
     {
-      const auto has = [&](const std::string &name) {
-        return fs::exists(directory / name);
-      };
-      return has("solution.vtkhdf") || has("history.csv") || has("modes.csv") ||
-             has("rows") || has("summary.json") ||
-             (has("parameters.prm") && has("log.txt"));
+      return relative_path == DirectoryLock::file_name;
+    }
+
+    bool
+    has_no_files(const fs::path &directory)
+    {
+      return std::all_of(fs::directory_iterator(directory),
+                         fs::directory_iterator(),
+                         [](const fs::directory_entry &entry) {
+                           return is_mark(entry.path().filename());
+                         });
     }
 
     // Everything below the directory, folders after what they hold. Throws if
@@ -74,7 +74,7 @@ namespace corotet
     std::vector<fs::path>
     old_results(const fs::path &directory)
     {
-      if (!made_by_a_run(directory))
+      if (!DirectoryLock::has_marked(directory.string()))
         throw InputError(directory_entry,
                          "the output directory '" + directory.string() +
                            "' is not empty and holds no results of corotet; "
@@ -84,7 +84,11 @@ namespace corotet
            fs::recursive_directory_iterator(directory))
         {
           const fs::path path = entry.path().lexically_relative(directory);
-          if (!is_own(path, entry.symlink_status()))
+          const fs::file_status status = entry.symlink_status();
+          // Another run may be writing there: its lock will say so.
+          if (is_mark(path) || !fs::exists(status))
+            continue;
+          if (!is_own(path, status))
             throw InputError(directory_entry,
                              "the output directory '" + directory.string() +
                                "' holds '" + path.string() +
@@ -105,7 +109,7 @@ namespace corotet
         throw InputError(directory_entry,
                          "the output directory '" + directory.string() +
                            "' is a file; a directory or a new name is allowed");
-      if (!fs::exists(directory) || fs::is_empty(directory))
+      if (!fs::exists(directory) || has_no_files(directory))
         return {};
       if (!overwrite)
         throw InputError(directory_entry,

@@ -35,6 +35,14 @@ namespace corotet
   }
 
   void
+  StressPointsWriter::resume(const Snapshot &state)
+  {
+    series.make_folder(state.discretization.communicator());
+    write_mesh(state.discretization, state.stress().reference_element());
+    series.resume(state.record.step, state.discretization.communicator());
+  }
+
+  void
   StressPointsWriter::step(const Snapshot &state)
   {
     if (state.last || series.is_due(state.record.time))
@@ -54,15 +62,13 @@ namespace corotet
   {
     const MPI_Comm comm = discretization.communicator();
     const auto    &rule = reference.stiffness_rule;
-    points.n_rows =
-      hsize_t(discretization.n_owned_cells()) * rule.weights.size();
-    std::tie(points.first, points.n_global_rows) =
-      dealii::Utilities::MPI::partial_and_total_sum(points.n_rows, comm);
-    points.n_columns = 3;
-    series.n_points = series.n_cells = points.n_global_rows;
+    cells               = FileOrder::of_cells(discretization);
+    n_points            = rule.weights.size();
+    const Hdf5Rows list = cells->rows(0, n_points);
+    series.n_points = series.n_cells = list.n_global_rows;
 
     std::vector<double> positions;
-    positions.reserve(3 * points.n_rows);
+    positions.reserve(3 * n_points * discretization.n_owned_cells());
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       for (unsigned int q = 0; q < rule.weights.size(); ++q)
         {
@@ -70,25 +76,24 @@ namespace corotet
             point_geometry(discretization, rule, c, q).position;
           positions.insert(positions.end(), {x[0], x[1], x[2]});
         }
-    const Hdf5Rows list{points.first, points.n_rows, points.n_global_rows};
-    const std::vector<std::uint8_t> types(points.n_rows, 1);
-    std::vector<std::int64_t>       connectivity(points.n_rows);
-    std::iota(connectivity.begin(), connectivity.end(), points.first);
+    const std::vector<std::uint8_t> types(list.n_rows, 1);
+    std::vector<std::int64_t>       connectivity(list.n_rows);
+    std::iota(connectivity.begin(), connectivity.end(), list.first);
     // Offsets has an entry more than there are cells. Rank 0 writes it, the
     // leading zero.
     const bool root = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
-    std::vector<std::int64_t> offsets(points.n_rows + (root ? 1 : 0));
-    const hsize_t             first_offset = points.first + (root ? 0 : 1);
+    std::vector<std::int64_t> offsets(list.n_rows + (root ? 1 : 0));
+    const hsize_t             first_offset = list.first + (root ? 0 : 1);
     std::iota(offsets.begin(), offsets.end(), first_offset);
 
     Hdf5File file(series.mesh_file(), comm);
-    file.write("Points", positions.data(), points);
+    cells->write(file, "Points", positions.data(), 3, n_points);
     file.write("Types", types.data(), list);
     file.write("Connectivity", connectivity.data(), list);
     file.write("Offsets",
                offsets.data(),
-               {first_offset, offsets.size(), points.n_global_rows + 1});
-    series.write_sizes(file, points.n_global_rows);
+               {first_offset, offsets.size(), list.n_global_rows + 1});
+    series.write_sizes(file, list.n_global_rows);
     file.finish();
   }
 
@@ -98,12 +103,11 @@ namespace corotet
     const Discretization &discretization = state.discretization;
     StressField          &field          = state.stress();
     const auto           &stresses       = field.at_points();
-    const auto           &rule     = field.reference_element().stiffness_rule;
-    const std::size_t     n_points = rule.weights.size();
+    const auto           &rule = field.reference_element().stiffness_rule;
 
-    StressTables        tables(points);
+    StressTables        tables(*cells, n_points);
     std::vector<double> displacements;
-    displacements.reserve(3 * points.n_rows);
+    displacements.reserve(3 * stresses.size());
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       {
         const IsotropicMaterial &material =
@@ -124,7 +128,8 @@ namespace corotet
     const MPI_Comm comm = discretization.communicator();
     Hdf5File       file(series.result_file(state.record.step), comm);
     VtkhdfSeries::create_groups(file);
-    file.write("PointData/displacement", displacements.data(), points);
+    cells->write(
+      file, "PointData/displacement", displacements.data(), 3, n_points);
     tables.write(file);
     file.finish();
     series.add_result(state.record.step, state.record.time, comm);

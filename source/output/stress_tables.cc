@@ -27,13 +27,10 @@ namespace corotet
     return result;
   }
 
-  StressTables::StressTables(const Hdf5Rows &rows)
-    : rows(rows)
-  {
-    for (unsigned int t = 0; t < values.size(); ++t)
-      values[t].reserve(rows.n_rows *
-                        std::max<hsize_t>(1, tables()[t].n_columns));
-  }
+  StressTables::StressTables(const FileOrder &order, const std::size_t n_points)
+    : order(order)
+    , n_points(n_points)
+  {}
 
   void
   StressTables::add(const dealii::SymmetricTensor<2, 3> &sigma,
@@ -52,9 +49,10 @@ namespace corotet
   StressTables::write(Hdf5File &file) const
   {
     for (unsigned int t = 0; t < values.size(); ++t)
-      file.write(
-        "PointData/" + tables()[t].name,
-        values[t].data(),
-        {rows.first, rows.n_rows, rows.n_global_rows, tables()[t].n_columns});
+      order.write(file,
+                  "PointData/" + tables()[t].name,
+                  values[t].data(),
+                  tables()[t].n_columns,
+                  n_points);
   }
 } // namespace corotet

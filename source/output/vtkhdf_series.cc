@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <regex>
 #include <system_error>
 
 namespace corotet
@@ -59,6 +60,50 @@ namespace corotet
     file.write_from_root("NumberOfPoints", list(n_points));
     file.write_from_root("NumberOfCells", list(n_cells));
     file.write_from_root("NumberOfConnectivityIds", list(n_connectivity_ids));
+  }
+
+  void
+  VtkhdfSeries::transfer(Archive &archive)
+  {
+    std::vector<unsigned int> levels, steps;
+    std::vector<std::size_t>  n_results;
+    for (const DataBlock &block : blocks)
+      {
+        levels.push_back(block.level);
+        steps.push_back(block.step);
+        n_results.push_back(block.n_results);
+      }
+    archive.within(name, [&] {
+      archive.transfer("times", times);
+      archive.transfer("block_levels", levels);
+      archive.transfer("block_steps", steps);
+      archive.transfer("block_results", n_results);
+    });
+    blocks.clear();
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      blocks.push_back({levels[i], steps[i], n_results[i]});
+  }
+
+  void
+  VtkhdfSeries::resume(const unsigned int step, const MPI_Comm comm)
+  {
+    on_root(comm, [&] {
+      write_index();
+      // Nobody refers to them any more.
+      const std::regex                   result(R"(step_(\d+)\.h5(\.tmp)?)");
+      std::vector<std::filesystem::path> later;
+      for (const auto &entry :
+           std::filesystem::directory_iterator(directory + "/" + name))
+        {
+          const std::string file = entry.path().filename().string();
+          std::smatch       match;
+          if (std::regex_match(file, match, result) &&
+              std::stoull(match[1]) > step)
+            later.push_back(entry.path());
+        }
+      for (const auto &path : later)
+        std::filesystem::remove(path);
+    });
   }
 
   bool

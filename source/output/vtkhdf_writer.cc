@@ -85,6 +85,14 @@ namespace corotet
   }
 
   void
+  VtkhdfWriter::resume(const Snapshot &state)
+  {
+    series.make_folder(state.discretization.communicator());
+    write_mesh(state.discretization);
+    series.resume(state.record.step, state.discretization.communicator());
+  }
+
+  void
   VtkhdfWriter::step(const Snapshot &state)
   {
     if (state.last || series.is_due(state.record.time))
@@ -105,39 +113,29 @@ namespace corotet
     const unsigned int n_cells = discretization.n_owned_cells();
     if (discretization.element().has_bubbles())
       without_bubbles = std::make_unique<CoarserNodes>(discretization);
-    const Nodes       &shown   = without_bubbles ?
-                                   static_cast<const Nodes &>(*without_bubbles) :
-                                   discretization;
-    const unsigned int n_nodes = shown.n_owned_nodes();
-    // Owned nodes are numbered consecutively, rank after rank.
-    nodes.first  = n_nodes > 0 ? static_cast<hsize_t>(shown.global_node(0)) : 0;
-    nodes.n_rows = n_nodes;
-    nodes.n_global_rows = shown.n_global_nodes();
-    nodes.n_columns     = 3;
-    cells.first         = dealii::Utilities::MPI::partial_and_total_sum(
-                    static_cast<hsize_t>(n_cells), comm)
-                    .first;
-    cells.n_rows        = n_cells;
-    cells.n_global_rows = discretization.n_global_cells();
-    cells.n_columns     = 0;
-
-    series.n_points = nodes.n_global_rows;
-    series.n_cells  = cells.n_global_rows;
+    const Nodes &shown  = without_bubbles ?
+                            static_cast<const Nodes &>(*without_bubbles) :
+                            discretization;
+    nodes               = FileOrder::of_nodes(discretization, shown);
+    cells               = FileOrder::of_cells(discretization);
+    const Hdf5Rows rows = cells->rows();
+    series.n_points     = nodes->rows().n_global_rows;
+    series.n_cells      = rows.n_global_rows;
 
     Hdf5File file(series.mesh_file(), comm);
     write_nodal(file, "Points", discretization.node_positions());
     write_connectivity(shown, file);
 
-    const std::vector<std::uint8_t> types(n_cells, 71);
-    file.write("Types", types.data(), cells);
+    const std::vector<std::uint8_t> types(rows.n_rows, 71);
+    file.write("Types", types.data(), rows);
     std::vector<std::int32_t> regions(n_cells);
     for (unsigned int cell = 0; cell < n_cells; ++cell)
       regions[cell] = discretization.geometry(cell).region;
-    file.write("region", regions.data(), cells);
+    cells->write(file, "region", regions.data());
     const std::vector<std::int32_t> ranks(n_cells, this_mpi_process(comm));
-    file.write("rank", ranks.data(), cells);
+    cells->write(file, "rank", ranks.data());
 
-    series.write_sizes(file, cells.n_global_rows * shown.n_nodes_per_cell());
+    series.write_sizes(file, rows.n_global_rows * shown.n_nodes_per_cell());
     file.finish();
   }
 
@@ -148,15 +146,15 @@ namespace corotet
   {
     if (!without_bubbles)
       {
-        file.write(name, values.begin(), nodes);
+        nodes->write(file, name, values.begin(), 3);
         return;
       }
-    std::vector<double> shown(3 * nodes.n_rows);
-    for (unsigned int n = 0; n < nodes.n_rows; ++n)
+    std::vector<double> shown(3 * without_bubbles->n_owned_nodes());
+    for (unsigned int n = 0; n < without_bubbles->n_owned_nodes(); ++n)
       for (unsigned int a = 0; a < 3; ++a)
         shown[3 * n + a] =
           values.local_element(3 * without_bubbles->key(n) + a);
-    file.write(name, shown.data(), nodes);
+    nodes->write(file, name, shown.data(), 3);
   }
 
   void
@@ -165,29 +163,34 @@ namespace corotet
     const std::vector<unsigned int> order = vtk_node_order(shown.degree());
     const hsize_t                   n     = shown.n_nodes_per_cell();
 
+    // Rows of all local nodes: doubles hold such numbers exactly.
+    Vector row;
+    shown.initialize_vector(row);
+    const std::vector<std::int64_t> owned_rows = nodes->row_numbers();
+    for (std::size_t i = 0; i < owned_rows.size(); ++i)
+      row.local_element(3 * i) = static_cast<double>(owned_rows[i]);
+    row.update_ghost_values();
     std::vector<std::int64_t> connectivity;
-    connectivity.reserve(cells.n_rows * n);
+    connectivity.reserve(shown.n_owned_cells() * n);
+    for (unsigned int cell = 0; cell < shown.n_owned_cells(); ++cell)
+      for (const unsigned int i : order)
+        connectivity.push_back(static_cast<std::int64_t>(
+          row.local_element(3 * shown.cell_nodes(cell)[i])));
+    const Hdf5Rows rows = cells->rows();
+    cells->write(file, "Connectivity", connectivity.data(), 0, n);
+
     // Offsets has an entry more than there are cells. Rank 0 writes it, the
     // leading zero.
     const bool root = this_mpi_process(shown.communicator()) == 0;
     std::vector<std::int64_t> offsets;
-    offsets.reserve(cells.n_rows + 1);
-    if (root)
-      offsets.push_back(0);
-    for (unsigned int cell = 0; cell < cells.n_rows; ++cell)
-      {
-        for (const unsigned int i : order)
-          connectivity.push_back(shown.global_node(shown.cell_nodes(cell)[i]));
-        offsets.push_back((cells.first + cell + 1) * n);
-      }
-    file.write("Connectivity",
-               connectivity.data(),
-               {cells.first * n, cells.n_rows * n, cells.n_global_rows * n});
+    offsets.reserve(rows.n_rows + 1);
+    for (hsize_t cell = root ? 0 : 1; cell <= rows.n_rows; ++cell)
+      offsets.push_back((rows.first + cell) * n);
     file.write("Offsets",
                offsets.data(),
-               {cells.first + (root ? 0 : 1),
+               {rows.first + (root ? 0 : 1),
                 offsets.size(),
-                cells.n_global_rows + 1});
+                rows.n_global_rows + 1});
   }
 
   void
@@ -200,9 +203,11 @@ namespace corotet
     VtkhdfSeries::create_groups(file);
     write_nodal(file, "PointData/displacement", state.displacement);
     write_nodal(file, "PointData/velocity", state.velocity);
-    file.write("CellData/rotation_angle", results.rotation_angle.data(), cells);
-    file.write("CellData/det_F", results.det_F.data(), cells);
-    file.write("CellData/von_mises", results.von_mises.data(), cells);
+    cells->write(file,
+                 "CellData/rotation_angle",
+                 results.rotation_angle.data());
+    cells->write(file, "CellData/det_F", results.det_F.data());
+    cells->write(file, "CellData/von_mises", results.von_mises.data());
     if (with_stress)
       write_stress(file, state.stress());
     file.finish();
@@ -213,15 +218,17 @@ namespace corotet
   VtkhdfWriter::write_stress(Hdf5File &file, StressField &stress) const
   {
     const auto   values = stress.at_nodes();
-    StressTables tables(nodes);
-    for (unsigned int n = 0; n < nodes.n_rows; ++n)
+    StressTables tables(*nodes);
+    const auto   n_nodes =
+      without_bubbles ? without_bubbles->n_owned_nodes() : values.stress.size();
+    for (unsigned int n = 0; n < n_nodes; ++n)
       {
         const unsigned int node = without_bubbles ? without_bubbles->key(n) : n;
         tables.add(values.stress[node], values.strain[node]);
       }
     tables.write(file);
-    file.write("CellData/error_estimate",
-               stress.error().of_cells.data(),
-               cells);
+    cells->write(file,
+                 "CellData/error_estimate",
+                 stress.error().of_cells.data());
   }
 } // namespace corotet

@@ -111,4 +111,13 @@ namespace corotet
     set_length(0.5 * taken);
     return true;
   }
+
+  void
+  AdaptiveStep::transfer(Archive &archive)
+  {
+    archive.transfer("length", dt);
+    archive.transfer("largest_size", largest_size);
+    archive.transfer("rejected", rejected);
+    archive.transfer("too_inaccurate", too_inaccurate);
+  }
 } // namespace corotet

@@ -121,8 +121,8 @@ namespace corotet
     app.add_flag(
       "--restart",
       command_line.restart,
-      "Go on with a convergence study that was stopped: its finished "
-      "runs are kept");
+      "Go on from the newest good checkpoint in the output directory, or "
+      "with a convergence study that was stopped: its finished runs are kept");
     app.add_flag("--quiet",
                  command_line.quiet,
                  "Show nothing on the terminal but errors");

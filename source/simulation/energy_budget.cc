@@ -65,6 +65,42 @@ namespace corotet
   }
 
   void
+  EnergyBudget::transfer_forces(Archive &archive, StepForces &forces) const
+  {
+    archive.transfer("time", forces.time);
+    archive.transfer("external", forces.external);
+    if (force_terms.has_damping())
+      archive.transfer("damping", forces.damping);
+    archive.transfer("displacement", forces.displacement);
+    // Among all unknowns, as the order of the prescribed ones depends on the
+    // partition.
+    const auto transfer_prescribed = [&](const std::string   &name,
+                                         std::vector<double> &values) {
+      const auto &prescribed = body.motion.unknowns();
+      Vector      spread;
+      body.discretization.initialize_vector(spread);
+      for (std::size_t k = 0; k < prescribed.size(); ++k)
+        spread.local_element(prescribed[k]) = values[k];
+      archive.transfer(name, spread);
+      for (std::size_t k = 0; k < prescribed.size(); ++k)
+        values[k] = spread.local_element(prescribed[k]);
+    };
+    transfer_prescribed("carried", forces.carried);
+    transfer_prescribed("velocity", forces.velocity);
+  }
+
+  void
+  EnergyBudget::transfer(Archive &archive)
+  {
+    archive.transfer("dt", dt);
+    archive.transfer("work", work);
+    archive.transfer("dissipation", dissipation);
+    archive.transfer("initial_changing_energy", initial_changing_energy);
+    archive.within("initial", [&] { initial.transfer(archive); });
+    archive.within("last", [&] { transfer_forces(archive, last); });
+  }
+
+  void
   EnergyBudget::account(const State &state, const double time, const double dt)
   {
     take_forces(now, state);

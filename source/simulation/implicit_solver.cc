@@ -215,8 +215,8 @@ namespace corotet
     return true;
   }
 
-  const TangentOperator *
-  ImplicitSolver::linearize()
+  void
+  ImplicitSolver::update_effective_operator()
   {
     const bool         has_new_surface = update_surface();
     const MatrixShares damping         = equation.terms.damping_shares();
@@ -231,6 +231,12 @@ namespace corotet
         operator_c_K = c_K;
         operator_c_M = c_M;
       }
+  }
+
+  const TangentOperator *
+  ImplicitSolver::linearize()
+  {
+    update_effective_operator();
     if (!TangentOperator::is_needed(body.elasticity, equation.terms, tangent))
       return nullptr;
     ScopedTimer timer(equation.wall_times.assembly);
@@ -262,12 +268,18 @@ namespace corotet
         // One solve is all that a linear problem needs if it is as good as
         // Newton's method wants it; a tenth is for the round-off between this
         // residual and that of the forces.
-        const double       limit = is_linear() ?
-                                     0.9 * parameters.residual_tolerance *
+        const double       limit    = is_linear() ?
+                                        0.9 * parameters.residual_tolerance *
                                  std::max(stage_scale, force_scale) :
-                                     std::numeric_limits<double>::infinity();
+                                        std::numeric_limits<double>::infinity();
+        const unsigned int n_builds = preconditioner_builds();
         const unsigned int n_iterations =
           linear_solver.solve(*effective_operator, dx, r, positions, J, limit);
+        if (preconditioner_builds() > n_builds)
+          {
+            built_stage        = stage;
+            built_displacement = stage_state->u;
+          }
         advise_direct_solver(n_iterations);
         return n_iterations;
       }
@@ -331,5 +343,52 @@ namespace corotet
     tangent = use ? Tangent::frozen_rotation : parameters.tangent;
     return parameters.tangent != Tangent::frozen_rotation &&
            !body.law->is_linear();
+  }
+
+  void
+  ImplicitSolver::transfer(Archive &archive)
+  {
+    archive.transfer("solved_scale", solved_scale);
+    archive.transfer("slow_iterations", slow_iterations);
+    std::vector<int> shown(shown_round_off.size());
+    std::transform(shown_round_off.begin(),
+                   shown_round_off.end(),
+                   shown.begin(),
+                   [](const auto kind) { return static_cast<int>(kind); });
+    archive.transfer("shown_round_off", shown);
+    shown_round_off.clear();
+    for (const int kind : shown)
+      shown_round_off.insert(static_cast<NewtonReport::RoundOff>(kind));
+
+    archive.within("linear_solver", [&] { linear_solver.transfer(archive); });
+    if (!linear_solver.is_preconditioner_built())
+      return;
+    archive.within("preconditioner", [&] {
+      archive.transfer("time", built_stage.time);
+      archive.transfer("velocity_factor", built_stage.velocity_factor);
+      archive.transfer("acceleration_factor", built_stage.acceleration_factor);
+      archive.transfer("load_factor", built_stage.load_factor);
+      archive.transfer("displacement", built_displacement);
+    });
+    if (archive.is_reading())
+      restore_preconditioner();
+  }
+
+  void
+  ImplicitSolver::restore_preconditioner()
+  {
+    if (!effective_operator)
+      make_operators();
+    State state;
+    for (Vector *vector : {&state.u, &state.v, &state.a})
+      body.discretization.initialize_vector(*vector);
+    state.u = built_displacement;
+    equation.set_state(state);
+    stage = built_stage;
+    update_effective_operator();
+    positions.copy_locally_owned_data_from(
+      body.discretization.node_positions());
+    positions += built_displacement;
+    linear_solver.build_again(*effective_operator, positions);
   }
 } // namespace corotet

@@ -101,10 +101,65 @@ namespace corotet
   }
 
   void
-  Simulation::step()
+  Simulation::resume(const std::vector<std::unique_ptr<Observer>> &observers,
+                     const OutputTimes                            &recording,
+                     Archive                                      &archive)
+  {
+    this->observers = &observers;
+    transfer(archive);
+    archive.within("time_loop",
+                   [&] { stepper.resume(recording, archive, last_record); });
+    is_started = true;
+    system.equation().set_state(stepper.state());
+    ScopedTimer timer(wall_times.output);
+    for (const auto &observer : observers)
+      observer->resume(snapshot(stepper.is_done()));
+  }
+
+  void
+  Simulation::save_state(Archive &archive)
+  {
+    transfer(archive);
+    archive.within("time_loop", [&] { stepper.save(archive); });
+  }
+
+  void
+  Simulation::transfer(Archive &archive)
+  {
+    archive.within("record", [&] { last_record.transfer(archive); });
+    archive.transfer("reported_inverted", reported_inverted);
+    archive.transfer("reported_degenerate", reported_degenerate);
+    archive.transfer("reported_clamped", reported_clamped);
+    const auto add_time = [&](const std::string &name, double &time) {
+      double saved = time;
+      archive.transfer(name, saved);
+      if (archive.is_reading())
+        time += saved;
+    };
+    archive.within("wall_time", [&] {
+      add_time("setup", wall_times.setup);
+      add_time("assembly", wall_times.assembly);
+      add_time("solve", wall_times.solve);
+      add_time("output", wall_times.output);
+      double total = seconds();
+      archive.transfer("total", total);
+      if (archive.is_reading())
+        earlier_seconds = total;
+    });
+    archive.within("implicit_solver",
+                   [&] { system.implicit_solver().transfer(archive); });
+    archive.within("output", [&] {
+      for (const auto &observer : *observers)
+        observer->transfer(archive);
+    });
+  }
+
+  void
+  Simulation::step(const std::function<bool()> &is_interrupted)
   {
     guarded([&] {
-      stepper.next(last_record);
+      if (!stepper.next(last_record, is_interrupted))
+        return;
       stress_is_present     = false;
       last_record.wall_time = seconds();
       report_inversions();
@@ -256,8 +311,8 @@ namespace corotet
   double
   Simulation::seconds() const
   {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                         started)
-      .count();
+    return earlier_seconds + std::chrono::duration<double>(
+                               std::chrono::steady_clock::now() - started)
+                               .count();
   }
 } // namespace corotet

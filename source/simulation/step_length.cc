@@ -60,21 +60,7 @@ namespace corotet
       }
     else if (parameters.time_step > 0 || !integrator->is_dynamic())
       {
-        const double n = integrator->n_steps(duration, parameters.time_step);
-        if (!(n <= largest_number_of_steps))
-          throw InputError("Time integration/Time step",
-                           fmt::format("found {}, which makes {:.4g} steps "
-                                       "from t = {} to {}; allowed: at most {} "
-                                       "steps, so at least {:.6g}",
-                                       parameters.time_step,
-                                       n,
-                                       parameters.start_time,
-                                       parameters.end_time,
-                                       largest_number_of_steps,
-                                       duration / largest_number_of_steps));
-        n_steps     = static_cast<unsigned int>(n);
-        step_length = duration / n_steps;
-        warn_of_steps(n, step_length);
+        begin_equal_steps(0);
       }
     if (!integrator->stability())
       return;
@@ -86,6 +72,29 @@ namespace corotet
       {
         throw InputError("Time integration/Time step", error.what());
       }
+  }
+
+  void
+  TimeLoop::begin_equal_steps(const unsigned int step)
+  {
+    const double duration = parameters.end_time - time(done);
+    const double n        = integrator->n_steps(duration, parameters.time_step);
+    if (!(n <= largest_number_of_steps - step))
+      throw InputError("Time integration/Time step",
+                       fmt::format("found {}, which makes {:.4g} steps "
+                                   "from t = {} to {}; allowed: at most {} "
+                                   "steps, so at least {:.6g}",
+                                   parameters.time_step,
+                                   n,
+                                   time(done),
+                                   parameters.end_time,
+                                   largest_number_of_steps,
+                                   duration / largest_number_of_steps));
+    n_steps     = static_cast<unsigned int>(n);
+    first_step  = step;
+    first_done  = done;
+    step_length = duration / n_steps;
+    warn_of_steps(n, step_length);
   }
 
   void

@@ -11,6 +11,12 @@
 
 namespace corotet
 {
+  namespace
+  {
+    // So that a run that is to stop need not wait long.
+    constexpr unsigned int most_steps_together = 1000;
+  } // namespace
+
   TimeLoop::TimeLoop(const SimulationParameters &parameters,
                      StructuralSystem           &system,
                      Log                        &log)
@@ -34,7 +40,8 @@ namespace corotet
   TimeLoop::end_of_step(const unsigned int step, const unsigned int ahead) const
   {
     if (n_steps > 0)
-      return static_cast<double>(step) / n_steps;
+      return first_done + (1 - first_done) *
+                            (static_cast<double>(step - first_step) / n_steps);
 
     const double duration = parameters.end_time - parameters.start_time;
     const double interval = recording.time_between_results;
@@ -65,7 +72,8 @@ namespace corotet
       return part * (parameters.end_time - parameters.start_time);
     // The same number for each step, whatever round-off makes of its ends:
     // matrices depend on it.
-    return std::ldexp(step_length, std::lround(std::log2(part * n_steps)));
+    return std::ldexp(
+      step_length, std::lround(std::log2(part * n_steps / (1 - first_done))));
   }
 
   bool
@@ -115,12 +123,21 @@ namespace corotet
     return record;
   }
 
-  void
-  TimeLoop::next(StepRecord &record)
+  bool
+  TimeLoop::next(StepRecord                  &record,
+                 const std::function<bool()> &is_interrupted)
   {
-    StepRecord next = record;
-    do
+    StepRecord next    = is_between_records ? unrecorded : record;
+    is_between_records = false;
+    for (bool is_first = true; is_first || !is_recorded(next.step, from, done);
+         is_first      = false)
       {
+        if (!is_first && is_interrupted && is_interrupted())
+          {
+            unrecorded         = next;
+            is_between_records = true;
+            return false;
+          }
         if (next.step == largest_number_of_steps)
           throw ComputationError(
             fmt::format("found {} steps already; allowed are no more",
@@ -161,7 +178,6 @@ namespace corotet
             throw;
           }
       }
-    while (!is_recorded(next.step, from, done));
     record = next;
     if (record.parts > 1)
       log.line(
@@ -172,6 +188,7 @@ namespace corotet
         "smallest step",
         adaptive->n_rejected(),
         adaptive->n_too_inaccurate()));
+    return true;
   }
 
   void
@@ -181,9 +198,9 @@ namespace corotet
     // to one that is recorded or that an estimate follows.
     unsigned int n  = 1;
     double       to = end_of_step(record.step);
-    while (system.acceleration_solver().can_step_many() &&
-           !is_recorded(record.step, from, to) &&
-           !is_stable_step_due(record.step))
+    while (
+      n < most_steps_together && system.acceleration_solver().can_step_many() &&
+      !is_recorded(record.step, from, to) && !is_stable_step_due(record.step))
       {
         ++record.step;
         ++n;

@@ -40,8 +40,10 @@ namespace corotet
       }
     dealii::Vector<double>     eigenvalues;
     dealii::FullMatrix<double> eigenvectors;
+    // To round-off: what a bisection leaves would change with any rounding of
+    // T.
     T.compute_eigenvalues_symmetric(
-      -norm, norm, 1e-6 * norm, eigenvalues, eigenvectors);
+      -norm, norm, 1e-14 * norm, eigenvalues, eigenvectors);
     // In ascending order.
     return {size * eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
   }

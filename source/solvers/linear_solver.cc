@@ -325,4 +325,21 @@ namespace corotet
     is_built = iterations <= acceptable;
     return iterations;
   }
+
+  void
+  LinearSolver::transfer(Archive &archive)
+  {
+    archive.transfer("is_built", is_built);
+    archive.transfer("built_mass_ratio", built_mass_ratio);
+    archive.transfer("built_surface", built_surface);
+    archive.transfer("n_builds", n_builds);
+    archive.transfer("first_iterations", first_iterations);
+  }
+
+  void
+  LinearSolver::build_again(const EffectiveOperator &A, const Vector &positions)
+  {
+    preconditioner->build(A, positions);
+    known_version = A.version();
+  }
 } // namespace corotet

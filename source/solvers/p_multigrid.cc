@@ -161,8 +161,16 @@ namespace corotet
           mass      = std::max(mass, A.mass().cell_masses()[batch].mass[lane]);
         }
     const MPI_Comm comm = A.discretization().communicator();
-    stiffness_unit      = dealii::Utilities::MPI::max(stiffness, comm);
-    mass_unit           = dealii::Utilities::MPI::max(mass, comm);
+    // Powers of two, and of four where there is a root: then no number gets
+    // another last digit by them, whatever the rotations of this first state.
+    const auto power = [&](const double largest, const int base_exponent) {
+      const double of_all = dealii::Utilities::MPI::max(largest, comm);
+      if (of_all == 0)
+        return 1.;
+      return std::ldexp(1., std::ilogb(of_all) / base_exponent * base_exponent);
+    };
+    stiffness_unit = power(stiffness, 2);
+    mass_unit      = power(mass, 1);
 
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       for (unsigned int lane = 0; lane < batch_size; ++lane)

@@ -5,6 +5,7 @@
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
 #include <corotet/output/csv.h>
+#include <corotet/output/directory_lock.h>
 #include <corotet/output/history_writer.h>
 #include <corotet/output/modes_writer.h>
 #include <corotet/output/observers.h>
@@ -19,6 +20,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 namespace corotet
 {
@@ -63,6 +65,158 @@ namespace corotet
       }
   }
 
+  namespace
+  {
+    // A run of the program whose parameters have been declared.
+    class Command
+    {
+    public:
+      Command(const CommandLine &command,
+              ParameterFile     &file,
+              RunParameters     &parameters,
+              const MPI_Comm     comm)
+        : command(command)
+        , file(file)
+        , parameters(parameters)
+        , comm(comm)
+        , log(comm, command.quiet)
+      {
+        file.read(command.parameter_file, command.overrides, comm);
+        if (command.restart && parameters.simulation.type == RunType::modes)
+          throw InputError("Type",
+                           "--restart: found 'modes'; allowed: 'simulation', "
+                           "or 'convergence study', whose finished runs are "
+                           "kept");
+        directory = parameters.output.directory_of_run(command.parameter_file);
+        // Before the work starts; nothing is removed before all input is
+        // checked.
+        if (!command.validate)
+          check_output_directory(directory, may_overwrite(), comm);
+      }
+
+      void
+      run()
+      {
+        switch (parameters.simulation.type)
+          {
+            case RunType::convergence_study:
+              return run_study();
+            case RunType::modes:
+              return run_modes();
+            case RunType::simulation:
+              return run_simulation();
+          }
+      }
+
+    private:
+      // A restart without anything to go on from begins anew.
+      bool
+      may_overwrite() const
+      {
+        return parameters.output.overwrite || command.restart;
+      }
+
+      void
+      run_study()
+      {
+        ConvergenceStudy study(command, parameters.study, comm, log);
+        parameters.verification.initialize(study.columns());
+        record("study.csv", command.restart, [&] {
+          log.open(directory + "/log.txt");
+          write_parameters();
+          study.run(directory);
+        });
+      }
+
+      void
+      run_modes()
+      {
+        parameters.verification.initialize(
+          column_names(modes_example(parameters.output)));
+        ModalAnalysis analysis(parameters.simulation, file.folder(), comm, log);
+        ModesWriter   writer(parameters.output, directory, analysis);
+        record("modes.csv", false, [&] {
+          log.open(directory + "/log.txt");
+          write_parameters();
+          compute_modes(analysis, writer);
+        });
+      }
+
+      void
+      run_simulation()
+      {
+        const OutputParameters &output = parameters.output;
+        parameters.verification.initialize(
+          column_names(history_example(output)));
+        Simulation simulation(parameters.simulation, file.folder(), comm, log);
+        const Discretization &discretization = simulation.body().discretization;
+        const auto            observers      = make_observers(
+          output, directory, discretization, simulation.end_time(), log);
+        const nlohmann::ordered_json values = file.values();
+        Checkpoints                  checkpoints(
+          parameters.checkpoint, directory, values, discretization, log);
+        std::unique_ptr<CheckpointReader> checkpoint;
+        if (command.restart && !command.validate)
+          {
+            lock.emplace(directory, comm);
+            checkpoint = checkpoints.newest();
+            if (!checkpoint)
+              log.line("--restart: there is no checkpoint in " + directory +
+                       "; the run begins anew");
+          }
+        const OutputTimes times{output.steps_between_rows,
+                                output.time_between_results};
+        record("history.csv", checkpoint != nullptr, [&] {
+          if (checkpoint)
+            checkpoints.resume(simulation, observers, times, *checkpoint);
+          else
+            log.open(directory + "/log.txt");
+          write_parameters();
+          if (!checkpoint)
+            simulation.start(observers, times);
+          checkpoints.run(simulation);
+        });
+      }
+
+      // Computes, and checks the table that comes out.
+      void
+      record(const std::string           &table,
+             const bool                   goes_on,
+             const std::function<void()> &compute)
+      {
+        if (command.validate)
+          return log.line(command.parameter_file + ": valid");
+        if (!lock)
+          lock.emplace(directory, comm);
+        if (!goes_on)
+          prepare_output_directory(directory, may_overwrite(), comm);
+        compute();
+        log.line("Results are in " + directory);
+        parameters.verification.compare(
+          std::filesystem::path(command.parameter_file).stem().string(),
+          directory,
+          table,
+          comm,
+          log);
+      }
+
+      void
+      write_parameters() const
+      {
+        on_root(comm,
+                [&] { file.write_effective(directory + "/parameters.prm"); });
+      }
+
+      const CommandLine           &command;
+      ParameterFile               &file;
+      RunParameters               &parameters;
+      const MPI_Comm               comm;
+      Log                          log;
+      std::string                  directory;
+      std::optional<DirectoryLock> lock;
+    };
+  } // namespace
+
   void
   run_command(const CommandLine &command,
               ParameterFile     &file,
@@ -73,68 +227,6 @@ namespace corotet
     if (command.print_parameters)
       return on_root(comm,
                      [&] { file.print(std::cout, *command.print_parameters); });
-
-    file.read(command.parameter_file, command.overrides, comm);
-    const SimulationParameters &simulation_parameters = parameters.simulation;
-    const OutputParameters     &output                = parameters.output;
-    Verification               &verification          = parameters.verification;
-    const bool                  is_study =
-      simulation_parameters.type == RunType::convergence_study;
-    if (command.restart && !is_study)
-      throw InputError("Type",
-                       "--restart: found '" +
-                         name_of(run_types, simulation_parameters.type) +
-                         "'; allowed: 'convergence study', whose finished "
-                         "runs are kept");
-    const std::string directory =
-      output.directory_of_run(command.parameter_file);
-    // Before the work starts; nothing is removed before all input is checked.
-    if (!command.validate && !command.restart)
-      check_output_directory(directory, output.overwrite, comm);
-
-    Log        log(comm, command.quiet);
-    const auto record = [&](const std::string           &table,
-                            const std::function<void()> &compute) {
-      if (command.validate)
-        return log.line(command.parameter_file + ": valid");
-      if (!command.restart)
-        prepare_output_directory(directory, output.overwrite, comm);
-      log.open(directory + "/log.txt");
-      on_root(comm,
-              [&] { file.write_effective(directory + "/parameters.prm"); });
-      compute();
-      log.line("Results are in " + directory);
-      verification.compare(
-        std::filesystem::path(command.parameter_file).stem().string(),
-        directory,
-        table,
-        comm,
-        log);
-    };
-
-    if (is_study)
-      {
-        ConvergenceStudy study(command, parameters.study, comm, log);
-        verification.initialize(study.columns());
-        return record("study.csv", [&] { study.run(directory); });
-      }
-    if (simulation_parameters.type == RunType::modes)
-      {
-        verification.initialize(column_names(modes_example(output)));
-        ModalAnalysis analysis(simulation_parameters, file.folder(), comm, log);
-        ModesWriter   writer(output, directory, analysis);
-        return record("modes.csv", [&] { compute_modes(analysis, writer); });
-      }
-    verification.initialize(column_names(history_example(output)));
-    Simulation simulation(simulation_parameters, file.folder(), comm, log);
-    const auto observers = make_observers(output,
-                                          directory,
-                                          simulation.body().discretization,
-                                          simulation.end_time(),
-                                          log);
-    record("history.csv", [&] {
-      simulation.run(observers,
-                     {output.steps_between_rows, output.time_between_results});
-    });
+    Command(command, file, parameters, comm).run();
   }
 } // namespace corotet

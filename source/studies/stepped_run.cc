@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
+#include <corotet/output/directory_lock.h>
 #include <corotet/output/observers.h>
 #include <corotet/output/output_directory.h>
 #include <corotet/simulation/simulation.h>
@@ -22,6 +23,7 @@ namespace corotet
     ParameterFile                          file;
     RunParameters                          parameters;
     Log                                    log;
+    std::optional<DirectoryLock>           lock;
     std::optional<Simulation>              simulation;
     std::vector<std::unique_ptr<Observer>> observers;
 
@@ -60,6 +62,7 @@ namespace corotet
                                simulation->body().discretization,
                                simulation->end_time(),
                                log);
+    lock.emplace(directory, comm);
     prepare_output_directory(directory, output.overwrite, comm);
     log.open(directory + "/log.txt");
     on_root(comm, [&] { file.write_effective(directory + "/parameters.prm"); });

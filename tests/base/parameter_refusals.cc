@@ -137,3 +137,59 @@ TEST(ParameterFile, RefusesWrongOverrides)
             "--set: there is no entry \"Density\" at the top level; it belongs "
             "to \"Material\"");
 }
+
+// Elements in elements without end are refused before a reader runs out of its
+// stack; so are files that include each other more and more often.
+TEST(ParameterFile, RefusesDeepNesting)
+{
+  const auto repeated = [](const std::string &text, const unsigned int n) {
+    std::string result;
+    for (unsigned int i = 0; i < n; ++i)
+      result += text;
+    return result;
+  };
+  const std::string reason =
+    "its elements are nested too deeply; allowed are 20 levels";
+  Example example;
+  EXPECT_EQ(example.refusal("a.xml",
+                            repeated("<a>", 100000) + repeated("</a>", 100000)),
+            "a.xml: " + reason);
+  EXPECT_EQ(example.refusal("a.json",
+                            repeated("{\"a\":", 100000) + "1" +
+                              repeated("}", 100000)),
+            "a.json: " + reason);
+  EXPECT_EQ(example.refusal("a.json", repeated("[", 100000)),
+            "a.json: " + reason);
+  EXPECT_EQ(example.refusal("a.prm", repeated("subsection a\n", 100000)),
+            "a.prm:21: " + reason);
+  EXPECT_EQ(example.refusal("a.xml",
+                            "<!DOCTYPE a [<!ENTITY b \"b\">]><a>&b;</a>"),
+            "a.xml: it has a document type or entities; allowed are neither");
+  example.folder.write("b.prm", repeated("include c.prm\n", 1000));
+  example.folder.write("c.prm", "\n");
+  EXPECT_EQ(example.refusal("a.prm", "include b.prm\ninclude b.prm\n"),
+            "b.prm:1000: more than 1000 files are included");
+}
+
+// A value of any length is not repeated.
+TEST(ParameterFile, RefusesLongValuesInShort)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection Material\n  set Law = " +
+                              std::string(1000000, 'x') + "\nend\n"),
+            "a.prm:2: the value \"" + std::string(120, 'x') +
+              "... (1000000 characters)\" of \"Material/Law\" is not allowed; "
+              "allowed is one of linear, corotational");
+}
+
+TEST(ParameterFile, SkipsAByteOrderMark)
+{
+  const std::string text = "subsection Material\n  set Density = 3\nend\n";
+  for (const std::string mark : {"", "\xEF\xBB\xBF"})
+    {
+      Example example;
+      EXPECT_EQ(example.refusal("a.prm", mark + text), "accepted");
+      EXPECT_EQ(example.density, 3);
+    }
+}

@@ -114,8 +114,9 @@ TEST(TableFile, RefusesWhatIsNoTable)
   // A first line with a number is no header, and there is one header only.
   EXPECT_EQ(file_refusal("t,1\n0,1\n1,2\n"), ":1" + number + "'t'");
   EXPECT_EQ(file_refusal("t,u\ns,m\n0,1\n1,2\n"), ":2" + number + "'s'");
-  EXPECT_EQ(file_refusal("0,1\n" + std::string(100, 'a') + ",2\n"),
-            ":2" + number + "'" + std::string(40, 'a') + "...'");
+  EXPECT_EQ(file_refusal("0,1\n" + std::string(200, 'a') + ",2\n"),
+            ":2" + number + "'" + std::string(120, 'a') +
+              "... (200 characters)'");
 
   const std::string columns = ": a row of a table has two numbers, separated "
                               "by a comma, a semicolon or blanks: found ";

@@ -38,6 +38,20 @@ TEST(Text, Join)
   EXPECT_EQ(join({"a", "b"}, "/"), "a/b");
 }
 
+// Messages of any text fit a terminal and do not control it.
+TEST(Text, ShortenedAndPrintable)
+{
+  EXPECT_EQ(shortened("short"), "short");
+  EXPECT_EQ(shortened(std::string(120, 'a')), std::string(120, 'a'));
+  EXPECT_EQ(shortened(std::string(1000000, 'a')),
+            std::string(120, 'a') + "... (1000000 characters)");
+  // The two bytes of one character are not parted.
+  EXPECT_EQ(shortened(std::string(119, 'a') + "\u00e9bc"),
+            std::string(119, 'a') + "... (123 characters)");
+  EXPECT_EQ(printable("a\033[2Jb\n\tc\r"), "a\\x1b[2Jb\n\tc\\x0d");
+  EXPECT_EQ(printable(std::string(5000, 'a')), std::string(4000, 'a') + "...");
+}
+
 TEST(Text, SplitOutsideBrackets)
 {
   using Parts = std::vector<std::string>;

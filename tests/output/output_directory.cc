@@ -5,6 +5,7 @@
 // emptied only of what corotet has written itself, so that nothing of the
 // user's is ever lost.
 
+#include <corotet/output/directory_lock.h>
 #include <corotet/output/output_directory.h>
 
 #include <gtest/gtest.h>
@@ -35,6 +36,23 @@ namespace
     wait_for_all();
   }
 
+  // As a run leaves it.
+  void
+  make_results(const std::string &folder, const std::vector<std::string> &names)
+  {
+    const corotet::DirectoryLock mark(folder, MPI_COMM_WORLD);
+    make_files(folder, names);
+  }
+
+  // Nothing is left but the mark.
+  bool
+  has_nothing(const std::string &folder)
+  {
+    return std::distance(fs::directory_iterator(folder),
+                         fs::directory_iterator()) == 1 &&
+           corotet::DirectoryLock::has_marked(folder);
+  }
+
   std::string
   directory_refusal(const std::string &directory, const bool overwrite)
   {
@@ -55,7 +73,8 @@ namespace
                                          "summary.json",
                                          "parameters.prm",
                                          "log.txt",
-                                         "checkpoint/000012.h5"};
+                                         "checkpoint/step_000012.h5",
+                                         "checkpoint/step_000012.json"};
 } // namespace
 
 TEST(OutputDirectory, IsMadeWithItsParents)
@@ -82,9 +101,9 @@ TEST(OutputDirectory, InUseIsRefused)
 TEST(OutputDirectory, ResultsAreOverwritten)
 {
   const ScratchFolder scratch;
-  make_files(scratch.path, results);
+  make_results(scratch.path, results);
   prepare_output_directory(scratch.path, true, MPI_COMM_WORLD);
-  EXPECT_TRUE(fs::is_empty(scratch.path));
+  EXPECT_TRUE(has_nothing(scratch.path));
 }
 
 // One foreign file, wherever it is, keeps everything.
@@ -97,7 +116,7 @@ TEST(OutputDirectory, ForeignFilesAreNotOverwritten)
                                     "more/history.csv"})
     {
       const ScratchFolder scratch;
-      make_files(scratch.path, results);
+      make_results(scratch.path, results);
       make_files(scratch.path, {foreign});
       const std::string message = directory_refusal(scratch.path, true);
       EXPECT_NE(message.find("which is no result of corotet; only a directory "
@@ -110,35 +129,30 @@ TEST(OutputDirectory, ForeignFilesAreNotOverwritten)
     }
 }
 
-// A parameter file or a log alone may be anybody's.
+// Whatever the names of files: without the mark they may be anybody's.
 TEST(OutputDirectory, UnmarkedFolderIsNotOverwritten)
 {
-  for (const std::string name : {"parameters.prm", "log.txt"})
+  for (const std::vector<std::string> &names :
+       {results, {"log.txt"}, {"history.csv", "log.txt"}, {".corotet"}})
     {
       const ScratchFolder scratch;
-      make_files(scratch.path, {name});
+      make_files(scratch.path, names);
+      if (names.front() == ".corotet")
+        make_files(scratch.path, {"history.csv"});
       EXPECT_EQ(directory_refusal(scratch.path, true),
                 "the output directory '" + scratch.path +
                   "' is not empty and holds no results of corotet; only a "
                   "directory of results can be overwritten");
-      EXPECT_TRUE(fs::exists(scratch.path + "/" + name));
+      for (const std::string &name : names)
+        EXPECT_TRUE(fs::exists(scratch.path + "/" + name));
     }
-}
-
-// A run that failed before its first result leaves these two.
-TEST(OutputDirectory, FailedRunIsOverwritten)
-{
-  const ScratchFolder scratch;
-  make_files(scratch.path, {"parameters.prm", "log.txt"});
-  prepare_output_directory(scratch.path, true, MPI_COMM_WORLD);
-  EXPECT_TRUE(fs::is_empty(scratch.path));
 }
 
 TEST(OutputDirectory, LinkIsNotOverwritten)
 {
   const ScratchFolder scratch, elsewhere;
   make_files(elsewhere.path, {"mesh.h5"});
-  make_files(scratch.path, {"history.csv"});
+  make_results(scratch.path, {"history.csv"});
   if (on_rank_0())
     fs::create_directory_symlink(elsewhere.path, scratch.path + "/solution");
   wait_for_all();
@@ -164,4 +178,22 @@ TEST(OutputDirectory, FailureIsTheMachines)
                          "or emptied: "),
             0u)
     << message;
+}
+
+// One run at a time; the file that it leaves locks nothing.
+TEST(DirectoryLock, KeepsOthersOut)
+{
+  const ScratchFolder scratch;
+  const std::string   directory = scratch.path + "/run";
+  for (unsigned int run = 0; run < 2; ++run)
+    {
+      const corotet::DirectoryLock lock(directory, MPI_COMM_WORLD);
+      const std::string            message = message_of<MachineError>(
+        [&] { const corotet::DirectoryLock other(directory, MPI_COMM_WORLD); });
+      EXPECT_TRUE(message.starts_with("the output directory '" + directory +
+                                      "' is in use by process "))
+        << message;
+      // The mark alone is no result.
+      prepare_output_directory(directory, false, MPI_COMM_WORLD);
+    }
 }

@@ -6,17 +6,22 @@
 // The environment says which:
 // COROTET_TEST_FILES  part of the paths of these files
 // COROTET_TEST_RANK   rank in MPI_COMM_WORLD (Open MPI's number), or "all"
-// COROTET_TEST_FROM   number of the first operation that fails, from 1 on; all
-//                     later ones fail, too
+// COROTET_TEST_FROM   number of the first operation that fails, from 1 on
+// COROTET_TEST_MODE   "from": all later ones fail, too; "once": no other one
+//                     does; "kill": the process is killed in place of it
 // COROTET_TEST_COUNT  file that gets the number of operations at the end
-// Operations are: opening, writing, changing the size, closing what was
-// written, renaming, making a folder.
+// Operations are: opening, writing, changing the size, bringing to the disk,
+// closing what was written, renaming, making a folder, removing.
+// COROTET_TEST_MODE = "memory": the operations are allocations of 16 KiB or
+// more (those of fields and files) from the first chosen file on instead, and
+// that one fails.
 
 #ifndef _GNU_SOURCE
 #  define _GNU_SOURCE
 #endif
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -33,6 +38,7 @@ namespace
   constexpr int    max_descriptors = 1024;
   std::atomic_bool is_watched[max_descriptors];
   std::atomic_long n_operations;
+  std::atomic_bool has_begun;
 
   const char *
   setting(const char *name)
@@ -66,12 +72,37 @@ namespace
            is_watched[descriptor];
   }
 
+  bool
+  has_mode(const char *mode)
+  {
+    return std::strcmp(setting("COROTET_TEST_MODE"), mode) == 0;
+  }
+
+  // Whether operation number @p n fails or ends the process.
+  bool
+  is_its_turn(const long n)
+  {
+    static const long from = std::atol(setting("COROTET_TEST_FROM"));
+    static const bool once = has_mode("once") || has_mode("memory");
+    static const bool kill = has_mode("kill");
+    if (n < from || (once && n > from))
+      return false;
+    if (kill)
+      ::kill(getpid(), SIGKILL);
+    return true;
+  }
+
   // Counts an operation; whether it has to fail, then with this error.
   bool
   fails(const int error)
   {
-    static const long from = std::atol(setting("COROTET_TEST_FROM"));
-    if (++n_operations < from)
+    static const bool of_memory = has_mode("memory");
+    if (of_memory)
+      {
+        has_begun = true;
+        return false;
+      }
+    if (!is_its_turn(++n_operations))
       return false;
     errno = error;
     return true;
@@ -201,6 +232,57 @@ extern "C"
       is_watched[descriptor] = false;
     const int result = original(fclose, "fclose")(file);
     return chosen && fails(ENOSPC) ? EOF : result;
+  }
+
+#define COROTET_SYNC(NAME)                    \
+  int NAME(int descriptor)                    \
+  {                                           \
+    if (is_chosen(descriptor) && fails(EIO))  \
+      return -1;                              \
+    return original(NAME, #NAME)(descriptor); \
+  }
+  COROTET_SYNC(fsync)
+
+  int
+  syncfs(int descriptor) noexcept
+  {
+    if (is_chosen(descriptor) && fails(EIO))
+      return -1;
+    return original(syncfs, "syncfs")(descriptor);
+  }
+
+#define COROTET_REMOVE(NAME)              \
+  int NAME(const char *path) noexcept     \
+  {                                       \
+    if (is_chosen(path) && fails(EACCES)) \
+      return -1;                          \
+    return original(NAME, #NAME)(path);   \
+  }
+  COROTET_REMOVE(unlink)
+  COROTET_REMOVE(remove)
+
+  // glibc's own: dlsym() allocates itself.
+  void *
+  __libc_malloc(size_t size);
+
+  // What operator new and deal.II's vectors call.
+  void *
+  malloc(size_t size)
+  {
+    if (size >= 16384 && has_begun && is_its_turn(++n_operations))
+      {
+        errno = ENOMEM;
+        return nullptr;
+      }
+    return __libc_malloc(size);
+  }
+
+  int
+  posix_memalign(void **result, size_t alignment, size_t size) noexcept
+  {
+    if (size >= 16384 && has_begun && is_its_turn(++n_operations))
+      return ENOMEM;
+    return original(posix_memalign, "posix_memalign")(result, alignment, size);
   }
 
   int

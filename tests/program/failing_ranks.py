@@ -58,14 +58,14 @@ class FailingRanks(ProgramTest):
         command = [os.environ["COROTET_PROGRAM"], ROOT / "parameters" / "cantilever.prm", *overrides, "--output", directory, "--quiet"]
         count = self.folder / "count"
         shutil.rmtree(directory, ignore_errors=True)
-        run = self.start(command, ranks, COROTET_TEST_FROM=10**6, COROTET_TEST_COUNT=count, **preload)
+        run = self.start(command, ranks, COROTET_TEST_FROM=10**6, COROTET_TEST_MODE="from", COROTET_TEST_COUNT=count, **preload)
         self.assertEqual(run[0], 0, run[2])
         n = int(count.read_text(encoding="utf-8"))
         self.assertGreater(n, 10)
         for first in sorted({1 + (n - 1) * i // (n_runs - 1) for i in range(n_runs)}):
             with self.subTest(ranks=ranks, rank=rank, first=first, of=n):
                 shutil.rmtree(directory, ignore_errors=True)
-                run = self.start(command, ranks, COROTET_TEST_FROM=first, **preload)
+                run = self.start(command, ranks, COROTET_TEST_FROM=first, COROTET_TEST_MODE="from", **preload)
                 # The last lines of the log may be lost when all results are there.
                 if run[0] == 0:
                     self.assertGreater(first, 0.9 * n)
@@ -90,7 +90,7 @@ class FailingRanks(ProgramTest):
             for ranks, rank, expected in ((2, 0, status), (2, 1, 0), (2, "all", status), (3, 2, 0)):
                 with self.subTest(file=file, ranks=ranks, rank=rank):
                     run = self.start(program, ranks, LD_PRELOAD=os.environ["COROTET_FAILING_FILES"], COROTET_TEST_RANK=rank,
-                                     COROTET_TEST_FILES=file, COROTET_TEST_FROM=1, ASAN_OPTIONS="verify_asan_link_order=0")
+                                     COROTET_TEST_FILES=file, COROTET_TEST_FROM=1, COROTET_TEST_MODE="from", ASAN_OPTIONS="verify_asan_link_order=0")
                     if expected == 0:
                         self.assertEqual(run[:2], (0, []), run[2])
                     else:

@@ -175,7 +175,7 @@ end
             with self.subTest(setting):
                 self.assertIn(message, self.study(EXACT, "--set", setting, status=1).stderr)
                 self.assertFalse((self.folder / "out").exists())
-        self.assertIn("--restart", self.study(EXACT, "--restart", "--set", "Type = simulation", status=1).stderr)
+        self.assertIn("--restart", self.study(EXACT, "--restart", "--set", "Type = modes", status=1).stderr)
 
 
 if __name__ == "__main__":

@@ -64,6 +64,20 @@ namespace corotet
       : Error(3, message)
     {}
   };
+
+  /**
+   * A signal or a limit ended the run before its end time, and it was saved:
+   * exit status 4.
+   */
+  class Stopped : public Error
+  {
+  public:
+    static constexpr int status = 4;
+
+    explicit Stopped(const std::string &message)
+      : Error(status, message)
+    {}
+  };
 } // namespace corotet
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 
@@ -54,6 +55,18 @@ namespace corotet
     /// MachineError if it cannot be written. Collective.
     void
     open(const std::string &path);
+
+    /// The same, but going on after the first @p size bytes of the file; what
+    /// follows them, and what has been shown so far, is not in it. Collective.
+    void
+    resume(const std::string &path, const std::int64_t size);
+
+    /// Bytes of the file, on rank 0.
+    std::int64_t
+    size()
+    {
+      return file.is_open() ? static_cast<std::int64_t>(file.tellp()) : 0;
+    }
 
   private:
     void

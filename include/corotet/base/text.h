@@ -25,6 +25,16 @@ namespace corotet
   join(const std::vector<std::string> &parts,
        const std::string              &separator = ", ");
 
+  /// A text of any length for a message: of a long one the start, and how long
+  /// it is.
+  std::string
+  shortened(const std::string &text);
+
+  /// A message for a terminal: control characters as \xNN, and no more than a
+  /// few thousand characters.
+  std::string
+  printable(const std::string &message);
+
   /**
    * The parts of @p text between separators that stand outside of all () and
    * [], without white space around them. A text without separator is one part;

@@ -4,16 +4,38 @@
 #ifndef corotet_base_whole_file_h
 #define corotet_base_whole_file_h
 
+#include <cstdint>
+#include <fstream>
 #include <string>
 
 namespace corotet
 {
   /// Writes a file that is complete or absent. Throws MachineError: @p what
-  /// ("the summary") cannot be written.
+  /// ("the summary") cannot be written. @p durable: it also survives a loss of
+  /// power.
   void
   write_whole_file(const std::string &path,
                    const std::string &text,
-                   const std::string &what);
+                   const std::string &what,
+                   const bool         durable = false);
+
+  /// Opens @p file at @p path to write on after its first @p size bytes, which
+  /// must be there; what follows them goes. Throws MachineError.
+  void
+  continue_file(const std::string &path,
+                const std::int64_t size,
+                const std::string &what,
+                std::ofstream     &file);
+
+  /// Waits until a file, or the names in a folder, are on the disk. Returns
+  /// whether that went well.
+  bool
+  sync_to_disk(const std::string &path);
+
+  /// Waits until all that has been written to the file system of a folder is on
+  /// the disk. Throws MachineError.
+  void
+  sync_file_system(const std::string &folder);
 } // namespace corotet
 
 #endif

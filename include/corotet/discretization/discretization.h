@@ -113,6 +113,13 @@ namespace corotet
       return active_indices[cell];
     }
 
+    /// Number of local cell @p cell in the mesh, whatever its partition.
+    dealii::types::coarse_cell_id
+    mesh_cell(const unsigned int cell) const
+    {
+      return mesh_cells[cell];
+    }
+
     /// The surface, as far as it belongs to owned cells.
     const std::vector<BoundaryFace> &
     boundary_faces() const
@@ -187,11 +194,12 @@ namespace corotet
     dealii::MappingFE<3>  linear_mapping;
     dealii::DoFHandler<3> dofs;
 
-    std::vector<CellGeometry> geometries;
-    std::vector<unsigned int> active_indices;
-    std::vector<BoundaryFace> surface;
-    std::vector<BoundaryFace> surface_of_ghosts;
-    Vector                    positions;
+    std::vector<CellGeometry>                  geometries;
+    std::vector<unsigned int>                  active_indices;
+    std::vector<dealii::types::coarse_cell_id> mesh_cells;
+    std::vector<BoundaryFace>                  surface;
+    std::vector<BoundaryFace>                  surface_of_ghosts;
+    Vector                                     positions;
     /// By local cell; empty if no cell of any rank is curved.
     std::vector<unsigned char> curved_cells;
   };

@@ -74,6 +74,33 @@ namespace corotet
   };
 
   /**
+   * Keeps HDF5 from printing its error stack while it lives: a MachineError
+   * tells the user.
+   */
+  class Hdf5Silence
+  {
+  public:
+    Hdf5Silence()
+    {
+      H5Eget_auto2(H5E_DEFAULT, &function, &data);
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+
+    ~Hdf5Silence()
+    {
+      H5Eset_auto2(H5E_DEFAULT, function, data);
+    }
+
+    Hdf5Silence(const Hdf5Silence &) = delete;
+    Hdf5Silence &
+    operator=(const Hdf5Silence &) = delete;
+
+  private:
+    H5E_auto2_t function = nullptr;
+    void       *data     = nullptr;
+  };
+
+  /**
    * A part of a virtual table: all @p n_rows rows of a table in @p file, a path
    * relative to the folder of the file that has the virtual table, or "." for
    * that file.
@@ -179,10 +206,11 @@ namespace corotet
                          const std::string &name,
                          const std::string &text);
 
-    /// Closes the file and gives it its name. Throws MachineError on all ranks
-    /// if anything went wrong on any. Collective.
+    /// Closes the file and gives it its name. @p durable: when that returns it
+    /// survives a loss of power. Throws MachineError on all ranks if anything
+    /// went wrong on any. Collective.
     void
-    finish();
+    finish(const bool durable = false);
 
   private:
     /// Takes note of a failure; returns whether @p result is good.
@@ -209,6 +237,17 @@ namespace corotet
     /// Of the file, on each rank; -1 if it is not open.
     int descriptor = -1;
   };
+
+  /**
+   * This rank's @p rows of a table of double that an Hdf5File has written.
+   * Throws MachineError if the file has no such table, or one of another size.
+   * Collective.
+   */
+  std::vector<double>
+  read_table(const std::string &path,
+             const std::string &name,
+             const Hdf5Rows    &rows,
+             const MPI_Comm     comm);
 } // namespace corotet
 
 #endif

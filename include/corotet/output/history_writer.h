@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -59,6 +60,13 @@ namespace corotet
     start(const Snapshot &initial) override;
 
     void
+    transfer(Archive &archive) override;
+
+    /// Removes the rows that came after the checkpoint.
+    void
+    resume(const Snapshot &state) override;
+
+    void
     step(const Snapshot &state) override;
 
     /// The last row, on all ranks; empty before start().
@@ -69,13 +77,18 @@ namespace corotet
     }
 
   private:
+    /// The row of @p state becomes the last one.
+    void
+    make_row(const Snapshot &state);
     void
     write_row(const Snapshot &state, const bool with_names);
 
-    std::string                             path;
-    Probes                                  probes;
-    std::optional<StressProbes>             stress_probes;
-    std::ofstream                           file;
+    std::string                 path;
+    Probes                      probes;
+    std::optional<StressProbes> stress_probes;
+    std::ofstream               file;
+    /// Of the file at the checkpoint, in bytes; on rank 0.
+    std::int64_t                            saved_size = 0;
     std::unique_ptr<nlohmann::ordered_json> row;
   };
 } // namespace corotet

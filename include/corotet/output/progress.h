@@ -39,6 +39,12 @@ namespace corotet
     start(const Snapshot &initial) override;
 
     void
+    resume(const Snapshot &state) override
+    {
+      start(state);
+    }
+
+    void
     step(const Snapshot &state) override;
 
   private:

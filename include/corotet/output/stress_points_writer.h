@@ -4,9 +4,11 @@
 #ifndef corotet_output_stress_points_writer_h
 #define corotet_output_stress_points_writer_h
 
+#include <corotet/output/file_order.h>
 #include <corotet/output/vtkhdf_series.h>
 #include <corotet/simulation/observer.h>
 
+#include <optional>
 #include <string>
 
 namespace corotet
@@ -30,6 +32,15 @@ namespace corotet
     start(const Snapshot &initial) override;
 
     void
+    transfer(Archive &archive) override
+    {
+      series.transfer(archive);
+    }
+
+    void
+    resume(const Snapshot &state) override;
+
+    void
     step(const Snapshot &state) override;
 
     void
@@ -43,8 +54,9 @@ namespace corotet
     write_state(const Snapshot &state);
 
     VtkhdfSeries series;
-    /// This rank's share of the points.
-    Hdf5Rows points{};
+    /// Of the cells, from start() on, and how many points each has.
+    std::optional<FileOrder> cells;
+    hsize_t                  n_points = 0;
   };
 } // namespace corotet
 

@@ -4,6 +4,7 @@
 #ifndef corotet_output_stress_tables_h
 #define corotet_output_stress_tables_h
 
+#include <corotet/output/file_order.h>
 #include <corotet/output/vtkhdf_series.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -34,10 +35,12 @@ namespace corotet
     static const std::vector<VtkhdfSeries::Table> &
     tables();
 
-    /// @p rows tells this rank's share; columns are not read.
-    explicit StressTables(const Hdf5Rows &rows);
+    /// Of nodes, or of cells that have @p n_points points each. @p order
+    /// must outlive this object.
+    explicit StressTables(const FileOrder  &order,
+                          const std::size_t n_points = 1);
 
-    /// The next row: stress [Pa] and strain [-].
+    /// Of the next owned node or point: stress [Pa] and strain [-].
     void
     add(const dealii::SymmetricTensor<2, 3> &sigma,
         const dealii::SymmetricTensor<2, 3> &epsilon);
@@ -47,7 +50,8 @@ namespace corotet
     write(Hdf5File &file) const;
 
   private:
-    Hdf5Rows rows;
+    const FileOrder  &order;
+    const std::size_t n_points;
     /// In the order of tables().
     std::array<std::vector<double>, 4> values;
   };

@@ -4,6 +4,7 @@
 #ifndef corotet_output_vtkhdf_series_h
 #define corotet_output_vtkhdf_series_h
 
+#include <corotet/base/archive.h>
 #include <corotet/output/hdf5_file.h>
 
 #include <mpi.h>
@@ -93,6 +94,15 @@ namespace corotet
     /// Makes these groups. Collective.
     static void
     create_groups(Hdf5File &file, const std::string &parent = "");
+
+    /// The results up to now.
+    void
+    transfer(Archive &archive);
+
+    /// Makes the series what it was when transfer() wrote it, at step @p step:
+    /// results that came later go. Throws MachineError. Collective.
+    void
+    resume(const unsigned int step, const MPI_Comm comm);
 
     /// Makes a result that is complete part of the series. Throws MachineError.
     /// Collective.

@@ -5,10 +5,12 @@
 #define corotet_output_vtkhdf_writer_h
 
 #include <corotet/discretization/coarser_nodes.h>
+#include <corotet/output/file_order.h>
 #include <corotet/output/vtkhdf_series.h>
 #include <corotet/simulation/observer.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,16 @@ namespace corotet
     start(const Snapshot &initial) override;
 
     void
+    transfer(Archive &archive) override
+    {
+      series.transfer(archive);
+    }
+
+    /// Also writes the mesh again: the ranks of its cells may be others.
+    void
+    resume(const Snapshot &state) override;
+
+    void
     step(const Snapshot &state) override;
 
     void
@@ -71,9 +83,9 @@ namespace corotet
 
     /// The nodes that are shown if these are not all.
     std::unique_ptr<CoarserNodes> without_bubbles;
-    /// This rank's share of the nodes (three columns) and of the cells.
-    Hdf5Rows nodes{};
-    Hdf5Rows cells{};
+    /// Of the nodes that are shown, and of the cells; from start() on.
+    std::optional<FileOrder> nodes;
+    std::optional<FileOrder> cells;
   };
 } // namespace corotet
 

@@ -4,6 +4,8 @@
 #ifndef corotet_simulation_adaptive_step_h
 #define corotet_simulation_adaptive_step_h
 
+#include <corotet/base/archive.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 namespace corotet
@@ -72,6 +74,10 @@ namespace corotet
     {
       return too_inaccurate;
     }
+
+    /// What decides the next steps.
+    void
+    transfer(Archive &archive);
 
   private:
     void

@@ -65,6 +65,11 @@ namespace corotet
     void
     record(StepRecord &record, const State &state, const double time);
 
+    /// What the accounts of the next steps begin with. A budget that reads may
+    /// be made with any state.
+    void
+    transfer(Archive &archive);
+
     /// The record of the initial state.
     const StepRecord &
     initial_record() const
@@ -92,6 +97,8 @@ namespace corotet
 
     void
     take_forces(StepForces &forces, const State &state) const;
+    void
+    transfer_forces(Archive &archive, StepForces &forces) const;
 
     EquationOfMotion &equation;
     const Body       &body;

@@ -48,6 +48,11 @@ namespace corotet
       return std::exchange(clamped_cells, 0u);
     }
 
+    /// What later solves depend on: a preconditioner that is still in use is
+    /// made again as it was. Leaves the equation with another state.
+    void
+    transfer(Archive &archive);
+
     /// How often a preconditioner has been made.
     unsigned int
     preconditioner_builds() const
@@ -79,6 +84,13 @@ namespace corotet
     /// operator; null if it is the effective operator.
     const TangentOperator *
     linearize();
+    /// Makes the effective operator that of the stage, with the rotations of
+    /// the last evaluation.
+    void
+    update_effective_operator();
+    /// Makes the preconditioner again.
+    void
+    restore_preconditioner();
     /// Makes the matrix of the surface that of the stage. Returns whether it
     /// has changed.
     bool
@@ -129,6 +141,10 @@ namespace corotet
     // Of the last update of the operator.
     double operator_c_K = -1;
     double operator_c_M = -1;
+
+    /// The stage and the displacement that the preconditioner was made with.
+    Stage  built_stage = {};
+    Vector built_displacement;
 
     unsigned int clamped_cells = 0;
     /// Of linear solves that were slow.

@@ -87,6 +87,17 @@ namespace corotet
     start(const Snapshot & /*initial*/)
     {}
 
+    /// What an observer needs to go on after a restart: goes into checkpoints.
+    virtual void
+    transfer(Archive & /*archive*/)
+    {}
+
+    /// In place of start() after a restart, when transfer() has read: what the
+    /// run has written after the checkpoint does not count.
+    virtual void
+    resume(const Snapshot & /*state*/)
+    {}
+
     /// After every step.
     virtual void
     step(const Snapshot & /*state*/)

@@ -76,9 +76,25 @@ namespace corotet
     start(const std::vector<std::unique_ptr<Observer>> &observers,
           const OutputTimes                            &recording = {});
 
-    /// Goes on to the next step that is to be recorded.
+    /**
+     * In place of start(): goes on from the checkpoint in @p archive. The
+     * parameters, but for those of time, solvers and output, must be those of
+     * the run that wrote it. Throws InputError if the end time does not fit.
+     */
     void
-    step();
+    resume(const std::vector<std::unique_ptr<Observer>> &observers,
+           const OutputTimes                            &recording,
+           Archive                                      &archive);
+
+    /// What resume() goes on from. Between calls of the others.
+    void
+    save_state(Archive &archive);
+
+    /// Goes on to the next step that is to be recorded, or, if @p
+    /// is_interrupted says so after a step, to that one. It must say the same
+    /// on all ranks.
+    void
+    step(const std::function<bool()> &is_interrupted = {});
 
     bool
     is_done() const
@@ -93,7 +109,28 @@ namespace corotet
       finish("done", "");
     }
 
-    /// Of the last step.
+    /// Tells the observers that the run ends before its end time; @p message
+    /// says why.
+    void
+    stop(const std::string &message)
+    {
+      finish("stopped", message);
+    }
+
+    /// Of the last step, recorded or not; and its time [s].
+    unsigned int
+    step_number() const
+    {
+      return stepper.step_number(last_record);
+    }
+
+    double
+    time() const
+    {
+      return stepper.time();
+    }
+
+    /// Of the last step that was recorded.
     const StepRecord &
     record() const
     {
@@ -129,6 +166,9 @@ namespace corotet
     /// logs it.
     std::optional<double>
     rotation_difference();
+    /// All but the state of the time loop.
+    void
+    transfer(Archive &archive);
     Snapshot
     snapshot(const bool last);
     /// Of the present displacement. Made when it is first asked for.
@@ -148,6 +188,8 @@ namespace corotet
     TimeLoop                    stepper;
     StepRecord                  last_record;
     bool                        is_started = false;
+    /// That the run took before it was restarted [s].
+    double earlier_seconds = 0;
 
     const std::vector<std::unique_ptr<Observer>> *observers = nullptr;
 

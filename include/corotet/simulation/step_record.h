@@ -4,6 +4,8 @@
 #ifndef corotet_simulation_step_record_h
 #define corotet_simulation_step_record_h
 
+#include <corotet/base/archive.h>
+
 #include <deal.II/base/tensor.h>
 
 namespace corotet
@@ -54,6 +56,9 @@ namespace corotet
     /// Moment of the internal forces about the origin, with current positions
     /// [N m]: zero for a law that conserves angular momentum.
     dealii::Tensor<1, 3> internal_moment;
+
+    void
+    transfer(Archive &archive);
   };
 } // namespace corotet
 

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
 
 namespace corotet
@@ -49,12 +50,29 @@ namespace corotet
     start(const OutputTimes &recording);
 
     /**
-     * Goes on to the next step that is to be recorded. @p record, that of the
+     * In place of start(): takes all that the steps to come depend on from
+     * @p archive. The end time and the time step may be others than those of
+     * the run that wrote it: equal steps begin anew then. @p record: of the
+     * last step that was recorded. Throws InputError if that does not fit.
+     */
+    void
+    resume(const OutputTimes &recording,
+           Archive           &archive,
+           const StepRecord  &record);
+
+    /// What resume() takes.
+    void
+    save(Archive &archive);
+
+    /**
+     * Goes on to the next step that is to be recorded, or to an earlier one if
+     * @p is_interrupted, which is asked after each (or after some, if they are
+     * made together), says so; then it returns false. @p record, that of the
      * last one, becomes its record, but for the wall time. Throws
      * ComputationError; then record, state and time are the last good ones.
      */
-    void
-    next(StepRecord &record);
+    bool
+    next(StepRecord &record, const std::function<bool()> &is_interrupted = {});
 
     bool
     is_done() const
@@ -67,6 +85,13 @@ namespace corotet
     has_partial_step() const
     {
       return is_partial;
+    }
+
+    /// Of the last step; @p record is that of the last recorded one.
+    unsigned int
+    step_number(const StepRecord &record) const
+    {
+      return is_between_records ? unrecorded.step : record.step;
     }
 
     /// Of the state [s].
@@ -83,6 +108,12 @@ namespace corotet
     }
 
   private:
+    void
+    transfer(Archive &archive);
+    /// Where equal steps begin and how many there are, from now on: step
+    /// @p step has been reached. Throws InputError.
+    void
+    begin_equal_steps(const unsigned int step);
     /// Throw InputError.
     void
     check_parameters() const;
@@ -210,13 +241,22 @@ namespace corotet
     State  good_state;
     double good_done = 0;
 
-    /// Number of equal steps; 0 if the run chooses their length.
-    unsigned int n_steps = 0;
+    /// Number of equal steps; 0 if the run chooses their length. They begin
+    /// with that step, when that part of the run is done: at the start, or
+    /// where a run was restarted with other steps.
+    unsigned int n_steps    = 0;
+    unsigned int first_step = 0;
+    double       first_done = 0;
     /// Of the equal steps, or what stability allows [s].
     double step_length = 0;
     /// Null if the length of steps does not follow their error.
     std::unique_ptr<AdaptiveStep> adaptive;
     Vector                        acceleration_change;
+
+    /// Of the last step, if it was not to be recorded and next() was
+    /// interrupted.
+    StepRecord unrecorded;
+    bool       is_between_records = false;
 
     bool is_partial = false;
     bool has_warned = false;

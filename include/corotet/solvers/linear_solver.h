@@ -4,6 +4,7 @@
 #ifndef corotet_solvers_linear_solver_h
 #define corotet_solvers_linear_solver_h
 
+#include <corotet/base/archive.h>
 #include <corotet/base/selectable.h>
 #include <corotet/operators/tangent_operator.h>
 #include <corotet/solvers/preconditioner.h>
@@ -89,6 +90,24 @@ namespace corotet
           const Vector            &positions,
           const TangentOperator   *J = nullptr,
           const double limit         = std::numeric_limits<double>::infinity());
+
+    /// What later solves depend on beside the preconditioner itself: that is
+    /// made by build_again().
+    void
+    transfer(Archive &archive);
+
+    /// Whether there is a preconditioner of an earlier solve that the next one
+    /// may use.
+    bool
+    is_preconditioner_built() const
+    {
+      return is_built;
+    }
+
+    /// Makes the preconditioner again as it was made before a checkpoint; @p A
+    /// and @p positions must be those of that time.
+    void
+    build_again(const EffectiveOperator &A, const Vector &positions);
 
     /// Name of the preconditioner, as the parameter has it.
     const std::string &

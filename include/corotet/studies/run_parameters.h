@@ -4,6 +4,7 @@
 #ifndef corotet_studies_run_parameters_h
 #define corotet_studies_run_parameters_h
 
+#include <corotet/output/checkpoints.h>
 #include <corotet/output/output_parameters.h>
 #include <corotet/simulation/simulation_parameters.h>
 #include <corotet/studies/study_parameters.h>
@@ -27,6 +28,9 @@ namespace corotet
       prm.enter_subsection("Output");
       output.declare_parameters(prm);
       prm.leave_subsection();
+      prm.enter_subsection("Checkpoint");
+      checkpoint.declare_parameters(prm);
+      prm.leave_subsection();
       prm.enter_subsection("Verification");
       verification.declare_parameters(prm);
       prm.leave_subsection();
@@ -35,6 +39,7 @@ namespace corotet
     SimulationParameters simulation;
     StudyParameters      study;
     OutputParameters     output;
+    CheckpointParameters checkpoint;
     Verification         verification;
   };
 } // namespace corotet

@@ -31,6 +31,13 @@ namespace corotet
       before.clear();
     }
 
+    void
+    transfer(Archive &archive) override
+    {
+      archive.within("present", [&] { present.transfer(archive); });
+      archive.within("before", [&] { before.transfer(archive); });
+    }
+
     StageReport
     step(SecondOrderSystem &system,
          const TimeStep    &step,
@@ -64,6 +71,14 @@ namespace corotet
         time = -std::numeric_limits<double>::infinity();
         u.reinit(0);
         v.reinit(0);
+      }
+
+      void
+      transfer(Archive &archive)
+      {
+        archive.transfer("time", time);
+        archive.transfer("displacement", u);
+        archive.transfer("velocity", v);
       }
 
       double time = -std::numeric_limits<double>::infinity();

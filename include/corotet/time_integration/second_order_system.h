@@ -4,7 +4,7 @@
 #ifndef corotet_time_integration_second_order_system_h
 #define corotet_time_integration_second_order_system_h
 
-#include <corotet/base/vector.h>
+#include <corotet/base/archive.h>
 
 #include <limits>
 
@@ -19,6 +19,14 @@ namespace corotet
     Vector u;
     Vector v;
     Vector a;
+
+    void
+    transfer(Archive &archive)
+    {
+      archive.transfer("displacement", u);
+      archive.transfer("velocity", v);
+      archive.transfer("acceleration", a);
+    }
 
     /// Makes them empty, of no nodes.
     void

@@ -66,6 +66,12 @@ namespace corotet
     reset()
     {}
 
+    /// What the method keeps from one step to the next beside the state, of
+    /// methods that use earlier steps: a run that is restarted goes on with it.
+    virtual void
+    transfer(Archive & /*archive*/)
+    {}
+
     /// Advances @p state by one step; prescribed entries come out as the system
     /// has them at its end. Throws ComputationError. Collective.
     virtual StageReport

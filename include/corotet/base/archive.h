@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_archive_h
+#define corotet_base_archive_h
+
+#include <corotet/base/vector.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Takes the state of a run to a checkpoint, or back from one.
+   *
+   * Whatever has a state that outlives a step has one function transfer() for
+   * both directions, so that what is written and what is read cannot differ.
+   * Values have names; those of parts stand in sections. All members are
+   * collective.
+   */
+  class Archive
+  {
+  public:
+    virtual ~Archive() = default;
+
+    /// Whether values come from a checkpoint. If not, they do not change.
+    virtual bool
+    is_reading() const = 0;
+
+    /// A text that is the same on all ranks; that of rank 0 is written.
+    virtual void
+    transfer(const std::string &name, std::string &text) = 0;
+
+    /// A vector of the body's unknowns, or one that is empty. Read ones have
+    /// the same owned entries on any number of ranks, and no ghost entries.
+    virtual void
+    transfer(const std::string &name, Vector &vector) = 0;
+
+    /// A number that is the same on all ranks, to the last bit.
+    template <typename Number>
+      requires std::is_arithmetic_v<Number>
+    void
+    transfer(const std::string &name, Number &number)
+    {
+      std::string text = fmt::format("{}", number);
+      transfer(name, text);
+      if (!is_reading())
+        return;
+      if constexpr (std::is_same_v<Number, bool>)
+        number = text == "true";
+      else
+        std::from_chars(text.data(), text.data() + text.size(), number);
+    }
+
+    /// Numbers that are the same on all ranks.
+    template <typename Number>
+    void
+    transfer(const std::string &name, std::vector<Number> &numbers)
+    {
+      std::string text = fmt::format("{}", fmt::join(numbers, " "));
+      transfer(name, text);
+      if (!is_reading())
+        return;
+      numbers.clear();
+      const char *const end = text.data() + text.size();
+      for (const char *next = text.data(); next < end; ++next)
+        next = std::from_chars(next, end, numbers.emplace_back()).ptr;
+    }
+
+    /// Names of what @p action transfers are those in section @p name.
+    template <typename Action>
+    void
+    within(const std::string &name, const Action &action)
+    {
+      const std::string outer = section;
+      section += name + "/";
+      action();
+      section = outer;
+    }
+
+  protected:
+    /// What names begin with.
+    std::string section;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_parameter_trees_h
+#define corotet_base_parameter_trees_h
+
+#include <corotet/base/parameter_reader.h>
+
+#include <istream>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /// Sections in sections: no parameter file needs so many, and readers must
+  /// not run out of their stack.
+  constexpr int max_section_depth = 20;
+
+  /// Throws the InputError of a file with more.
+  [[noreturn]] void
+  fail_as_too_deep(const std::string &place);
+
+  /// The statements of an open .xml or .json file called @p path. Throw
+  /// InputError, with the place in the message.
+  std::vector<ParameterStatement>
+  read_xml_statements(const std::string &path, std::istream &file);
+  std::vector<ParameterStatement>
+  read_json_statements(const std::string &path, std::istream &file);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_checkpoints_h
+#define corotet_output_checkpoints_h
+
+#include <corotet/base/log.h>
+#include <corotet/output/checkpoint_file.h>
+#include <corotet/simulation/simulation.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The parameters of section Checkpoint.
+   */
+  struct CheckpointParameters
+  {
+    /// Declares the entries in the section that @p prm is in.
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    /// 0: none after a number of steps.
+    unsigned int steps_between = 0;
+    /// Of wall time; 0: none after a time.
+    double       minutes_between = 10;
+    unsigned int keep            = 2;
+    /// In s; 0: none.
+    double wall_time_limit = 0;
+
+    bool
+    are_written() const
+    {
+      return steps_between > 0 || minutes_between > 0;
+    }
+  };
+
+  /**
+   * The checkpoints of a run, in the folder checkpoint of its output directory:
+   * when they are due, which are kept, and from which a run goes on; and when
+   * it has to end before its time, because of a signal or the limit.
+   *
+   * All members are collective.
+   */
+  class Checkpoints
+  {
+  public:
+    /// @p values: the text of every entry of the run. The arguments must
+    /// outlive this object.
+    Checkpoints(const CheckpointParameters   &parameters,
+                const std::string            &directory,
+                const nlohmann::ordered_json &values,
+                const Discretization         &discretization,
+                Log                          &log);
+
+    /// The newest checkpoint that is good; the log names those that are not.
+    /// Null if there is none. Throws InputError if the run's entries or its
+    /// mesh are others, where they must not be.
+    std::unique_ptr<CheckpointReader>
+    newest() const;
+
+    /// Prepares @p log and, if @p checkpoint is not null, lets @p simulation go
+    /// on from it. To be called with the first state complete.
+    void
+    resume(Simulation                                   &simulation,
+           const std::vector<std::unique_ptr<Observer>> &observers,
+           const OutputTimes                            &recording,
+           CheckpointReader                             &checkpoint);
+
+    /// Makes all steps of a run that has been started, and finishes it.
+    /// Checkpoints are written when they are due, and at the end. Throws
+    /// Stopped after the run was saved, if it was to end earlier.
+    void
+    run(Simulation &simulation);
+
+  private:
+    /// What the run is asked for; bits.
+    enum Request : int
+    {
+      none       = 0,
+      save       = 1,
+      terminate  = 2,
+      interrupt  = 4,
+      time_limit = 8
+    };
+
+    /// The same on all ranks.
+    int
+    requests();
+    void
+    write(Simulation &simulation, const bool durable);
+    /// Removes checkpoints but for the newest ones. On rank 0.
+    void
+    remove_old() const;
+    /// Steps of all checkpoints in the folder, the newest first. On rank 0.
+    std::vector<unsigned int>
+    steps() const;
+    std::string
+    path_of(const unsigned int step) const;
+    void
+    check_entries(const CheckpointReader &checkpoint) const;
+
+    using Clock = std::chrono::steady_clock;
+
+    const CheckpointParameters   &parameters;
+    std::string                   directory;
+    const nlohmann::ordered_json &values;
+    const Discretization         &discretization;
+    const MPI_Comm                comm;
+    Log                          &log;
+    const FileOrder               order;
+    const Clock::time_point       started      = Clock::now();
+    Clock::time_point             written      = started;
+    unsigned int                  written_step = 0;
+  };
+} // namespace corotet
+
+#endif

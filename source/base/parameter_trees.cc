@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/parameter_trees.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+namespace corotet
+{
+  namespace
+  {
+    using Statements = std::vector<ParameterStatement>;
+
+    [[noreturn]] void
+    refuse_tree(const std::string &place, const std::string &message)
+    {
+      throw InputError("", place + ": " + message);
+    }
+
+    // Before the reader proper sees it.
+    void
+    check_xml(const std::string &path, const std::string &text)
+    {
+      int depth = 0;
+      for (std::size_t i = text.find('<'); i != std::string::npos;
+           i             = text.find('<', i + 1))
+        if (text.compare(i, 9, "<!DOCTYPE") == 0 ||
+            text.compare(i, 8, "<!ENTITY") == 0)
+          refuse_tree(
+            path, "it has a document type or entities; allowed are neither");
+        else if (text.compare(i, 2, "</") == 0)
+          --depth;
+        else if (text.compare(i, 2, "<!") != 0 && text.compare(i, 2, "<?") != 0)
+          {
+            const std::size_t end = text.find('>', i);
+            if (end == std::string::npos || text[end - 1] != '/')
+              ++depth;
+            if (depth > max_section_depth)
+              fail_as_too_deep(path);
+          }
+    }
+
+    // ParameterHandler's spelling of names in .xml files: all but letters and
+    // digits as _ and two hexadecimal digits.
+    std::string
+    demangle(const std::string &name)
+    {
+      std::string result;
+      for (std::size_t i = 0; i < name.size(); ++i)
+        if (name[i] == '_' && i + 2 < name.size())
+          {
+            result += static_cast<char>(
+              std::strtol(name.substr(i + 1, 2).c_str(), nullptr, 16));
+            i += 2;
+          }
+        else
+          result += name[i];
+      return result;
+    }
+
+    void
+    collect(const boost::property_tree::ptree &tree,
+            const std::string                 &path,
+            const std::string                 &file,
+            Statements                        &statements)
+    {
+      for (const auto &[key, node] : tree)
+        {
+          if (key == "<xmlcomment>" || node.get_optional<std::string>("alias"))
+            continue;
+          const std::string name =
+            path.empty() ? demangle(key) : path + "/" + demangle(key);
+          const auto value = node.get_optional<std::string>("value");
+          if (value || node.empty())
+            {
+              const std::string text =
+                dealii::Utilities::trim(value ? *value : node.data());
+              statements.push_back({name, text, file, !value && text.empty()});
+            }
+          else
+            {
+              statements.push_back({name, std::nullopt, file});
+              collect(node, name, file, statements);
+            }
+        }
+    }
+
+    void
+    collect(const nlohmann::ordered_json &tree,
+            const std::string            &path,
+            const std::string            &file,
+            Statements                   &statements)
+    {
+      for (const auto &[key, node] : tree.items())
+        {
+          const std::string name  = path.empty() ? key : path + "/" + key;
+          const bool        whole = node.is_object() && node.contains("value");
+          const auto       &value = whole ? node.at("value") : node;
+          if (value.is_object())
+            {
+              if (value.contains("alias"))
+                continue;
+              statements.push_back({name, std::nullopt, file});
+              collect(value, name, file, statements);
+            }
+          else if (value.is_string())
+            {
+              const std::string text =
+                dealii::Utilities::trim(value.get<std::string>());
+              statements.push_back({name, text, file, !whole && text.empty()});
+            }
+          else if (value.is_number() || value.is_boolean())
+            statements.push_back({name, value.dump(), file});
+          else
+            refuse_tree(
+              file,
+              fmt::format("\"{}\" is {}; allowed are a text, a number, true "
+                          "and false",
+                          name,
+                          value.is_null() ? "null" : "a list"));
+        }
+    }
+  } // namespace
+
+  void
+  fail_as_too_deep(const std::string &place)
+  {
+    refuse_tree(
+      place,
+      fmt::format("its elements are nested too deeply; allowed are {} "
+                  "levels",
+                  max_section_depth));
+  }
+
+  std::vector<ParameterStatement>
+  read_xml_statements(const std::string &path, std::istream &file)
+  {
+    const std::string           text{std::istreambuf_iterator<char>(file), {}};
+    boost::property_tree::ptree tree;
+    check_xml(path, text);
+    std::istringstream stream(text);
+    try
+      {
+        boost::property_tree::read_xml(
+          stream, tree, boost::property_tree::xml_parser::no_comments);
+      }
+    catch (const boost::property_tree::xml_parser_error &error)
+      {
+        refuse_tree(fmt::format("{}:{}", path, error.line()),
+                    "it is no valid XML: " + error.message());
+      }
+    const auto root = tree.get_child_optional("ParameterHandler");
+    if (!root || tree.size() != 1)
+      refuse_tree(
+        path, "it must have one outermost element, called ParameterHandler");
+    Statements statements;
+    collect(*root, "", path, statements);
+    return statements;
+  }
+
+  std::vector<ParameterStatement>
+  read_json_statements(const std::string &path, std::istream &file)
+  {
+    nlohmann::ordered_json tree;
+    try
+      {
+        tree = nlohmann::ordered_json::parse(
+          file, [&](const int depth, const auto, const auto &) {
+            if (depth > max_section_depth)
+              fail_as_too_deep(path);
+            return true;
+          });
+      }
+    catch (const nlohmann::json::exception &error)
+      {
+        // "[...] parse error at line 3, column 5: reason"
+        const std::string text = error.what();
+        std::smatch       match;
+        const bool        found = std::regex_search(
+          text, match, std::regex("at line ([0-9]+), column [0-9]+: (.*)"));
+        refuse_tree(found ? path + ":" + match[1].str() : path,
+                    "it is no valid JSON: " + (found ? match[2].str() : text));
+      }
+    if (!tree.is_object())
+      refuse_tree(path, "it must be one JSON object, {...}");
+    Statements statements;
+    collect(tree, "", path, statements);
+    return statements;
+  }
+} // namespace corotet

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/stop_signals.h>
+
+namespace corotet
+{
+  namespace
+  {
+    volatile std::sig_atomic_t stop_signal  = 0;
+    volatile std::sig_atomic_t save_request = 0;
+
+    void
+    remember(const int signal)
+    {
+      if (signal == SIGUSR1)
+        {
+          save_request = 1;
+          return;
+        }
+      if (stop_signal != 0)
+        {
+          // What is saved is whole, whatever is being written now.
+          std::signal(signal, SIG_DFL);
+          std::raise(signal);
+        }
+      stop_signal = signal;
+    }
+  } // namespace
+
+  StopSignals::StopSignals()
+  {
+    stop_signal  = 0;
+    save_request = 0;
+    struct sigaction action{};
+    action.sa_handler = remember;
+    sigemptyset(&action.sa_mask);
+    // Writing goes on where it was.
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGTERM, &action, &before_term);
+    sigaction(SIGINT, &action, &before_int);
+    sigaction(SIGUSR1, &action, &before_usr1);
+  }
+
+  StopSignals::~StopSignals()
+  {
+    sigaction(SIGTERM, &before_term, nullptr);
+    sigaction(SIGINT, &before_int, nullptr);
+    sigaction(SIGUSR1, &before_usr1, nullptr);
+  }
+
+  int
+  StopSignals::received()
+  {
+    return stop_signal;
+  }
+
+  bool
+  StopSignals::take_save_request()
+  {
+    const bool was_requested = save_request != 0;
+    save_request             = 0;
+    return was_requested;
+  }
+} // namespace corotet

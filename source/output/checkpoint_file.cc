@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/version.h>
+#include <corotet/base/whole_file.h>
+#include <corotet/output/checkpoint_file.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace corotet
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    // Of what is in a checkpoint and what it means.
+    constexpr int format_version = 1;
+
+    // Every bit of the result depends on every bit of x (the finalizer of
+    // splitmix64; Steele, Lea, Flood, Fast splittable pseudorandom number
+    // generators, 2014).
+    std::uint64_t
+    mixed(std::uint64_t x)
+    {
+      x += 0x9e3779b97f4a7c15;
+      x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+      x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+      return x ^ (x >> 31);
+    }
+
+    // Checksums are sums over words of eight bytes, each mixed with its place:
+    // so parts may be summed by different ranks.
+    std::uint64_t
+    checksum_of_word(const std::uint64_t word, const std::uint64_t place)
+    {
+      return mixed(word ^ mixed(place));
+    }
+
+    // @p data are the bytes from word number @p first on.
+    std::uint64_t
+    checksum_of_bytes(const char         *data,
+                      const std::size_t   size,
+                      const std::uint64_t first)
+    {
+      std::uint64_t sum = 0;
+      for (std::size_t i = 0; i < size; i += 8)
+        {
+          std::uint64_t word = 0;
+          std::memcpy(&word, data + i, std::min<std::size_t>(8, size - i));
+          sum += checksum_of_word(word, first + i / 8);
+        }
+      return sum;
+    }
+
+    // As text: JSON's numbers are not made for 64 bits.
+    std::string
+    checksum_text(const std::uint64_t checksum)
+    {
+      return fmt::format("{:016x}", checksum);
+    }
+
+    std::string
+    checksum_of_text(const std::string &text)
+    {
+      return checksum_text(checksum_of_bytes(text.data(), text.size(), 0) +
+                           mixed(text.size()));
+    }
+
+    class FileDescriptor
+    {
+    public:
+      explicit FileDescriptor(const std::string &path)
+        : number(open(path.c_str(), O_RDONLY | O_CLOEXEC))
+      {
+        if (number < 0)
+          throw MachineError(path + ": " + std::strerror(errno));
+      }
+
+      FileDescriptor(const FileDescriptor &) = delete;
+      FileDescriptor &
+      operator=(const FileDescriptor &) = delete;
+
+      ~FileDescriptor()
+      {
+        close(number);
+      }
+
+      // Reads up to @p size bytes; fewer at the end of the file.
+      std::size_t
+      read(char *data, const std::size_t size, const std::uint64_t place) const
+      {
+        std::size_t done = 0;
+        while (done < size)
+          {
+            const ssize_t n =
+              pread(number, data + done, size - done, place + done);
+            if (n < 0 && errno == EINTR)
+              continue;
+            if (n < 0)
+              throw MachineError(std::string("a checkpoint cannot be read: ") +
+                                 std::strerror(errno));
+            if (n == 0)
+              break;
+            done += n;
+          }
+        return done;
+      }
+
+    private:
+      int number;
+    };
+
+    struct FileContent
+    {
+      std::uint64_t size;
+      std::string   checksum;
+    };
+
+    // Each rank reads its part. Collective.
+    FileContent
+    content_of_file(const std::string &path, const MPI_Comm comm)
+    {
+      const std::uint64_t n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(comm);
+      const std::uint64_t rank = dealii::Utilities::MPI::this_mpi_process(comm);
+      std::uint64_t       size = 0, sum = 0;
+      on_all_ranks(comm, [&] {
+        std::error_code error;
+        size = std::filesystem::file_size(path, error);
+        if (error)
+          throw MachineError(path + ": " + error.message());
+        const FileDescriptor file(path);
+        const std::uint64_t  n_words = (size + 7) / 8;
+        const std::uint64_t  part    = (n_words + n_ranks - 1) / n_ranks;
+        std::vector<char>    buffer(1 << 20);
+        const std::uint64_t  end = std::min(8 * part * (rank + 1), size);
+        for (std::uint64_t place = 8 * part * rank; place < end;)
+          {
+            const std::size_t n =
+              file.read(buffer.data(),
+                        std::min<std::uint64_t>(buffer.size(), end - place),
+                        place);
+            if (n == 0)
+              break;
+            sum += checksum_of_bytes(buffer.data(), n, place / 8);
+            place += n;
+          }
+      });
+      return {size, checksum_text(dealii::Utilities::MPI::sum(sum, comm))};
+    }
+
+    // Of the vertices and regions of all cells. Collective.
+    std::string
+    mesh_checksum(const Discretization &discretization)
+    {
+      std::uint64_t sum = 0;
+      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+        {
+          const auto          nodes = discretization.cell_nodes(c);
+          const std::uint64_t first = 13 * discretization.mesh_cell(c);
+          sum += checksum_of_word(discretization.geometry(c).region, first);
+          for (unsigned int v = 0; v < 4; ++v)
+            for (unsigned int a = 0; a < 3; ++a)
+              {
+                const double  x = discretization.node_position(nodes[v])[a];
+                std::uint64_t word;
+                std::memcpy(&word, &x, sizeof(word));
+                sum += checksum_of_word(word, first + 1 + 3 * v + a);
+              }
+        }
+      return checksum_text(
+        dealii::Utilities::MPI::sum(sum, discretization.communicator()));
+    }
+
+    // Slashes would be groups.
+    std::string
+    table_name(std::string name)
+    {
+      std::replace(name.begin(), name.end(), '/', '.');
+      return name;
+    }
+
+    // Reads and checks PATH.json. On rank 0.
+    Json
+    read_content(const std::string &file)
+    {
+      std::ifstream     stream(file, std::ios::binary);
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      if (!stream)
+        throw InputError("", file + ": cannot be read");
+      try
+        {
+          Json              content  = Json::parse(text);
+          const std::string checksum = content.at("checksum");
+          content.erase("checksum");
+          if (checksum_of_text(content.dump()) != checksum)
+            throw InputError("", file + ": damaged: its checksum is wrong");
+          const int found = content.at("format");
+          if (found != format_version)
+            throw InputError("",
+                             fmt::format("{}: found a checkpoint of format "
+                                         "{}; allowed: {}, that of this "
+                                         "program",
+                                         file,
+                                         found,
+                                         format_version));
+          return content;
+        }
+      catch (const Json::exception &)
+        {
+          throw InputError("", file + ": damaged: it is no whole checkpoint");
+        }
+    }
+  } // namespace
+
+  CheckpointWriter::CheckpointWriter(const std::string    &path,
+                                     const Discretization &discretization,
+                                     const FileOrder      &order)
+    : path(path)
+    , discretization(discretization)
+    , order(order)
+    , file(path + ".h5", discretization.communicator())
+    , values(Json::object())
+  {}
+
+  void
+  CheckpointWriter::transfer(const std::string &name, std::string &text)
+  {
+    values[section + name] = text;
+  }
+
+  void
+  CheckpointWriter::transfer(const std::string &name, Vector &vector)
+  {
+    const std::string full_name = section + name;
+    if (vector.size() == 0)
+      values[full_name] = "empty";
+    else if (vector.linfty_norm() == 0)
+      // Velocities in statics, and the like.
+      values[full_name] = "zero";
+    else
+      {
+        values[full_name] = "stored";
+        order.write(file, table_name(full_name), vector.begin(), 3);
+      }
+  }
+
+  void
+  CheckpointWriter::finish(const Json &parameters, const bool durable)
+  {
+    const MPI_Comm comm = discretization.communicator();
+    file.finish(durable);
+    const FileContent vectors_file = content_of_file(path + ".h5", comm);
+    const std::string mesh         = mesh_checksum(discretization);
+    on_root(comm, [&] {
+      Json content;
+      content["format"]           = format_version;
+      content["version"]          = version;
+      content["git_revision"]     = git_revision;
+      content["cells"]            = discretization.n_global_cells();
+      content["nodes"]            = discretization.n_global_nodes();
+      content["mesh_checksum"]    = mesh;
+      content["vectors_size"]     = vectors_file.size;
+      content["vectors_checksum"] = vectors_file.checksum;
+      content["parameters"]       = parameters;
+      content["values"]           = values;
+      content["checksum"]         = checksum_of_text(content.dump());
+      write_whole_file(path + ".json",
+                       content.dump(1) + "\n",
+                       "the checkpoint",
+                       durable);
+    });
+  }
+
+  CheckpointReader::CheckpointReader(const std::string    &path,
+                                     const Discretization &discretization,
+                                     const FileOrder      &order)
+    : path(path)
+    , discretization(discretization)
+    , order(order)
+  {
+    const MPI_Comm comm = discretization.communicator();
+    content             = Json::parse(
+      from_root(comm, [&] { return read_content(path + ".json").dump(); }));
+    const FileContent found = content_of_file(path + ".h5", comm);
+    if (found.size != content.at("vectors_size").get<std::uint64_t>())
+      fail(fmt::format(".h5: damaged: found {} bytes; needed are {}",
+                       found.size,
+                       content.at("vectors_size").get<std::uint64_t>()));
+    if (found.checksum != content.at("vectors_checksum").get<std::string>())
+      fail(".h5: damaged: its checksum is wrong");
+  }
+
+  void
+  CheckpointReader::check_mesh() const
+  {
+    const std::string found = mesh_checksum(discretization);
+    const std::size_t cells = content.at("cells");
+    if (cells != discretization.n_global_cells() ||
+        content.at("mesh_checksum") != found)
+      throw InputError(
+        "Mesh/Type",
+        fmt::format("--restart: found a mesh of {} cells that is "
+                    "not that of the checkpoint {}.json, which "
+                    "has {}; allowed: the same",
+                    discretization.n_global_cells(),
+                    path,
+                    cells));
+  }
+
+  void
+  CheckpointReader::fail(const std::string &problem) const
+  {
+    throw InputError("", path + problem);
+  }
+
+  void
+  CheckpointReader::transfer(const std::string &name, std::string &text)
+  {
+    const Json       &values = content.at("values");
+    const std::string key    = section + name;
+    if (!values.contains(key))
+      fail(".json: has no value of '" + key + "'");
+    text = values.at(key);
+  }
+
+  void
+  CheckpointReader::transfer(const std::string &name, Vector &vector)
+  {
+    std::string kind;
+    transfer(name, kind);
+    if (kind == "empty")
+      {
+        vector.reinit(0);
+        return;
+      }
+    discretization.initialize_vector(vector);
+    if (kind == "zero")
+      return;
+    const Hdf5Rows            rows = order.rows(3);
+    const std::vector<double> numbers =
+      read_table(path + ".h5",
+                 table_name(section + name),
+                 rows,
+                 discretization.communicator());
+    order.from_file(numbers.data(), vector.begin(), 3);
+  }
+} // namespace corotet

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/stop_signals.h>
+#include <corotet/base/whole_file.h>
+#include <corotet/output/checkpoints.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/patterns.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <regex>
+#include <system_error>
+
+namespace corotet
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+    using Json   = nlohmann::ordered_json;
+
+    // What may be changed when a run is restarted: entries, and sections with a
+    // slash at the end.
+    const std::vector<std::string> changeable{
+      {"Checkpoint/",
+       "Convergence study/",
+       "Linear solver/",
+       "Mesh/gmsh/File",
+       "Modes/",
+       "Newton/",
+       "Output/Directory",
+       "Output/Overwrite",
+       "Output/Steps between rows",
+       "Output/Time between results",
+       "Tables/",
+       "Time integration/Adaptive step/",
+       "Time integration/End time",
+       "Time integration/Maximum halvings",
+       "Time integration/Time step",
+       "Verification/"}};
+
+    // Names of files may be relative to another folder now: those of tables are
+    // not compared; the mesh has a checksum.
+    bool
+    may_change(const std::string &entry)
+    {
+      return entry != "Time integration/Adaptive step/Enabled" &&
+             std::any_of(changeable.begin(),
+                         changeable.end(),
+                         [&](const std::string &allowed) {
+                           return allowed.back() == '/' ?
+                                    entry.starts_with(allowed) :
+                                    entry == allowed;
+                         });
+    }
+
+    // "Section/Entry" and text of all entries.
+    void
+    flatten(const Json                         &section,
+            const std::string                  &path,
+            std::map<std::string, std::string> &entries)
+    {
+      for (const auto &[key, node] : section.items())
+        if (node.is_object())
+          flatten(node, path + key + "/", entries);
+        else
+          entries[path + key] = node.get<std::string>();
+    }
+
+    // Whether two texts are the same but for the way to write a number.
+    bool
+    is_same(const std::string &a, const std::string &b)
+    {
+      if (a == b)
+        return true;
+      char        *end_a = nullptr, *end_b = nullptr;
+      const double x = std::strtod(a.c_str(), &end_a),
+                   y = std::strtod(b.c_str(), &end_b);
+      return !a.empty() && !b.empty() && *end_a == '\0' && *end_b == '\0' &&
+             x == y;
+    }
+  } // namespace
+
+  void
+  CheckpointParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Steps between checkpoints",
+                      steps_between,
+                      "After the first step in the history at or after each "
+                      "multiple of this [-]. 0: none of that kind.",
+                      dealii::Patterns::Integer(0));
+    prm.add_parameter("Minutes between checkpoints",
+                      minutes_between,
+                      "Wall time between checkpoints [min]. 0: none of that "
+                      "kind. With any checkpoints there is one at the end, "
+                      "too, from which a later end time can be reached.",
+                      dealii::Patterns::Double(0));
+    prm.add_parameter("Keep",
+                      keep,
+                      "How many checkpoints are kept, the newest ones [-].",
+                      dealii::Patterns::Integer(1, 1000));
+    prm.add_parameter(
+      "Wall time limit",
+      wall_time_limit,
+      "Wall time [s] after which the run is saved and ends with "
+      "status 4; --restart goes on. 0: none.",
+      dealii::Patterns::Double(0));
+  }
+
+  Checkpoints::Checkpoints(const CheckpointParameters &parameters,
+                           const std::string          &directory,
+                           const Json                 &values,
+                           const Discretization       &discretization,
+                           Log                        &log)
+    : parameters(parameters)
+    , directory(directory + "/checkpoint")
+    , values(values)
+    , discretization(discretization)
+    , comm(discretization.communicator())
+    , log(log)
+    , order(FileOrder::of_nodes(discretization, discretization))
+  {}
+
+  std::string
+  Checkpoints::path_of(const unsigned int step) const
+  {
+    return fmt::format("{}/step_{:06}", directory, step);
+  }
+
+  std::vector<unsigned int>
+  Checkpoints::steps() const
+  {
+    std::vector<unsigned int> result;
+    const std::regex          name(R"(step_(\d{6,9})\.json)");
+    std::error_code           error;
+    for (const auto &entry : fs::directory_iterator(directory, error))
+      {
+        std::smatch       match;
+        const std::string file = entry.path().filename().string();
+        if (std::regex_match(file, match, name))
+          result.push_back(std::stoul(match[1]));
+      }
+    std::sort(result.begin(), result.end(), std::greater<>());
+    return result;
+  }
+
+  std::unique_ptr<CheckpointReader>
+  Checkpoints::newest() const
+  {
+    for (const unsigned int step : from_root(comm, [&] { return steps(); }))
+      {
+        std::unique_ptr<CheckpointReader> reader;
+        try
+          {
+            reader = std::make_unique<CheckpointReader>(path_of(step),
+                                                        discretization,
+                                                        order);
+          }
+        catch (const Error &error)
+          {
+            log.warning(std::string(error.what()) +
+                        "; the checkpoint before it is used");
+            continue;
+          }
+        check_entries(*reader);
+        reader->check_mesh();
+        return reader;
+      }
+    return nullptr;
+  }
+
+  void
+  Checkpoints::check_entries(const CheckpointReader &checkpoint) const
+  {
+    std::map<std::string, std::string> now, before;
+    flatten(values, "", now);
+    flatten(checkpoint.parameters(), "", before);
+    for (const auto &[entry, text] : now)
+      if (const auto it = before.find(entry); it != before.end() &&
+                                              !is_same(it->second, text) &&
+                                              !may_change(entry))
+        throw InputError(entry,
+                         fmt::format("--restart: found '{}', which the run "
+                                     "cannot go on with; allowed: '{}', as "
+                                     "before (times but for the start, the "
+                                     "solvers, and when output is written may "
+                                     "change)",
+                                     text,
+                                     it->second));
+  }
+
+  void
+  Checkpoints::resume(Simulation                                   &simulation,
+                      const std::vector<std::unique_ptr<Observer>> &observers,
+                      const OutputTimes                            &recording,
+                      CheckpointReader                             &checkpoint)
+  {
+    std::int64_t log_size = 0;
+    checkpoint.transfer("log_size", log_size);
+    log.resume(fs::path(directory).parent_path().string() + "/log.txt",
+               log_size);
+    simulation.resume(observers, recording, checkpoint);
+    written_step = simulation.step_number();
+    log.line(fmt::format("Restarted from step {}, t = {:.6g} s",
+                         written_step,
+                         simulation.time()));
+    on_root(comm, [&] {
+      // Those that are damaged.
+      for (const unsigned int step : steps())
+        if (step > written_step)
+          for (const char *suffix : {".json", ".h5"})
+            fs::remove(path_of(step) + suffix);
+    });
+  }
+
+  void
+  Checkpoints::run(Simulation &simulation)
+  {
+    const StopSignals signals;
+    int               asked = none;
+    while (!simulation.is_done())
+      {
+        simulation.step([&] {
+          asked |= requests();
+          return asked != none;
+        });
+        asked |= requests();
+        if (simulation.is_done())
+          break;
+        if ((asked & (terminate | interrupt | time_limit)) != 0)
+          {
+            write(simulation, true);
+            const std::string message =
+              fmt::format("step {} (t = {:.6g} s): {}; the run is saved, "
+                          "--restart goes on with it",
+                          simulation.step_number(),
+                          simulation.time(),
+                          (asked & terminate) != 0 ? "SIGTERM" :
+                          (asked & interrupt) != 0 ? "SIGINT" :
+                                                     "the wall time limit");
+            log.line(message);
+            simulation.stop(message);
+            throw Stopped(message);
+          }
+        const unsigned int interval = parameters.steps_between;
+        if ((asked & save) != 0 ||
+            (interval > 0 &&
+             simulation.step_number() / interval > written_step / interval))
+          write(simulation, true);
+        asked = none;
+      }
+    simulation.finish();
+    if (parameters.are_written())
+      write(simulation, false);
+  }
+
+  int
+  Checkpoints::requests()
+  {
+    int mine = none;
+    if (const int signal = StopSignals::received(); signal != 0)
+      mine |= signal == SIGTERM ? terminate : interrupt;
+    if (StopSignals::take_save_request())
+      mine |= save;
+    // By one clock.
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        const auto now     = Clock::now();
+        const auto seconds = [&](const Clock::time_point since) {
+          return std::chrono::duration<double>(now - since).count();
+        };
+        if (parameters.minutes_between > 0 &&
+            seconds(written) >= 60 * parameters.minutes_between)
+          mine |= save;
+        if (parameters.wall_time_limit > 0 &&
+            seconds(started) >= parameters.wall_time_limit)
+          mine |= time_limit;
+      }
+    int all = none;
+    MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_BOR, comm);
+    return all;
+  }
+
+  void
+  Checkpoints::write(Simulation &simulation, const bool durable)
+  {
+    const unsigned int step = simulation.step_number();
+    written                 = Clock::now();
+    // This state is saved.
+    if (step == written_step)
+      return;
+    on_root(comm, [&] { fs::create_directories(directory); });
+    // What the checkpoint counts on is there before it is.
+    if (durable)
+      on_all_ranks(comm, [&] { sync_file_system(directory); });
+    CheckpointWriter writer(path_of(step), discretization, order);
+    std::int64_t     log_size = log.size();
+    writer.transfer("log_size", log_size);
+    simulation.save_state(writer);
+    writer.finish(values, durable);
+    written_step = step;
+    on_root(comm, [&] { remove_old(); });
+  }
+
+  void
+  Checkpoints::remove_old() const
+  {
+    const std::vector<unsigned int> all = steps();
+    for (std::size_t i = parameters.keep; i < all.size(); ++i)
+      for (const char *suffix : {".json", ".h5"})
+        fs::remove(path_of(all[i]) + suffix);
+  }
+} // namespace corotet

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// How a time loop goes on from a checkpoint.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/simulation/time_loop.h>
+
+#include <fmt/format.h>
+
+namespace corotet
+{
+  void
+  TimeLoop::resume(const OutputTimes &wanted,
+                   Archive           &archive,
+                   const StepRecord  &record)
+  {
+    recording = wanted;
+    integrator->reset();
+    budget =
+      std::make_unique<EnergyBudget>(system.equation(),
+                                     present,
+                                     parameters.start_time,
+                                     integrator->load_factor(0.),
+                                     integrator->is_staggered() ? 1. : 0.);
+    double end_time = 0, time_step = 0;
+    archive.transfer("end_time", end_time);
+    archive.transfer("time_step", time_step);
+    const unsigned int n_planned = n_steps;
+    const double       planned   = step_length;
+    transfer(archive);
+    if (!is_between_records)
+      {
+        good_state = present;
+        good_done  = done;
+      }
+    if (end_time == parameters.end_time && time_step == parameters.time_step)
+      return;
+    if (end_time != parameters.end_time)
+      {
+        if (!integrator->is_dynamic())
+          throw InputError("Time integration/End time",
+                           fmt::format("--restart: found {}; allowed in "
+                                       "statics, where loads grow with the "
+                                       "part of the run that is done: {}, as "
+                                       "before",
+                                       parameters.end_time,
+                                       end_time));
+        const double t =
+          parameters.start_time + done * (end_time - parameters.start_time);
+        if (!(parameters.end_time > t))
+          throw InputError("Time integration/End time",
+                           fmt::format("--restart: found {}; allowed: a time "
+                                       "after that of the checkpoint, {}",
+                                       parameters.end_time,
+                                       t));
+        const double factor = (end_time - parameters.start_time) /
+                              (parameters.end_time - parameters.start_time);
+        done *= factor;
+        good_done *= factor;
+      }
+    if (n_planned > 0)
+      begin_equal_steps(step_number(record));
+    else if (n_steps > 0)
+      {
+        n_steps     = 0;
+        step_length = planned;
+      }
+  }
+
+  void
+  TimeLoop::save(Archive &archive)
+  {
+    double end_time = parameters.end_time, time_step = parameters.time_step;
+    archive.transfer("end_time", end_time);
+    archive.transfer("time_step", time_step);
+    transfer(archive);
+  }
+
+  void
+  TimeLoop::transfer(Archive &archive)
+  {
+    archive.transfer("done", done);
+    archive.transfer("n_steps", n_steps);
+    archive.transfer("first_step", first_step);
+    archive.transfer("first_done", first_done);
+    archive.transfer("step_length", step_length);
+    archive.transfer("energy_supply", energy_supply);
+    archive.transfer("has_warned", has_warned);
+    archive.within("state", [&] { present.transfer(archive); });
+    if (adaptive)
+      archive.within("adaptive_step", [&] { adaptive->transfer(archive); });
+    archive.within("integrator", [&] { integrator->transfer(archive); });
+    archive.within("budget", [&] { budget->transfer(archive); });
+    archive.transfer("is_between_records", is_between_records);
+    if (is_between_records)
+      {
+        archive.within("unrecorded", [&] { unrecorded.transfer(archive); });
+        archive.transfer("good_done", good_done);
+        archive.within("good_state", [&] { good_state.transfer(archive); });
+      }
+  }
+} // namespace corotet

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What goes into a checkpoint comes out again, to the last bit, or the
+// checkpoint is refused.
+
+#include <corotet/output/checkpoint_file.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include "support.h"
+
+using namespace corotet;
+using namespace test_output;
+
+namespace
+{
+  // Values of all kinds, with awkward ones.
+  struct Values
+  {
+    double              number   = 0;
+    bool                is_true  = false;
+    unsigned int        count    = 0;
+    std::int64_t        large    = 0;
+    std::string         text     = "";
+    std::vector<double> numbers  = {};
+    std::vector<int>    integers = {};
+    std::vector<double> nothing  = {1};
+    Vector              field, empty, zero;
+
+    void
+    transfer(Archive &archive)
+    {
+      archive.transfer("number", number);
+      archive.within("part", [&] {
+        archive.transfer("number", is_true);
+        archive.within("inner", [&] { archive.transfer("number", count); });
+        archive.transfer("large", large);
+      });
+      archive.transfer("text", text);
+      archive.transfer("numbers", numbers);
+      archive.transfer("integers", integers);
+      archive.transfer("nothing", nothing);
+      archive.within("vectors", [&] {
+        archive.transfer("field", field);
+        archive.transfer("empty", empty);
+        archive.transfer("zero", zero);
+      });
+    }
+  };
+
+  Values
+  awkward_values(const Discretization &discretization)
+  {
+    using Limits = std::numeric_limits<double>;
+    Values values;
+    values.number   = 0.1;
+    values.is_true  = true;
+    values.count    = 4294967295u;
+    values.large    = std::numeric_limits<std::int64_t>::min();
+    values.text     = "\"quoted\"\n\\ \t\u00e9";
+    values.numbers  = {1. / 3,
+                       -0.,
+                       Limits::denorm_min(),
+                       Limits::max(),
+                       -Limits::infinity(),
+                       Limits::quiet_NaN(),
+                       1e23};
+    values.integers = {3, -2};
+    values.nothing  = {};
+    discretization.initialize_vector(values.field);
+    discretization.initialize_vector(values.zero);
+    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        values.field.local_element(3 * n + a) =
+          discretization.node_position(n)[a] / 3 + a;
+    return values;
+  }
+
+  class CheckpointFile : public testing::Test
+  {
+  protected:
+    CheckpointFile()
+      : body(Element(2))
+      , order(FileOrder::of_nodes(body.discretization, body.discretization))
+      , path(scratch.path + "/step_000001")
+    {
+      CheckpointWriter writer(path, body.discretization, order);
+      Values           values = awkward_values(body.discretization);
+      values.transfer(writer);
+      writer.finish({{"Mesh", {{"Type", "box"}}}}, true);
+      wait_for_all();
+    }
+
+    std::string
+    refusal()
+    {
+      return message_of<Error>(
+        [&] { CheckpointReader(path, body.discretization, order); });
+    }
+
+    const ScratchFolder scratch;
+    ModelBody           body;
+    const FileOrder     order;
+    const std::string   path;
+  };
+} // namespace
+
+TEST_F(CheckpointFile, ReadsBackExactly)
+{
+  CheckpointReader reader(path, body.discretization, order);
+  EXPECT_EQ(reader.parameters().at("Mesh").at("Type"), "box");
+  reader.check_mesh();
+  const Values expected = awkward_values(body.discretization);
+  Values       found;
+  found.transfer(reader);
+  EXPECT_EQ(found.number, expected.number);
+  EXPECT_EQ(found.is_true, expected.is_true);
+  EXPECT_EQ(found.count, expected.count);
+  EXPECT_EQ(found.large, expected.large);
+  EXPECT_EQ(found.text, expected.text);
+  EXPECT_EQ(found.integers, expected.integers);
+  EXPECT_TRUE(found.nothing.empty());
+  ASSERT_EQ(found.numbers.size(), expected.numbers.size());
+  for (std::size_t i = 0; i < found.numbers.size(); ++i)
+    EXPECT_EQ(std::memcmp(&found.numbers[i], &expected.numbers[i], 8), 0) << i;
+  EXPECT_EQ(found.empty.size(), 0u);
+  ASSERT_EQ(found.zero.size(), expected.zero.size());
+  EXPECT_EQ(found.zero.linfty_norm(), 0.);
+  ASSERT_EQ(found.field.size(), expected.field.size());
+  for (unsigned int i = 0; i < found.field.locally_owned_size(); ++i)
+    EXPECT_EQ(found.field.local_element(i), expected.field.local_element(i));
+}
+
+TEST_F(CheckpointFile, MissingValueIsAnError)
+{
+  CheckpointReader reader(path, body.discretization, order);
+  double           number = 0;
+  EXPECT_EQ(message_of<InputError>([&] { reader.transfer("absent", number); }),
+            path + ".json: has no value of 'absent'");
+}
+
+TEST_F(CheckpointFile, AnyFlippedBitIsFound)
+{
+  for (const std::string suffix : {".json", ".h5"})
+    {
+      const std::string whole = content_of(path + suffix);
+      // Of 40 bytes all over the file, another bit each.
+      for (std::size_t k = 0; k < 40; ++k)
+        {
+          std::string damaged = whole;
+          damaged[k * (whole.size() - 1) / 39] ^= 1 << k % 8;
+          // White space may stand anywhere in JSON.
+          if (on_rank_0())
+            std::ofstream(path + suffix) << damaged;
+          wait_for_all();
+          const std::string message = refusal();
+          EXPECT_TRUE(message.starts_with(path + suffix + ": damaged") ||
+                      (message == "no error" && suffix == ".json" &&
+                       std::isspace(whole[k * (whole.size() - 1) / 39]) != 0))
+            << suffix << " " << k << ": " << message;
+          wait_for_all();
+        }
+      if (on_rank_0())
+        std::ofstream(path + suffix) << whole;
+      wait_for_all();
+    }
+  EXPECT_EQ(refusal(), "no error");
+}
+
+TEST_F(CheckpointFile, OtherMeshIsRefused)
+{
+  SerialMesh other = distorted_box();
+  other.vertices[3][1] += 1e-15;
+  Log                  log(MPI_COMM_WORLD, true);
+  const Mesh           mesh(other, 0, 1, MPI_COMM_WORLD, log);
+  const Discretization discretization(mesh, Element(2));
+  CheckpointReader     reader(path, discretization, order);
+  EXPECT_TRUE(
+    message_of<InputError>([&] {
+      reader.check_mesh();
+    }).starts_with("--restart: found a mesh of 96 cells that is not"));
+}

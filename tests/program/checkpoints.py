@@ -1,0 +1,353 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Runs that are killed, stopped or damaged and restarted: nothing is lost, nothing is counted twice.
+
+A run that is killed at a random moment and goes on by --restart, perhaps several times, must give the history of the undisturbed
+run, to the last digit on the same number of ranks (but for wall times), and the same time series. On another number of ranks
+sums have another order and linear solvers leave other errors: the tolerances of ranks.py.
+
+As a script: checkpoints.py --kills N [--seed S] kills and restarts that many runs and prints a line for each kind of run.
+"""
+
+import argparse
+import collections
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from support import ProgramTest, launcher, parameter_text, read_history, read_summary
+
+BEAM = {"Mesh/Type": "box", "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "8, 1, 1", "Discretization/Degree": "2",
+        "Material/Young's modulus": "1e6", "Material/Poisson's ratio": "0.3", "Material/Density": "1000", "Boundary conditions/Fixed": "x-min",
+        "Loads/Gravity": "0; 0; -10", "Output/Probes": "tip: 1 0.05 0.05", "Output/Directory": "run", "Checkpoint/Minutes between checkpoints": "0"}
+IMPLICIT = {**BEAM, "Time integration/End time": "1", "Time integration/Time step": "0.02", "Checkpoint/Steps between checkpoints": "4"}
+MOVING = {"Boundary conditions/Displacement": "x-min: 0; 0; 0.05 * sin(9 * t)", "Boundary conditions/Fixed": ""}
+# What each kind of run has that another has not: methods with a memory, steps of their own choice, loads and supports that move,
+# damping, springs, states between those that are recorded, preconditioners that are kept for long.
+KINDS = {
+    "generalized-alpha": {**IMPLICIT, "Damping/Mass coefficient": "0.3", "Damping/Stiffness coefficient": "1e-3"},
+    "BDF2": {**IMPLICIT, **MOVING, "Time integration/Type": "BDF2"},
+    "midpoint": {**IMPLICIT, "Time integration/Type": "implicit midpoint", "Supports/Elastic": "x-max: 0; 0; 2e3",
+                 "Supports/Dashpots": "x-max: 0; 0; 20", "Linear solver/Type": "direct"},
+    "backward Euler": {**IMPLICIT, "Time integration/Type": "backward Euler", "Material/Type": "neo-Hookean", "Discretization/Degree": "1",
+                       "Output/Steps between rows": "3"},
+    "adaptive": {**IMPLICIT, "Time integration/Adaptive step/Enabled": "true", "Time integration/Adaptive step/Target error": "1e-3"},
+    "Rayleigh, P3": {**IMPLICIT, "Discretization/Degree": "3", "Time integration/Time step": "0.04", "Output/Stress": "both",
+                     "Output/Time between results": "0.1"},
+    "explicit": {**BEAM, "Time integration/Type": "central difference", "Time integration/Time step": "0", "Time integration/End time": "0.5",
+                 "Discretization/Mass": "diagonal scaling", "Output/Steps between rows": "50", "Output/Time between results": "0.1",
+                 "Checkpoint/Steps between checkpoints": "100", "Time integration/central difference/Steps between estimates": "120"},
+    "explicit, moving": {**BEAM, **MOVING, "Time integration/Type": "central difference", "Time integration/Time step": "0",
+                         "Time integration/End time": "0.3", "Discretization/Mass": "diagonal scaling", "Output/Steps between rows": "7",
+                         "Output/Time between results": "0.1", "Checkpoint/Steps between checkpoints": "20"},
+    "static": {**BEAM, "Time integration/Type": "static", "Time integration/static/Load steps": "32", "Checkpoint/Steps between checkpoints": "3",
+               "Loads/Gravity": "0; 0; -3"},
+}
+
+
+def rows_without_time(directory):
+    return [{name: value for name, value in row.items() if name != "wall_time"} for row in read_history(directory)]
+
+
+class Run:
+    """Runs of one parameter file."""
+
+    def __init__(self, folder, kind, ranks, entries=None):
+        self.folder, self.ranks = folder, ranks
+        self.folder.mkdir(parents=True)
+        self.output = self.folder / "run"
+        (self.folder / "case.prm").write_text(parameter_text({**KINDS[kind], **(entries or {})}), encoding="utf-8")
+
+    def start(self, *arguments, ranks=None):
+        command = [*launcher(ranks or self.ranks), os.environ["COROTET_PROGRAM"], "case.prm", *arguments]
+        return subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                start_new_session=True)
+
+    def processes(self):
+        """Of the program itself, one for each rank."""
+        found = []
+        for entry in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                if (entry / "cwd").resolve() == self.folder and (entry / "comm").read_text(encoding="utf-8").strip() == "corotet":
+                    found.append(int(entry.name))
+            except OSError:
+                pass
+        return found
+
+    def finish(self, *arguments, ranks=None):
+        """Status, what it printed, and its errors."""
+        process = self.start(*arguments, ranks=ranks)
+        out, errors = process.communicate(timeout=300)
+        return process.returncode, out, errors
+
+    def kill(self, process):
+        """Kills the run: mpirun, if it was started by that, and all ranks, which it does not take along."""
+        ranks = self.processes()
+        os.killpg(process.pid, signal.SIGKILL)
+        for pid in ranks:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        process.communicate()
+        while self.processes():
+            time.sleep(0.005)
+
+    def kill_after(self, seconds, *arguments):
+        """Whether the run had not ended before."""
+        process = self.start(*arguments)
+        try:
+            process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            self.kill(process)
+            return True
+        return False
+
+
+def results_of(directory):
+    """Files of the time series by name. The same numbers make the same files."""
+    return {file.relative_to(directory): file.read_bytes() for file in sorted(directory.glob("solution*/**/*")) if file.is_file()} | {
+        "index": (directory / "solution.vtkhdf").read_bytes()}
+
+
+def different(files, others):
+    """Names of files that only one has, or that are not the same."""
+    return sorted(str(name) for name in files.keys() | others.keys() if files.get(name) != others.get(name))
+
+
+class Checkpoints(ProgramTest):
+
+    def undisturbed(self, kind, ranks=1, entries=None):
+        run = Run(self.folder / f"{kind} {ranks} undisturbed".replace(" ", "_"), kind, ranks, entries)
+        start = time.monotonic()
+        status, out, errors = run.finish()
+        self.assertEqual(status, 0, out + errors)
+        return run, time.monotonic() - start
+
+    def kill_and_restart(self, kind, undisturbed, seconds, moments, name):
+        """Kills a run at these moments, parts of the time of an undisturbed one. Returns how often it was killed."""
+        run = Run(self.folder / name.replace(" ", "_"), kind, undisturbed.ranks)
+        kills = 0
+        for moment in moments:
+            kills += run.kill_after(moment * seconds, *(["--restart"] if kills else []))
+        status, out, errors = run.finish("--restart")
+        self.assertEqual(status, 0, out + errors)
+        self.assertEqual(rows_without_time(run.output), rows_without_time(undisturbed.output))
+        self.assertEqual(different(results_of(run.output), results_of(undisturbed.output)), [])
+        shutil.rmtree(run.folder)
+        return kills
+
+    def test_killed_runs(self):
+        # A part of what the script does with --kills 1000.
+        random.seed(1)
+        for kind in KINDS:
+            with self.subTest(kind=kind):
+                run, seconds = self.undisturbed(kind)
+                for number, moments in enumerate(((random.uniform(0.4, 1),), (random.uniform(0.4, 1), random.uniform(0.3, 0.8)))):
+                    self.kill_and_restart(kind, run, seconds, moments, f"{kind} {number}")
+
+    def test_killed_runs_on_two_ranks(self):
+        random.seed(2)
+        for kind in ("BDF2", "explicit"):
+            with self.subTest(kind=kind):
+                run, seconds = self.undisturbed(kind, 2)
+                self.kill_and_restart(kind, run, seconds, (random.uniform(0.5, 1),), f"{kind} two")
+
+    def stop_at(self, run, step, *arguments, keep=2):
+        """Ends the run when it has a checkpoint of that step."""
+        process = run.start("--set", f"Checkpoint/Keep = {keep}", *arguments)
+        file = run.output / "checkpoint" / f"step_{step:06}.json"
+        while not file.exists() and process.poll() is None:
+            time.sleep(0.002)
+        run.kill(process)
+        self.assertTrue(file.exists())
+
+    def test_damaged_checkpoints(self):
+        reference, _ = self.undisturbed("generalized-alpha")
+        whole = Run(self.folder / "whole", "generalized-alpha", 1)
+        self.stop_at(whole, 24)
+        newest = sorted((whole.output / "checkpoint").glob("*.json"))[-1].stem
+        files = {suffix: (whole.output / "checkpoint" / f"{newest}{suffix}").read_bytes() for suffix in (".json", ".h5")}
+
+        def flipped(data, place):
+            place = int(place * (len(data) - 1))
+            return data[:place] + bytes([data[place] ^ 16]) + data[place + 1:]
+
+        wrong_version = json.dumps({**json.loads(files[".json"]), "format": 99}).encode()
+        damages = [(suffix, what, data) for suffix in files for what, data in (
+            *((f"flip {place}", flipped(files[suffix], place)) for place in (0, 0.01, 0.3, 0.5, 0.77, 1)),
+            ("cut", files[suffix][:len(files[suffix]) // 2]), ("empty", b""), ("longer", files[suffix] + b"x"))]
+        damages.append((".json", "version", wrong_version))
+        for suffix, what, data in damages:
+            with self.subTest(suffix=suffix, what=what):
+                run = Run(self.folder / f"{suffix}_{what}".replace(" ", "_"), "generalized-alpha", 1)
+                shutil.copytree(whole.output, run.output)
+                (run.output / "checkpoint" / f"{newest}{suffix}").write_bytes(data)
+                status, out, errors = run.finish("--restart")
+                self.assertEqual((status, errors), (0, ""), out)
+                # A line break more at the end of JSON is no damage.
+                self.assertIn(f"warning: run/checkpoint/{newest}", out)
+                self.assertIn("the checkpoint before it is used", out)
+                self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
+                shutil.rmtree(run.folder)
+
+    def test_no_checkpoint(self):
+        run = Run(self.folder / "none", "static", 1)
+        status, out, _ = run.finish("--restart")
+        self.assertEqual(status, 0)
+        self.assertIn("there is no checkpoint in run; the run begins anew", out)
+
+    def test_other_number_of_ranks(self):
+        strict = {"Linear solver/Tolerance": "1e-11", "Newton/Residual tolerance": "1e-10", "Newton/Increment tolerance": "1e-10"}
+        for kind, ranks, others in (("BDF2", 1, 2), ("explicit", 2, 1), ("static", 3, 2), ("midpoint", 2, 3)):
+            with self.subTest(kind=kind, ranks=ranks, others=others):
+                entries = {} if kind == "explicit" else strict
+                reference, _ = self.undisturbed(kind, ranks, entries)
+                run = Run(self.folder / f"{kind}_others", kind, ranks, entries)
+                self.stop_at(run, {"explicit": 300, "static": 9}.get(kind, 16))
+                status, out, errors = run.finish("--restart", ranks=others)
+                self.assertEqual(status, 0, out + errors)
+                self.assertEqual(read_summary(run.output)["ranks"], others)
+                self.compare(read_history(run.output), read_history(reference.output))
+                self.check_vtkhdf(run.output)
+
+    def compare(self, rows, reference):
+        self.assertEqual(len(rows), len(reference))
+        sizes = collections.defaultdict(float)
+
+        def group(column):
+            return "external_work" if column == "energy_balance" or column.startswith("internal_moment") else re.sub("_[xyz]$", "", column)
+
+        for row in reference:
+            for name, value in row.items():
+                sizes[group(name)] = max(sizes[group(name)], abs(float(value)))
+        for row, other in zip(rows, reference, strict=True):
+            for name, value in row.items():
+                if name not in ("wall_time", "newton_iterations", "linear_iterations"):
+                    self.assertLessEqual(abs(float(value) - float(other[name])), 1e-8 * sizes[group(name)], f"{name} in step {row['step']}")
+
+    def test_longer_run(self):
+        for kind in ("generalized-alpha", "BDF2"):
+            with self.subTest(kind=kind):
+                long, _ = self.undisturbed(kind)
+                run = Run(self.folder / f"{kind}_short", kind, 1)
+                self.assertEqual(run.finish("--set", "Time integration/End time = 0.5")[0], 0)
+                status, out, errors = run.finish("--restart")
+                self.assertEqual(status, 0, out + errors)
+                # Other round-off in the times of steps, and Newton's method goes on from it.
+                self.compare(read_history(run.output), read_history(long.output))
+                # Once more there is nothing left to do.
+                self.assertEqual(run.finish("--restart")[0], 0)
+                self.compare(read_history(run.output), read_history(long.output))
+
+    def test_changes_that_are_refused(self):
+        run = Run(self.folder / "changed", "static", 1)
+        self.assertEqual(run.finish()[0], 0)
+        before = (run.output / "history.csv").read_bytes()
+        for change, text in (("Discretization/Degree = 1", "found '1'"), ("Material/Type = neo-Hookean", "found 'neo-Hookean'"),
+                             ("Time integration/Type = BDF2", "found 'BDF2'"), ("Time integration/static/Load steps = 9", "found '9'"), ("Mesh/box/Cells = 9, 1, 1", "found '9, 1, 1'"),
+                             ("Loads/Gravity = 0; 0; -4", "found '0; 0; -4'"), ("Time integration/End time = 2", "found 2")):
+            with self.subTest(change=change):
+                status, _, errors = run.finish("--restart", "--set", change)
+                self.assertEqual(status, 1)
+                self.assertRegex(errors, f"^corotet: error: --set: {change.split(' = ')[0]}: --restart: {text}.*allowed.*\n$")
+                self.assertEqual((run.output / "history.csv").read_bytes(), before)
+
+    def test_signals(self):
+        reference, _ = self.undisturbed("generalized-alpha")
+        for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGTERM, 2)):
+            with self.subTest(number=number, ranks=ranks):
+                run = Run(self.folder / f"{number}_{ranks}", "generalized-alpha", 1)
+                process = run.start(ranks=ranks)
+                history = run.output / "history.csv"
+                while not history.exists() or history.read_text(encoding="utf-8").count("\n") < 8:
+                    time.sleep(0.005)
+                start = time.monotonic()
+                os.kill(run.processes()[-1], number)
+                _, errors = process.communicate(timeout=60)
+                self.assertLess(time.monotonic() - start, 10)
+                self.assertEqual(process.returncode, 4, errors)
+                lines = [line for line in errors.splitlines() if "corotet" in line and "stopped" in line]
+                self.assertEqual(len(lines), 1, errors)
+                self.assertRegex(lines[0], rf"step \d+ \(t = .* s\): {signal.Signals(number).name}; the run is saved, --restart goes on")
+                self.assertEqual(read_summary(run.output)["status"], "stopped")
+                if ranks == 1:
+                    self.assertEqual(run.finish("--restart")[0], 0)
+                    self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
+
+    def test_two_runs_in_one_directory(self):
+        run = Run(self.folder / "shared", "generalized-alpha", 1, {"Time integration/End time": "8"})
+        first = run.start()
+        while not (run.output / "history.csv").exists():
+            time.sleep(0.005)
+        for arguments in (("--set", "Output/Overwrite = true"), ("--restart",)):
+            status, _, errors = run.finish(*arguments)
+            self.assertEqual(status, 3, errors)
+            self.assertRegex(errors, rf"^corotet: error: the output directory 'run' is in use by process {first.pid} on .*\n$")
+        self.assertEqual(first.wait(60), 0)
+        first.communicate()
+        self.assertEqual([int(row["step"]) for row in read_history(run.output)], list(range(401)))
+
+    def test_save_request_and_time_limit(self):
+        run = Run(self.folder / "asked", "generalized-alpha", 1, {"Checkpoint/Steps between checkpoints": "0", "Checkpoint/Keep": "100"})
+        process = run.start()
+        while not (run.output / "history.csv").exists():
+            time.sleep(0.005)
+        process.send_signal(signal.SIGUSR1)
+        self.assertEqual(process.wait(60), 0)
+        process.communicate()
+        self.assertEqual(len(list((run.output / "checkpoint").glob("*.json"))), 1)
+
+        limited = Run(self.folder / "limited", "generalized-alpha", 1, {"Checkpoint/Wall time limit": "0.05"})
+        for _ in range(200):
+            status, _, errors = limited.finish("--restart")
+            if status == 0:
+                break
+            self.assertEqual(status, 4)
+            self.assertIn("the wall time limit; the run is saved", errors)
+        self.assertEqual(status, 0)
+        self.assertEqual(rows_without_time(limited.output), rows_without_time(run.output))
+
+
+def kill_many(n, seed):
+    """Kills runs of all kinds on 1, 2 and 4 ranks until there were n kills."""
+    random.seed(seed)
+    test = Checkpoints()
+    test.setUp()
+    counts = collections.Counter()
+    references = {}
+    number = 0
+    try:
+        while sum(counts.values()) < n:
+            kind, ranks = random.choice(list(KINDS)), random.choice((1, 1, 1, 2, 2, 4))
+            if (kind, ranks) not in references:
+                references[kind, ranks] = test.undisturbed(kind, ranks)
+            moments = [random.uniform(0.1, 1.1) for _ in range(random.choice((1, 1, 2, 3)))]
+            number += 1
+            counts[kind, ranks] += test.kill_and_restart(kind, *references[kind, ranks], moments, f"run {number}")
+            print(f"{sum(counts.values())} kills, {number} runs", end="\r", flush=True)
+    finally:
+        print(f"seed {seed}: {sum(counts.values())} kills in {number} runs")
+        for (kind, ranks), count in sorted(counts.items()):
+            print(f"{kind:20} {ranks} ranks: {count}")
+        test.doCleanups()
+
+
+if __name__ == "__main__":
+    if "--kills" in sys.argv:
+        parser = argparse.ArgumentParser(description=__doc__)
+        parser.add_argument("--kills", type=int)
+        parser.add_argument("--seed", type=int, default=0)
+        options = parser.parse_args()
+        kill_many(options.kills, options.seed)
+    else:
+        unittest.main()
