@@ -149,6 +149,7 @@ TEST_F(CheckpointFile, AnyFlippedBitIsFound)
   for (const std::string suffix : {".json", ".h5"})
     {
       const std::string whole = content_of(path + suffix);
+      wait_for_all();
       // Of 40 bytes all over the file, another bit each.
       for (std::size_t k = 0; k < 40; ++k)
         {
