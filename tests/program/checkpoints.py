@@ -329,6 +329,9 @@ def kill_many(n, seed):
     try:
         while sum(counts.values()) < n:
             kind, ranks = random.choice(list(KINDS)), random.choice((1, 1, 1, 2, 2, 4))
+            # On several ranks Trilinos' factorisation gives other last digits each time, whether a run is disturbed or not.
+            if ranks > 1 and KINDS[kind].get("Linear solver/Type") == "direct":
+                continue
             if (kind, ranks) not in references:
                 references[kind, ranks] = test.undisturbed(kind, ranks)
             moments = [random.uniform(0.1, 1.1) for _ in range(random.choice((1, 1, 2, 3)))]
