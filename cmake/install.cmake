@@ -9,12 +9,13 @@ set(development development)
 
 install(TARGETS corotet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${runtime})
 set_target_properties(corotet PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS corotet_gmsh RUNTIME DESTINATION libexec/corotet COMPONENT ${runtime})
 install(TARGETS corotet_library EXPORT corotetTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${runtime} NAMELINK_COMPONENT ${development}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${development}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
-# What the program starts (base/scripts.h), and cases to begin with, which refer to each other's folders.
+# What the program starts (base/programs.h), and cases to begin with, which refer to each other's folders.
 set(data ${CMAKE_INSTALL_DATADIR}/corotet)
 install(PROGRAMS scripts/draw_study DESTINATION ${data}/scripts COMPONENT ${runtime})
 install(DIRECTORY parameters meshes DESTINATION ${data} COMPONENT ${runtime})

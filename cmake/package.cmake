@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME corotet-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "corotet (= ${PROJECT_VERSION}), libdeal.ii-dev (>= ${DEAL_II_PACKAGE_VERSION})")
 if(NOT BUILD_SHARED_LIBS)
-  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libfmt-dev, libgmsh-dev, libsuitesparse-dev, libmuparser-dev, libginac-dev, libcln-dev")
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libfmt-dev, libsuitesparse-dev, libmuparser-dev, libginac-dev, libcln-dev")
 endif()
 
 include(CPack)

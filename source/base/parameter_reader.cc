@@ -27,30 +27,19 @@ namespace corotet
     constexpr unsigned int max_include_depth = 10;
     constexpr unsigned int max_includes      = 1000;
 
-    [[noreturn]] void
-    fail(const std::string &place, const std::string &message)
-    {
-      throw InputError("", place + ": " + message);
-    }
-
     std::ifstream
     open(const std::string &path)
     {
       std::error_code error;
       const bool      exists = fs::exists(path, error);
       if (error)
-        fail(shortened(path), error.message());
+        refuse_statement(shortened(path), error.message());
       if (!exists)
-        fail(path, "there is no such file");
+        refuse_statement(path, "there is no such file");
       std::ifstream file(path);
       if (!fs::is_regular_file(path) || !file)
-        fail(path, "it cannot be read as a file");
-      // A byte order mark is no part of the text.
-      const std::string mark = "\xEF\xBB\xBF";
-      std::string       start(mark.size(), '\0');
-      file.read(start.data(), start.size());
-      file.clear();
-      file.seekg(start == mark ? mark.size() : 0);
+        refuse_statement(path, "it cannot be read as a file");
+      skip_byte_order_mark(file);
       return file;
     }
 
@@ -105,10 +94,11 @@ namespace corotet
           }
         statement(concatenated, path, first_number, outer_depth, depth);
         if (sections.size() > outer_depth)
-          fail(sections.back().second,
-               fmt::format("subsection \"{}\" is opened here and never left; "
-                           "an \"end\" is missing",
-                           sections.back().first));
+          refuse_statement(
+            sections.back().second,
+            fmt::format("subsection \"{}\" is opened here and never left; "
+                        "an \"end\" is missing",
+                        sections.back().first));
       }
 
       Statements statements;
@@ -131,20 +121,22 @@ namespace corotet
         if (const auto name = behind_keyword(line, "subsection"))
           {
             if (name->empty())
-              fail(place, "\"subsection\" without a name");
+              refuse_statement(place, "\"subsection\" without a name");
             if (sections.size() == max_section_depth)
-              fail_as_too_deep(place);
+              refuse_as_too_deep(place);
             sections.emplace_back(*name, place);
             statements.push_back({path_of(""), std::nullopt, place});
           }
         else if (const auto rest = behind_keyword(line, "end"))
           {
             if (!rest->empty())
-              fail(place,
-                   fmt::format("\"{}\" behind \"end\"; nothing may follow",
-                               shortened(*rest)));
+              refuse_statement(
+                place,
+                fmt::format("\"{}\" behind \"end\"; nothing may follow",
+                            shortened(*rest)));
             if (sections.size() == outer_depth)
-              fail(place, "\"end\", but there is no subsection to leave here");
+              refuse_statement(
+                place, "\"end\", but there is no subsection to leave here");
             sections.pop_back();
           }
         else if (const auto assignment = behind_keyword(line, "set"))
@@ -153,10 +145,11 @@ namespace corotet
             const std::string name =
               dealii::Utilities::trim(assignment->substr(0, equals));
             if (equals == std::string::npos || name.empty())
-              fail(place,
-                   fmt::format("\"{}\" is not of the form \"set Entry = "
-                               "value\"",
-                               shortened(line)));
+              refuse_statement(
+                place,
+                fmt::format("\"{}\" is not of the form \"set Entry = "
+                            "value\"",
+                            shortened(line)));
             statements.push_back(
               {path_of(name),
                dealii::Utilities::trim(assignment->substr(equals + 1)),
@@ -165,27 +158,30 @@ namespace corotet
         else if (const auto included = behind_keyword(line, "include"))
           {
             if (include_depth == max_include_depth)
-              fail(place,
-                   fmt::format("files include each other more than {} deep",
-                               max_include_depth));
+              refuse_statement(
+                place,
+                fmt::format("files include each other more than {} deep",
+                            max_include_depth));
             if (++n_included > max_includes)
-              fail(place,
-                   fmt::format("more than {} files are included",
-                               max_includes));
+              refuse_statement(place,
+                               fmt::format("more than {} files are included",
+                                           max_includes));
             const fs::path  path = fs::path(file).parent_path() / *included;
             std::error_code error;
             if (included->empty() || !fs::is_regular_file(path, error))
-              fail(place,
-                   fmt::format("the file to include, \"{}\", does not exist",
-                               shortened(path.string())));
+              refuse_statement(
+                place,
+                fmt::format("the file to include, \"{}\", does not exist",
+                            shortened(path.string())));
             read(path.string(), include_depth + 1);
           }
         else
-          fail(place,
-               fmt::format("\"{}\" is no statement; allowed are \"set Entry = "
-                           "value\", \"subsection Name\", \"end\" and "
-                           "\"include FILE\"",
-                           shortened(line)));
+          refuse_statement(
+            place,
+            fmt::format("\"{}\" is no statement; allowed are \"set Entry = "
+                        "value\", \"subsection Name\", \"end\" and "
+                        "\"include FILE\"",
+                        shortened(line)));
       }
 
       std::string
@@ -220,10 +216,11 @@ namespace corotet
         return read_xml_statements(path, file);
       }
     if (ending != ".prm")
-      fail(path,
-           fmt::format("a parameter file cannot end in \"{}\"; allowed are "
-                       ".prm, .json and .xml",
-                       ending));
+      refuse_statement(
+        path,
+        fmt::format("a parameter file cannot end in \"{}\"; allowed are "
+                    ".prm, .json and .xml",
+                    ending));
     PrmReader reader;
     reader.read(path);
     return reader.statements;
@@ -239,10 +236,11 @@ namespace corotet
       if (!name.empty())
         names.push_back(name);
     if (equals == std::string::npos || names.empty())
-      fail("--set",
-           fmt::format("\"{}\" is not of the form \"Section/Subsection/Entry "
-                       "= value\"",
-                       text));
+      refuse_statement(
+        "--set",
+        fmt::format("\"{}\" is not of the form \"Section/Subsection/Entry "
+                    "= value\"",
+                    text));
     return {join(names, "/"),
             dealii::Utilities::trim(text.substr(equals + 1)),
             "--set"};

@@ -22,12 +22,6 @@ namespace corotet
   {
     using Statements = std::vector<ParameterStatement>;
 
-    [[noreturn]] void
-    refuse_tree(const std::string &place, const std::string &message)
-    {
-      throw InputError("", place + ": " + message);
-    }
-
     // Before the reader proper sees it.
     void
     check_xml(const std::string &path, const std::string &text)
@@ -37,7 +31,7 @@ namespace corotet
            i             = text.find('<', i + 1))
         if (text.compare(i, 9, "<!DOCTYPE") == 0 ||
             text.compare(i, 8, "<!ENTITY") == 0)
-          refuse_tree(
+          refuse_statement(
             path, "it has a document type or entities; allowed are neither");
         else if (text.compare(i, 2, "</") == 0)
           --depth;
@@ -47,7 +41,7 @@ namespace corotet
             if (end == std::string::npos || text[end - 1] != '/')
               ++depth;
             if (depth > max_section_depth)
-              fail_as_too_deep(path);
+              refuse_as_too_deep(path);
           }
     }
 
@@ -123,7 +117,7 @@ namespace corotet
           else if (value.is_number() || value.is_boolean())
             statements.push_back({name, value.dump(), file});
           else
-            refuse_tree(
+            refuse_statement(
               file,
               fmt::format("\"{}\" is {}; allowed are a text, a number, true "
                           "and false",
@@ -134,9 +128,15 @@ namespace corotet
   } // namespace
 
   void
-  fail_as_too_deep(const std::string &place)
+  refuse_statement(const std::string &place, const std::string &message)
   {
-    refuse_tree(
+    throw InputError("", place + ": " + message);
+  }
+
+  void
+  refuse_as_too_deep(const std::string &place)
+  {
+    refuse_statement(
       place,
       fmt::format("its elements are nested too deeply; allowed are {} "
                   "levels",
@@ -157,12 +157,12 @@ namespace corotet
       }
     catch (const boost::property_tree::xml_parser_error &error)
       {
-        refuse_tree(fmt::format("{}:{}", path, error.line()),
-                    "it is no valid XML: " + error.message());
+        refuse_statement(fmt::format("{}:{}", path, error.line()),
+                         "it is no valid XML: " + error.message());
       }
     const auto root = tree.get_child_optional("ParameterHandler");
     if (!root || tree.size() != 1)
-      refuse_tree(
+      refuse_statement(
         path, "it must have one outermost element, called ParameterHandler");
     Statements statements;
     collect(*root, "", path, statements);
@@ -178,7 +178,7 @@ namespace corotet
         tree = nlohmann::ordered_json::parse(
           file, [&](const int depth, const auto, const auto &) {
             if (depth > max_section_depth)
-              fail_as_too_deep(path);
+              refuse_as_too_deep(path);
             return true;
           });
       }
@@ -189,11 +189,12 @@ namespace corotet
         std::smatch       match;
         const bool        found = std::regex_search(
           text, match, std::regex("at line ([0-9]+), column [0-9]+: (.*)"));
-        refuse_tree(found ? path + ":" + match[1].str() : path,
-                    "it is no valid JSON: " + (found ? match[2].str() : text));
+        refuse_statement(found ? path + ":" + match[1].str() : path,
+                         "it is no valid JSON: " +
+                           (found ? match[2].str() : text));
       }
     if (!tree.is_object())
-      refuse_tree(path, "it must be one JSON object, {...}");
+      refuse_statement(path, "it must be one JSON object, {...}");
     Statements statements;
     collect(tree, "", path, statements);
     return statements;

@@ -68,6 +68,7 @@ namespace corotet
     std::ifstream file(path);
     if (!file)
       throw MachineError(path + ": cannot be read (permission?)");
+    skip_byte_order_mark(file);
 
     TableRows    rows;
     bool         may_be_header = true;
@@ -75,9 +76,6 @@ namespace corotet
     for (std::string line; std::getline(file, line);)
       {
         ++line_number;
-        // The mark of UTF-8 that spreadsheets write.
-        if (line_number == 1 && line.starts_with("\xEF\xBB\xBF"))
-          line.erase(0, 3);
         line = dealii::Utilities::trim(line.substr(0, line.find('#')));
         if (line.empty())
           continue;

@@ -88,6 +88,16 @@ namespace corotet
     }
   } // namespace
 
+  void
+  skip_byte_order_mark(std::istream &file)
+  {
+    const std::string mark = "\xEF\xBB\xBF";
+    std::string       start(mark.size(), '\0');
+    file.read(start.data(), start.size());
+    file.clear();
+    file.seekg(start == mark ? mark.size() : 0);
+  }
+
   std::string
   shortened(const std::string &text)
   {

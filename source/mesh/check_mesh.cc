@@ -16,6 +16,9 @@ namespace corotet
 {
   namespace
   {
+    // More would exceed the 32-bit numbers of deal.II's unknowns at degree 3.
+    constexpr double max_n_cells = 3e8;
+
     // A cell is flat if its volume is below this many cubes of its longest
     // edge: the round-off of the volume. Needles and slivers are allowed.
     constexpr double flat = 1e-14;
@@ -258,13 +261,19 @@ namespace corotet
 
 
 
+  double
+  largest_number_of_cells(const unsigned int n_refinements)
+  {
+    return max_n_cells / std::pow(8., n_refinements);
+  }
+
+
+
   void
   check_number_of_cells(const std::size_t  n_cells,
                         const unsigned int n_refinements)
   {
-    // More would exceed the 32-bit numbers of deal.II's unknowns at degree 3.
-    constexpr double max_n_cells = 3e8;
-    const double     n_refined   = n_cells * std::pow(8., n_refinements);
+    const double n_refined = n_cells * std::pow(8., n_refinements);
     if (n_refined > max_n_cells)
       throw InputError("Mesh/Refinements",
                        fmt::format("too many cells: found {} refinements, "

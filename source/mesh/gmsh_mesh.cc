@@ -2,127 +2,45 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/mesh/check_gmsh_file.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/facets.h>
 #include <corotet/mesh/gmsh_elements.h>
 #include <corotet/mesh/gmsh_mesh.h>
+#include <corotet/mesh/gmsh_process.h>
 
 #include <fmt/format.h>
-#include <gmsh.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <unordered_map>
 
 namespace corotet
 {
   namespace
   {
-    // The library's state, which is global: from here to the end of the scope.
-    class Session
-    {
-    public:
-      Session()
-      {
-        // Neither the user's configuration nor a handler of Ctrl-C.
-        gmsh::initialize(0, nullptr, false, false);
-        gmsh::option::setNumber("General.Terminal", 0);
-      }
-
-      ~Session()
-      {
-        try
-          {
-            gmsh::finalize();
-          }
-        catch (...)
-          {
-            // Nothing is left to be saved.
-          }
-      }
-
-      Session(const Session &) = delete;
-      Session &
-      operator=(const Session &) = delete;
-    };
-
-
-
-    // An error of gmsh, "'PATH', line N: TEXT" or any other text, as
-    // "PATH:N: TEXT" or "PATH: TEXT".
-    std::string
-    message_of_gmsh(const std::string &path, std::string text)
-    {
-      std::replace(text.begin(), text.end(), '\n', ' ');
-      const std::string start = "'" + path + "', line ";
-      if (text.compare(0, start.size(), start) != 0)
-        return path + ": gmsh: " + text;
-      const std::size_t colon = text.find(':', start.size());
-      return path + ":" + text.substr(start.size(), colon - start.size()) +
-             ": gmsh" + text.substr(std::min(colon, text.size()));
-    }
-
-
-
-    // gmsh takes whatever does not look like a mesh for a script.
     void
     check_file(const std::string &path)
     {
-      if (!std::filesystem::is_regular_file(path))
+      std::error_code error;
+      const bool      is_file = std::filesystem::is_regular_file(path, error);
+      if (error && error != std::errc::no_such_file_or_directory)
+        throw InputError("Mesh/gmsh/File",
+                         shortened(path) + ": " + error.message());
+      if (!is_file)
         throw InputError("Mesh/gmsh/File",
                          "there is no mesh file: found '" + path + "'");
       const std::string extension =
         std::filesystem::path(path).extension().string();
-      if (extension != ".msh" && extension != ".geo")
+      if (extension == ".msh")
+        check_msh(path);
+      else if (extension == ".geo")
+        check_geo(path);
+      else
         throw InputError("Mesh/gmsh/File",
                          "the kind of mesh file is unknown: found '" + path +
                            "'; allowed are .msh and .geo");
-      std::ifstream stream(path);
-      if (!stream)
-        throw MachineError(path + ": cannot be read (permission?)");
-      if (extension == ".msh" && stream.get() != '$')
-        throw InputError("",
-                         path + ": is no gmsh mesh: it must start with "
-                                "'$MeshFormat'");
-    }
-
-
-
-    // The cells of a geometry, of degree 1.
-    void
-    generate(const std::string &path, const double element_size)
-    {
-      gmsh::open(path);
-      // After the file, which may set them too.
-      gmsh::option::setNumber("Mesh.ElementOrder", 1);
-      if (element_size > 0)
-        {
-          gmsh::option::setNumber("Mesh.MeshSizeMin", element_size);
-          gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
-        }
-      gmsh::model::mesh::generate(3);
-    }
-
-
-
-    // Refined @p n_refinements times, with vertices on the geometry, and then
-    // of degree @p degree.
-    void
-    refine(const std::string &path,
-           const unsigned int n_refinements,
-           const unsigned int degree)
-    {
-      std::vector<std::size_t> elements, nodes;
-      gmsh::model::mesh::getElementsByType(gmsh_elements::tetrahedra(path).type,
-                                           elements,
-                                           nodes);
-      check_number_of_cells(elements.size(), n_refinements);
-      for (unsigned int i = 0; i < n_refinements; ++i)
-        gmsh::model::mesh::refine();
-      if (degree > 1)
-        gmsh::model::mesh::setOrder(degree);
     }
 
 
@@ -138,23 +56,21 @@ namespace corotet
 
 
     PhysicalGroups
-    physical_groups(const std::string &path, const int dimension)
+    physical_groups(const GmshModel   &model,
+                    const std::string &path,
+                    const int          dimension)
     {
       const std::string kind = dimension == 3 ? "volume" : "surface";
       PhysicalGroups    groups;
-      gmsh::vectorpair  tags;
-      gmsh::model::getPhysicalGroups(tags, dimension);
-      for (const auto &[dim, id] : tags)
+      for (const GmshModel::Group &group : model.groups)
         {
-          std::string name;
-          gmsh::model::getPhysicalName(dim, id, name);
-          groups.names[id] = name;
-
-          std::vector<int> entities;
-          gmsh::model::getEntitiesForPhysicalGroup(dim, id, entities);
-          for (const int entity : entities)
+          if (group.dimension != dimension)
+            continue;
+          groups.names[group.id] = group.name;
+          for (const int entity : group.entities)
             {
-              const auto [place, is_new] = groups.of_entity.emplace(entity, id);
+              const auto [place, is_new] =
+                groups.of_entity.emplace(entity, group.id);
               if (!is_new)
                 throw InputError(
                   "",
@@ -167,8 +83,8 @@ namespace corotet
                               entity,
                               groups.names[place->second],
                               place->second,
-                              name,
-                              id));
+                              group.name,
+                              group.id));
             }
         }
       return groups;
@@ -181,13 +97,12 @@ namespace corotet
     class UsedNodes
     {
     public:
-      UsedNodes()
+      explicit UsedNodes(const GmshModel &model)
+        : coordinates(model.coordinates)
       {
-        std::vector<std::size_t> tags;
-        std::vector<double>      parameters;
-        gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-        for (std::size_t i = 0; i < tags.size(); ++i)
-          positions.emplace(tags[i], i);
+        if (coordinates.size() == 3 * model.node_tags.size())
+          for (std::size_t i = 0; i < model.node_tags.size(); ++i)
+            positions.emplace(model.node_tags[i], i);
       }
 
       dealii::Point<3>
@@ -215,7 +130,7 @@ namespace corotet
       }
 
     private:
-      std::vector<double>                           coordinates;
+      const std::vector<double>                    &coordinates;
       std::unordered_map<std::size_t, std::size_t>  positions;
       std::unordered_map<std::size_t, unsigned int> numbers;
     };
@@ -224,31 +139,26 @@ namespace corotet
 
     void
     read_cells(SerialMesh                      &mesh,
+               const GmshModel                 &model,
                UsedNodes                       &nodes,
                const gmsh_elements::Tetrahedra &kind,
                const PhysicalGroups            &groups)
     {
       const std::size_t n          = kind.order.size();
       std::size_t       n_left_out = 0;
-      gmsh::vectorpair  entities;
-      gmsh::model::getEntities(entities, 3);
-      mesh.geometry_degree = kind.degree;
-      for (const auto &[dimension, entity] : entities)
+      mesh.geometry_degree         = kind.degree;
+      for (const GmshModel::Elements &elements : model.volumes)
         {
-          std::vector<std::size_t> elements, tags;
-          gmsh::model::mesh::getElementsByType(kind.type,
-                                               elements,
-                                               tags,
-                                               entity);
-          const auto group = groups.of_entity.find(entity);
+          const std::vector<std::uint64_t> &tags = elements.nodes;
+          const auto group = groups.of_entity.find(elements.entity);
           if (group == groups.of_entity.end() && !groups.names.empty())
             {
-              n_left_out += elements.size();
+              n_left_out += tags.size() / n;
               continue;
             }
           const unsigned int region =
             group == groups.of_entity.end() ? 0 : group->second;
-          for (std::size_t i = 0; i < tags.size(); i += n)
+          for (std::size_t i = 0; i + n <= tags.size(); i += n)
             {
               mesh.cells.push_back({{{nodes.vertex(mesh, tags[i]),
                                       nodes.vertex(mesh, tags[i + 1]),
@@ -273,40 +183,55 @@ namespace corotet
 
 
     void
-    read_faces(SerialMesh &mesh, UsedNodes &nodes, const PhysicalGroups &groups)
+    read_faces(SerialMesh           &mesh,
+               const GmshModel      &model,
+               UsedNodes            &nodes,
+               const PhysicalGroups &groups)
     {
-      for (const auto &[entity, boundary] : groups.of_entity)
+      // Of the types that triangles of degree 1, 2, 3 have; corners come first.
+      const std::map<int, unsigned int> n_nodes{{2, 3}, {9, 6}, {21, 10}};
+      // In the order of the entities.
+      std::multimap<int, const GmshModel::Elements *> surfaces;
+      for (const GmshModel::Elements &elements : model.surfaces)
+        surfaces.emplace(elements.entity, &elements);
+      for (const auto &[entity, elements] : surfaces)
         {
-          const std::vector<std::size_t> corners =
-            gmsh_elements::triangles(entity);
-          for (std::size_t i = 0; i < corners.size(); i += 3)
-            mesh.faces.push_back({{{nodes.vertex(mesh, corners[i]),
-                                    nodes.vertex(mesh, corners[i + 1]),
-                                    nodes.vertex(mesh, corners[i + 2])}},
-                                  boundary});
+          const auto group = groups.of_entity.find(entity);
+          if (group == groups.of_entity.end())
+            continue;
+          const std::vector<std::uint64_t> &tags = elements->nodes;
+          const unsigned int                n    = n_nodes.at(elements->type);
+          for (std::size_t i = 0; i + n <= tags.size(); i += n)
+            mesh.faces.push_back({{{nodes.vertex(mesh, tags[i]),
+                                    nodes.vertex(mesh, tags[i + 1]),
+                                    nodes.vertex(mesh, tags[i + 2])}},
+                                  group->second});
         }
     }
 
 
 
     SerialMesh
-    read(const std::string &path, const bool has_geometry)
+    read(const GmshModel   &model,
+         const std::string &path,
+         const bool         has_geometry)
     {
-      const gmsh_elements::Tetrahedra kind    = gmsh_elements::tetrahedra(path);
-      const PhysicalGroups            volumes = physical_groups(path, 3);
-      const PhysicalGroups            surfaces = physical_groups(path, 2);
+      const gmsh_elements::Tetrahedra kind =
+        gmsh_elements::tetrahedra(model, path);
+      const PhysicalGroups volumes  = physical_groups(model, path, 3);
+      const PhysicalGroups surfaces = physical_groups(model, path, 2);
 
       SerialMesh mesh;
       mesh.origin         = path;
       mesh.region_names   = volumes.names;
       mesh.boundary_names = surfaces.names;
-      UsedNodes nodes;
-      read_cells(mesh, nodes, kind, volumes);
-      read_faces(mesh, nodes, surfaces);
+      UsedNodes nodes(model);
+      read_cells(mesh, model, nodes, kind, volumes);
+      read_faces(mesh, model, nodes, surfaces);
       if (kind.degree > 1)
         return mesh;
       std::set<unsigned int> curved;
-      for (const int entity : gmsh_elements::curved_surfaces())
+      for (const int entity : model.curved_surfaces)
         if (const auto group = surfaces.of_entity.find(entity);
             group == surfaces.of_entity.end())
           curved.insert(no_boundary);
@@ -341,6 +266,10 @@ namespace corotet
       ".msh has that of its cells, and needs 1 here. Elements "
       "of a lower degree interpolate the geometry.",
       dealii::Patterns::Integer(1, 3));
+    prm.add_parameter("Time limit",
+                      time_limit,
+                      "What gmsh may take to read or to mesh the file [s].",
+                      dealii::Patterns::Double(1, 1e9));
   }
 
 
@@ -370,27 +299,24 @@ namespace corotet
                                    geometry_degree,
                                    path));
 
-    try
+    const GmshModel model =
+      run_gmsh({path,
+                is_geometry,
+                element_size,
+                geometry_degree,
+                is_geometry ? n_refinements : 0,
+                largest_number_of_cells(is_geometry ? n_refinements : 0),
+                time_limit});
+    if (model.is_too_large)
       {
-        const Session session;
-        if (!is_geometry)
-          {
-            gmsh::open(path);
-            return read(path, false);
-          }
-        generate(path, element_size);
-        refine(path, n_refinements, geometry_degree);
-        SerialMesh mesh    = read(path, true);
-        mesh.n_refinements = n_refinements;
-        return mesh;
+        std::size_t n_cells = 0;
+        for (const GmshModel::ElementType &type : model.volume_types)
+          n_cells += type.n_elements;
+        check_number_of_cells(n_cells, n_refinements);
       }
-    catch (const Error &)
-      {
-        throw;
-      }
-    catch (const std::exception &error)
-      {
-        throw InputError("", message_of_gmsh(path, error.what()));
-      }
+    SerialMesh mesh = read(model, path, is_geometry);
+    if (is_geometry)
+      mesh.n_refinements = n_refinements;
+    return mesh;
   }
 } // namespace corotet

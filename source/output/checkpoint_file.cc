@@ -186,6 +186,20 @@ namespace corotet
         dealii::Utilities::MPI::sum(sum, discretization.communicator()));
     }
 
+    // Whether all entries are 0 (-0 is another number). Collective.
+    bool
+    has_no_bits(const Vector &vector)
+    {
+      const bool here =
+        std::all_of(vector.begin(), vector.end(), [](const double x) {
+          std::uint64_t word;
+          std::memcpy(&word, &x, sizeof(word));
+          return word == 0;
+        });
+      return dealii::Utilities::MPI::min(here ? 1 : 0,
+                                         vector.get_mpi_communicator()) == 1;
+    }
+
     // Slashes would be groups.
     std::string
     table_name(std::string name)
@@ -200,8 +214,10 @@ namespace corotet
     {
       std::ifstream     stream(file, std::ios::binary);
       const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      // Not the checkpoint's fault: it may be good.
       if (!stream)
-        throw InputError("", file + ": cannot be read");
+        throw MachineError(file + ": the checkpoint cannot be read (is "
+                                  "permission missing?)");
       try
         {
           Json              content  = Json::parse(text);
@@ -249,7 +265,7 @@ namespace corotet
     const std::string full_name = section + name;
     if (vector.size() == 0)
       values[full_name] = "empty";
-    else if (vector.linfty_norm() == 0)
+    else if (has_no_bits(vector))
       // Velocities in statics, and the like.
       values[full_name] = "zero";
     else
@@ -296,6 +312,8 @@ namespace corotet
     const MPI_Comm comm = discretization.communicator();
     content             = Json::parse(
       from_root(comm, [&] { return read_content(path + ".json").dump(); }));
+    if (!from_root(comm, [&] { return std::filesystem::exists(path + ".h5"); }))
+      fail(".h5: damaged: there is no such file");
     const FileContent found = content_of_file(path + ".h5", comm);
     if (found.size != content.at("vectors_size").get<std::uint64_t>())
       fail(fmt::format(".h5: damaged: found {} bytes; needed are {}",

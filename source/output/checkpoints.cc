@@ -34,10 +34,12 @@ namespace corotet
        "Convergence study/",
        "Linear solver/",
        "Mesh/gmsh/File",
+       "Mesh/gmsh/Time limit",
        "Modes/",
        "Newton/",
        "Output/Directory",
        "Output/Overwrite",
+       "Output/States",
        "Output/Steps between rows",
        "Output/Time between results",
        "Tables/",
@@ -139,7 +141,7 @@ namespace corotet
   Checkpoints::steps() const
   {
     std::vector<unsigned int> result;
-    const std::regex          name(R"(step_(\d{6,9})\.json)");
+    const std::regex          name(R"(step_(\d{6,10})\.json)");
     std::error_code           error;
     for (const auto &entry : fs::directory_iterator(directory, error))
       {
@@ -155,7 +157,8 @@ namespace corotet
   std::unique_ptr<CheckpointReader>
   Checkpoints::newest() const
   {
-    for (const unsigned int step : from_root(comm, [&] { return steps(); }))
+    const auto all = from_root(comm, [&] { return steps(); });
+    for (const unsigned int step : all)
       {
         std::unique_ptr<CheckpointReader> reader;
         try
@@ -164,10 +167,13 @@ namespace corotet
                                                         discretization,
                                                         order);
           }
-        catch (const Error &error)
+        catch (const InputError &error)
           {
-            log.warning(std::string(error.what()) +
-                        "; the checkpoint before it is used");
+            log.warning(fmt::format("{}; {}",
+                                    error.what(),
+                                    step == all.back() ?
+                                      "there is none before it" :
+                                      "the checkpoint before it is used"));
             continue;
           }
         check_entries(*reader);

@@ -14,9 +14,12 @@ namespace corotet
   make_observers(const OutputParameters &parameters,
                  const std::string      &directory,
                  const Discretization   &discretization,
+                 const double            start_time,
                  const double            end_time,
                  Log                    &log)
   {
+    const double time_between_states =
+      parameters.time_between_states(end_time - start_time);
     std::optional<StressProbes> stress_probes;
     if (const auto points = parameters.stress_probe_points(); !points.empty())
       stress_probes.emplace(points,
@@ -34,15 +37,11 @@ namespace corotet
                                       parameters.has_stress_at_nodes());
 
     std::vector<std::unique_ptr<Observer>> observers;
-    observers.push_back(
-      std::make_unique<VtkhdfWriter>(directory,
-                                     parameters.time_between_results,
-                                     32,
-                                     parameters.has_stress_at_nodes()));
+    observers.push_back(std::make_unique<VtkhdfWriter>(
+      directory, time_between_states, 32, parameters.has_stress_at_nodes()));
     if (parameters.has_stress_at_points())
       observers.push_back(
-        std::make_unique<StressPointsWriter>(directory,
-                                             parameters.time_between_results));
+        std::make_unique<StressPointsWriter>(directory, time_between_states));
     observers.push_back(std::move(history));
     observers.push_back(std::move(summary));
     observers.push_back(std::make_unique<Progress>(end_time, log));

@@ -102,9 +102,16 @@ namespace corotet
     prm.add_parameter(
       "Time between results",
       time_between_results,
-      "Simulated time between two states in solution.vtkhdf [s]; 0: every "
-      "step. The first and the last state are always written.",
+      "Simulated time between two states in solution.vtkhdf [s]; 0: as "
+      "'States' says. The first and the last state are always written.",
       dealii::Patterns::Double(0));
+    prm.add_parameter(
+      "States",
+      n_states,
+      "Where 'Time between results' is 0: about how many states solution.vtkhdf "
+      "has, at equal distances in time [-]; steps do not change for them, and a "
+      "run with fewer steps has one of every step. 0: one of every step.",
+      dealii::Patterns::Integer(0));
     prm.add_parameter(
       "Steps between rows",
       steps_between_rows,

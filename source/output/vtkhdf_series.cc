@@ -90,7 +90,7 @@ namespace corotet
     on_root(comm, [&] {
       write_index();
       // Nobody refers to them any more.
-      const std::regex                   result(R"(step_(\d+)\.h5(\.tmp)?)");
+      const std::regex result(R"(step_(\d{6,10})\.h5(\.tmp)?)");
       std::vector<std::filesystem::path> later;
       for (const auto &entry :
            std::filesystem::directory_iterator(directory + "/" + name))

@@ -3,7 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
-#include <corotet/base/scripts.h>
+#include <corotet/base/programs.h>
 #include <corotet/base/text.h>
 #include <corotet/base/timing.h>
 #include <corotet/base/version.h>
@@ -302,7 +302,8 @@ namespace corotet
   ConvergenceStudy::draw() const
   {
     on_root(comm, [&] {
-      const std::string script = find_script("draw_study");
+      const std::string script =
+        find_installed("share/corotet/scripts/draw_study");
       if (script.empty() || run_and_wait(script, {directory}) != 0)
         log.warning("the pictures of the study could not be drawn; "
                     "scripts/draw_study needs Python and matplotlib");

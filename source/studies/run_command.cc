@@ -116,6 +116,31 @@ namespace corotet
         return parameters.output.overwrite || command.restart;
       }
 
+      // The checkpoint to go on from, null if there is none. Then the results
+      // of a run that was killed are replaced, but not those of one that came
+      // to an end by itself.
+      std::unique_ptr<CheckpointReader>
+      take_checkpoint(const Checkpoints &checkpoints)
+      {
+        lock.emplace(directory, comm);
+        auto checkpoint = checkpoints.newest();
+        if (checkpoint)
+          return checkpoint;
+        if (!parameters.output.overwrite && from_root(comm, [&] {
+              return std::filesystem::exists(directory + "/summary.json");
+            }))
+          throw InputError("Output/Directory",
+                           "--restart: found the results of a run that has "
+                           "ended in '" +
+                             directory +
+                             "', and no checkpoint to go on from; allowed: "
+                             "another directory, or Output/Overwrite = true "
+                             "to begin anew");
+        log.line("--restart: there is no checkpoint in " + directory +
+                 "; the run begins anew");
+        return nullptr;
+      }
+
       void
       run_study()
       {
@@ -150,20 +175,18 @@ namespace corotet
           column_names(history_example(output)));
         Simulation simulation(parameters.simulation, file.folder(), comm, log);
         const Discretization &discretization = simulation.body().discretization;
-        const auto            observers      = make_observers(
-          output, directory, discretization, simulation.end_time(), log);
-        const nlohmann::ordered_json values = file.values();
+        const auto            observers      = make_observers(output,
+                                              directory,
+                                              discretization,
+                                              simulation.start_time(),
+                                              simulation.end_time(),
+                                              log);
+        const nlohmann::ordered_json values  = file.values();
         Checkpoints                  checkpoints(
           parameters.checkpoint, directory, values, discretization, log);
         std::unique_ptr<CheckpointReader> checkpoint;
         if (command.restart && !command.validate)
-          {
-            lock.emplace(directory, comm);
-            checkpoint = checkpoints.newest();
-            if (!checkpoint)
-              log.line("--restart: there is no checkpoint in " + directory +
-                       "; the run begins anew");
-          }
+          checkpoint = take_checkpoint(checkpoints);
         const OutputTimes times{output.steps_between_rows,
                                 output.time_between_results};
         record("history.csv", checkpoint != nullptr, [&] {

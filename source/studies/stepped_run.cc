@@ -60,6 +60,7 @@ namespace corotet
     observers = make_observers(output,
                                directory,
                                simulation->body().discretization,
+                               simulation->start_time(),
                                simulation->end_time(),
                                log);
     lock.emplace(directory, comm);

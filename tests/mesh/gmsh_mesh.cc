@@ -210,6 +210,11 @@ TEST(GmshMesh, BrokenFiles)
             file + ": is no gmsh mesh: it must start with '$MeshFormat'");
   file = folder.write("cut.msh",
                       "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1");
+  EXPECT_EQ(message(file),
+            file + ": is no whole gmsh mesh: found no '$EndNodes'");
+  file = folder.write("cut.msh",
+                      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1\n"
+                      "$EndNodes\n$Elements\n$EndElements\n");
   EXPECT_EQ(message(file), file + ": gmsh: Could not read nodes");
   file = folder.write(
     "syntax.geo",

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -142,6 +143,53 @@ TEST_F(CheckpointFile, MissingValueIsAnError)
   double           number = 0;
   EXPECT_EQ(message_of<InputError>([&] { reader.transfer("absent", number); }),
             path + ".json: has no value of 'absent'");
+}
+
+TEST_F(CheckpointFile, TextIsNoNumber)
+{
+  CheckpointReader  reader(path, body.discretization, order);
+  double            number = 0;
+  bool              truth  = false;
+  std::vector<int>  integers;
+  const std::string behind = " for 'numbers', which is no such number";
+  EXPECT_TRUE(message_of<InputError>([&] {
+                reader.transfer("text", number);
+              }).starts_with("a checkpoint has '\"quoted"));
+  EXPECT_TRUE(message_of<InputError>([&] {
+                reader.transfer("number", truth);
+              }).ends_with("has '0.1' for 'number', which is no such number"));
+  EXPECT_TRUE(message_of<InputError>([&] {
+                reader.transfer("numbers", integers);
+              }).ends_with(behind));
+}
+
+// The places of zeros' signs are kept, too.
+TEST_F(CheckpointFile, NegativeZeros)
+{
+  const std::string zeros = scratch.path + "/step_000002";
+  Vector            field;
+  body.discretization.initialize_vector(field);
+  for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
+    field.local_element(i) = i % 2 == 0 ? 0. : -0.;
+  {
+    CheckpointWriter writer(zeros, body.discretization, order);
+    writer.transfer("field", field);
+    writer.finish({}, false);
+  }
+  wait_for_all();
+  CheckpointReader reader(zeros, body.discretization, order);
+  Vector           found;
+  reader.transfer("field", found);
+  for (unsigned int i = 0; i < found.locally_owned_size(); ++i)
+    EXPECT_EQ(std::signbit(found.local_element(i)), i % 2 == 1);
+}
+
+TEST_F(CheckpointFile, MissingVectorsAreDamage)
+{
+  if (on_rank_0())
+    std::filesystem::remove(path + ".h5");
+  wait_for_all();
+  EXPECT_EQ(refusal(), path + ".h5: damaged: there is no such file");
 }
 
 TEST_F(CheckpointFile, AnyFlippedBitIsFound)

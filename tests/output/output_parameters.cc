@@ -35,6 +35,11 @@ TEST(OutputParameters, Defaults)
   prm.parse_input_from_string("subsection Output\n set Overwrite = true\nend");
   EXPECT_TRUE(parameters.overwrite);
   EXPECT_EQ(parameters.time_between_results, 0);
+  EXPECT_EQ(parameters.time_between_states(4), 4. / 200);
+  parameters.n_states = 0;
+  EXPECT_EQ(parameters.time_between_states(4), 0);
+  parameters.time_between_results = 3;
+  EXPECT_EQ(parameters.time_between_states(4), 3);
   EXPECT_TRUE(parameters.probe_points().empty());
   EXPECT_EQ(parameters.directory_of_run("some/where/beam.prm"), "output/beam");
   parameters.directory = "here";

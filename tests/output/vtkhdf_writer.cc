@@ -60,7 +60,7 @@ TEST(VtkhdfWriter, VtkReadsWhatWasWritten)
       OutputParameters    parameters;
       parameters.probes    = probes;
       const auto observers = make_observers(
-        parameters, scratch.path, body.discretization, 1, body.log);
+        parameters, scratch.path, body.discretization, 0, 1, body.log);
       for (unsigned int step = 0; step <= 4; ++step)
         for (const auto &observer : observers)
           body.show(*observer, step, step / 7., step == 4);
@@ -83,8 +83,8 @@ TEST(VtkhdfWriter, BubblesAreLeftOut)
   OutputParameters    parameters;
   parameters.probes =
     "corner: 1 0.5 0.25, edge: 0.875 0.5 0.25, diagonal: 0.125 0.125 0";
-  const auto observers =
-    make_observers(parameters, scratch.path, body.discretization, 1, body.log);
+  const auto observers = make_observers(
+    parameters, scratch.path, body.discretization, 0, 1, body.log);
   for (unsigned int step = 0; step <= 2; ++step)
     for (const auto &observer : observers)
       body.show(*observer, step, step / 7., step == 2);
@@ -100,9 +100,9 @@ TEST(VtkhdfWriter, CheckerNoticesErrors)
   const ScratchFolder scratch;
   ModelBody           body(2);
   OutputParameters    parameters;
-  parameters.probes = "a: 0.3 0.2 0.1";
-  const auto observers =
-    make_observers(parameters, scratch.path, body.discretization, 1, body.log);
+  parameters.probes    = "a: 0.3 0.2 0.1";
+  const auto observers = make_observers(
+    parameters, scratch.path, body.discretization, 0, 1, body.log);
   for (const auto &observer : observers)
     body.show(*observer, 0, 0.3, true);
   const std::string command = "check_vtkhdf.py " + scratch.path;
@@ -179,8 +179,8 @@ TEST(VtkhdfWriter, FullDiskLosesNothing)
   const ScratchFolder scratch;
   ModelBody           body(3);
   OutputParameters    parameters;
-  const auto          observers =
-    make_observers(parameters, scratch.path, body.discretization, 1, body.log);
+  const auto          observers = make_observers(
+    parameters, scratch.path, body.discretization, 0, 1, body.log);
   for (unsigned int step = 0; step <= 2; ++step)
     for (const auto &observer : observers)
       body.show(*observer, step, step / 7., false);
@@ -223,9 +223,10 @@ TEST(VtkhdfWriter, RunWithoutEnd)
   wait_for_all();
   ModelBody        body(3);
   OutputParameters parameters;
-  parameters.probes = probes;
+  parameters.probes   = probes;
+  parameters.n_states = 0;
   const auto observers =
-    make_observers(parameters, directory, body.discretization, 1, body.log);
+    make_observers(parameters, directory, body.discretization, 0, 1, body.log);
   for (unsigned int step = 0; step < 100000; ++step)
     for (const auto &observer : observers)
       body.show(*observer, step, step / 1024., false);

@@ -194,7 +194,6 @@ class Checkpoints(ProgramTest):
                 (run.output / "checkpoint" / f"{newest}{suffix}").write_bytes(data)
                 status, out, errors = run.finish("--restart")
                 self.assertEqual((status, errors), (0, ""), out)
-                # A line break more at the end of JSON is no damage.
                 self.assertIn(f"warning: run/checkpoint/{newest}", out)
                 self.assertIn("the checkpoint before it is used", out)
                 self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
@@ -205,6 +204,36 @@ class Checkpoints(ProgramTest):
         status, out, _ = run.finish("--restart")
         self.assertEqual(status, 0)
         self.assertIn("there is no checkpoint in run; the run begins anew", out)
+
+    def test_ended_run_without_checkpoint_is_kept(self):
+        run = Run(self.folder / "ended", "static", 1, {"Checkpoint/Steps between checkpoints": "0"})
+        self.assertEqual(run.finish()[0], 0)
+        self.assertFalse((run.output / "checkpoint").exists())
+        history = (run.output / "history.csv").read_bytes()
+        status, _, errors = run.finish("--restart")
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, "^corotet: error: case.prm:[0-9]+: Output/Directory: --restart: found the results of a run that has "
+                                 "ended in 'run', and no checkpoint to go on from; allowed: .*\n$")
+        self.assertEqual((run.output / "history.csv").read_bytes(), history)
+        self.assertEqual(run.finish("--restart", "--set", "Output/Overwrite = true")[0], 0)
+
+    def test_unreadable_checkpoint_loses_nothing(self):
+        run = Run(self.folder / "unreadable", "static", 1)
+        self.assertEqual(run.finish()[0], 0)
+        before = {file: file.read_bytes() for file in run.output.rglob("*") if file.is_file()}
+        # As where permission is missing, which tests by root never meet.
+        environment = {"LD_PRELOAD": os.environ["COROTET_FAILING_FILES"], "COROTET_TEST_RANK": "all", "COROTET_TEST_MODE": "from",
+                       "COROTET_TEST_FROM": "1", "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        for suffix in (".json", ".h5"):
+            with self.subTest(suffix=suffix):
+                process = subprocess.run(["env", *(f"{name}={value}" for name, value in environment.items()),
+                                          f"COROTET_TEST_FILES=000032{suffix}", os.environ["COROTET_PROGRAM"], "case.prm", "--restart"],
+                                         cwd=run.folder, capture_output=True, text=True, timeout=60, check=False)
+                self.assertEqual(process.returncode, 3, process.stdout + process.stderr)
+                self.assertRegex(process.stderr, "^corotet: error: run/checkpoint/step_000032.*\n$")
+                mark = run.output / ".corotet"
+                self.assertEqual({file: data for file, data in before.items() if file != mark},
+                                 {file: file.read_bytes() for file in run.output.rglob("*") if file.is_file() and file != mark})
 
     def test_other_number_of_ranks(self):
         strict = {"Linear solver/Tolerance": "1e-11", "Newton/Residual tolerance": "1e-10", "Newton/Increment tolerance": "1e-10"}
@@ -289,10 +318,13 @@ class Checkpoints(ProgramTest):
         first = run.start()
         while not (run.output / "history.csv").exists():
             time.sleep(0.005)
+        # It must not end while the others try.
+        first.send_signal(signal.SIGSTOP)
         for arguments in (("--set", "Output/Overwrite = true"), ("--restart",)):
             status, _, errors = run.finish(*arguments)
             self.assertEqual(status, 3, errors)
             self.assertRegex(errors, rf"^corotet: error: the output directory 'run' is in use by process {first.pid} on .*\n$")
+        first.send_signal(signal.SIGCONT)
         self.assertEqual(first.wait(60), 0)
         first.communicate()
         self.assertEqual([int(row["step"]) for row in read_history(run.output)], list(range(401)))

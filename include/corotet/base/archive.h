@@ -4,6 +4,7 @@
 #ifndef corotet_base_archive_h
 #define corotet_base_archive_h
 
+#include <corotet/base/exceptions.h>
 #include <corotet/base/vector.h>
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 
 #include <charconv>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -22,7 +25,8 @@ namespace corotet
    * Whatever has a state that outlives a step has one function transfer() for
    * both directions, so that what is written and what is read cannot differ.
    * Values have names; those of parts stand in sections. All members are
-   * collective.
+   * collective; those that read throw InputError if the checkpoint has no such
+   * value.
    */
   class Archive
   {
@@ -52,10 +56,9 @@ namespace corotet
       transfer(name, text);
       if (!is_reading())
         return;
-      if constexpr (std::is_same_v<Number, bool>)
-        number = text == "true";
-      else
-        std::from_chars(text.data(), text.data() + text.size(), number);
+      const char *const end = text.data() + text.size();
+      if (read(text.data(), end, number) != end)
+        fail(name, text);
     }
 
     /// Numbers that are the same on all ranks.
@@ -69,8 +72,13 @@ namespace corotet
         return;
       numbers.clear();
       const char *const end = text.data() + text.size();
-      for (const char *next = text.data(); next < end; ++next)
-        next = std::from_chars(next, end, numbers.emplace_back()).ptr;
+      for (const char *next = text.data(); next < end;)
+        {
+          const char *const behind = read(next, end, numbers.emplace_back());
+          if (behind == nullptr || (behind != end && *behind != ' '))
+            fail(name, text);
+          next = behind == end ? end : behind + 1;
+        }
     }
 
     /// Names of what @p action transfers are those in section @p name.
@@ -87,6 +95,37 @@ namespace corotet
   protected:
     /// What names begin with.
     std::string section;
+
+  private:
+    /// Reads a number from [begin, end). Returns where it ends; null if there
+    /// is none.
+    template <typename Number>
+    static const char *
+    read(const char *begin, const char *end, Number &number)
+    {
+      if constexpr (std::is_same_v<Number, bool>)
+        {
+          const std::string_view text(begin, end - begin);
+          number = text == "true";
+          return number || text == "false" ? end : nullptr;
+        }
+      else
+        {
+          const auto result = std::from_chars(begin, end, number);
+          return result.ec == std::errc() ? result.ptr : nullptr;
+        }
+    }
+
+    [[noreturn]] void
+    fail(const std::string &name, const std::string &text) const
+    {
+      throw InputError("",
+                       fmt::format("a checkpoint has '{}' for '{}{}', which is "
+                                   "no such number",
+                                   text,
+                                   section,
+                                   name));
+    }
   };
 } // namespace corotet
 

@@ -16,9 +16,13 @@ namespace corotet
   /// not run out of their stack.
   constexpr int max_section_depth = 20;
 
-  /// Throws the InputError of a file with more.
+  /// Throws an InputError at "FILE" or "FILE:LINE".
   [[noreturn]] void
-  fail_as_too_deep(const std::string &place);
+  refuse_statement(const std::string &place, const std::string &message);
+
+  /// Throws the one of a file with more.
+  [[noreturn]] void
+  refuse_as_too_deep(const std::string &place);
 
   /// The statements of an open .xml or .json file called @p path. Throw
   /// InputError, with the place in the message.

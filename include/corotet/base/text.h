@@ -4,6 +4,7 @@
 #ifndef corotet_base_text_h
 #define corotet_base_text_h
 
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ namespace corotet
   std::string
   join(const std::vector<std::string> &parts,
        const std::string              &separator = ", ");
+
+  /// Skips the mark of UTF-8 that some editors write at the start of a file.
+  void
+  skip_byte_order_mark(std::istream &file);
 
   /// A text of any length for a message: of a long one the start, and how long
   /// it is.

@@ -32,6 +32,10 @@ namespace corotet
   void
   check_cells(const SerialMesh &mesh, const unsigned int element_degree);
 
+  /// How many cells may be refined so often.
+  double
+  largest_number_of_cells(const unsigned int n_refinements);
+
   /// Throws an InputError if so many cells, refined so often, are too many.
   void
   check_number_of_cells(const std::size_t  n_cells,

@@ -4,11 +4,13 @@
 #ifndef corotet_mesh_gmsh_elements_h
 #define corotet_mesh_gmsh_elements_h
 
+#include <corotet/mesh/gmsh_model.h>
+
 #include <string>
 #include <vector>
 
 /**
- * The kinds of elements that gmsh's current model has.
+ * The kinds of elements that a model of gmsh has.
  */
 namespace corotet::gmsh_elements
 {
@@ -23,21 +25,10 @@ namespace corotet::gmsh_elements
     std::vector<unsigned int> order;
   };
 
-  /// Throws InputError, blamed on the file @p path, if there are no tetrahedra,
-  /// several kinds of them, or other cells.
+  /// Those of @p model. Throws InputError, blamed on the file @p path, if there
+  /// are no tetrahedra, several kinds of them, or other cells.
   Tetrahedra
-  tetrahedra(const std::string &path);
-
-  /// Tags of the surfaces of volumes that are curved, by the geometry: its
-  /// normals at the mesh's nodes differ by more than 1e-3. None if there is no
-  /// geometry, but a mesh only.
-  std::vector<int>
-  curved_surfaces();
-
-  /// Tags of the corners of all triangles of a surface of the geometry, of
-  /// whatever degree: three for each.
-  std::vector<std::size_t>
-  triangles(const int entity);
+  tetrahedra(const GmshModel &model, const std::string &path);
 } // namespace corotet::gmsh_elements
 
 #endif

@@ -9,8 +9,9 @@
 namespace corotet
 {
   /**
-   * A mesh that gmsh reads (.msh 2.2 or 4.1, ASCII or binary) or makes (.geo,
-   * in this process), https://gmsh.info.
+   * A mesh that gmsh reads (.msh 2.2 or 4.1, ASCII or binary) or makes (.geo),
+   * https://gmsh.info, in a process of its own (source/gmsh): whatever the file
+   * contains, it ends there, and can do no harm (check_gmsh_file.h).
    *
    * Physical volumes become regions and physical surfaces boundaries, with
    * gmsh's names and ids. Without any physical volume all cells belong to
@@ -33,6 +34,7 @@ namespace corotet
     std::string  file;
     double       element_size    = 0;
     unsigned int geometry_degree = 1;
+    double       time_limit      = 3600;
   };
 } // namespace corotet
 

@@ -62,7 +62,9 @@ namespace corotet
   {
   public:
     /// Throws InputError that says what is wrong with the checkpoint if it is
-    /// not just as it was written, or of another version.
+    /// not just as it was written, or of another version, and MachineError if
+    /// it cannot be read. @p order, of the nodes of @p discretization, must
+    /// outlive this object. Collective.
     CheckpointReader(const std::string    &path,
                      const Discretization &discretization,
                      const FileOrder      &order);

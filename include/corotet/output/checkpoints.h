@@ -61,14 +61,15 @@ namespace corotet
                 const Discretization         &discretization,
                 Log                          &log);
 
-    /// The newest checkpoint that is good; the log names those that are not.
-    /// Null if there is none. Throws InputError if the run's entries or its
-    /// mesh are others, where they must not be.
+    /// The newest checkpoint that is good; the log names those that are
+    /// damaged. Null if there is none. Throws InputError if the run's entries
+    /// or its mesh are others, where they must not be, and MachineError if a
+    /// checkpoint cannot be read.
     std::unique_ptr<CheckpointReader>
     newest() const;
 
-    /// Prepares @p log and, if @p checkpoint is not null, lets @p simulation go
-    /// on from it. To be called with the first state complete.
+    /// Lets @p simulation, which has not been started, and the log go on from
+    /// @p checkpoint. Checkpoints that are newer, which are damaged, go.
     void
     resume(Simulation                                   &simulation,
            const std::vector<std::unique_ptr<Observer>> &observers,

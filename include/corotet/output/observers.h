@@ -17,7 +17,8 @@ namespace corotet
   /**
    * All observers of a run, in the order in which they are to be called:
    * time series, that of stress points, history, summary, progress. They write
-   * into @p directory, which must exist. @p end_time in s. @p discretization
+   * into @p directory, which must exist. @p start_time and
+   * @p end_time in s. @p discretization
    * and @p log must outlive them.
    *
    * Throws InputError if a probe is wrong. Collective.
@@ -26,6 +27,7 @@ namespace corotet
   make_observers(const OutputParameters &parameters,
                  const std::string      &directory,
                  const Discretization   &discretization,
+                 const double            start_time,
                  const double            end_time,
                  Log                    &log);
 } // namespace corotet

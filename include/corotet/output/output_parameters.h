@@ -78,10 +78,21 @@ namespace corotet
     std::string
     directory_of_run(const std::string &parameter_file) const;
 
+    /// Simulated time between two states of a run of so many seconds [s]; 0:
+    /// every step.
+    double
+    time_between_states(const double duration) const
+    {
+      if (time_between_results > 0 || n_states == 0)
+        return time_between_results;
+      return duration / n_states;
+    }
+
     std::string directory;
     bool        overwrite = false;
-    /// In s; 0: a result after every step.
+    /// In s; 0: by n_states.
     double       time_between_results = 0;
+    unsigned int n_states             = 200;
     unsigned int steps_between_rows   = 1;
     std::string  probes;
     StressOutput stress = StressOutput::none;

@@ -55,6 +55,12 @@ namespace corotet
     }
 
     double
+    start_time() const
+    {
+      return parameters.start_time;
+    }
+
+    double
     end_time() const
     {
       return parameters.end_time;

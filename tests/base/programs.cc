@@ -4,7 +4,7 @@
 // Programs that the library starts: found without knowing where it was built,
 // run without a shell.
 
-#include <corotet/base/scripts.h>
+#include <corotet/base/programs.h>
 
 #include <gtest/gtest.h>
 
@@ -12,17 +12,18 @@
 
 using namespace corotet;
 
-TEST(Scripts, AreFoundFromTheProgram)
+TEST(Programs, AreFoundFromTheProgram)
 {
-  const std::filesystem::path script = find_script("draw_study");
+  const std::filesystem::path script =
+    find_installed("share/corotet/scripts/draw_study");
   EXPECT_TRUE(script.is_absolute()) << script;
   EXPECT_TRUE(std::filesystem::equivalent(script,
                                           COROTET_SOURCE_DIR
                                           "/scripts/draw_study"));
-  EXPECT_EQ(find_script("no such script"), "");
+  EXPECT_EQ(find_installed("share/no such file"), "");
 }
 
-TEST(Scripts, ExitStatus)
+TEST(Programs, ExitStatus)
 {
   EXPECT_EQ(run_and_wait("/bin/sh", {"-c", "exit 0"}), 0);
   EXPECT_EQ(run_and_wait("/bin/sh", {"-c", "exit 3"}), 3);
@@ -31,7 +32,7 @@ TEST(Scripts, ExitStatus)
 }
 
 // As they are: no shell splits or expands them.
-TEST(Scripts, Arguments)
+TEST(Programs, Arguments)
 {
   const std::string text = "two words; $HOME 'quoted' *";
   EXPECT_EQ(run_and_wait("/bin/sh", {"-c", "[ \"$#\" = 2 ]", "sh", text, ""}),

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_programs_h
+#define corotet_base_programs_h
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Path of a file that is installed with the library, @p name relative to the
+   * installation ("share/corotet/scripts/draw_study"): in the nearest folder
+   * above the running program that has it, or above the file that this code is
+   * in (the shared library), or above the `corotet` that a shell would start.
+   * So it is found wherever the installation, or the folder of the build, was
+   * moved to. Empty if there is none.
+   */
+  std::string
+  find_installed(const std::string &name);
+
+  /**
+   * Runs the program at @p path with @p arguments, without a shell, and waits
+   * for its end. Returns its exit status; nothing if it could not be started or
+   * was ended by a signal.
+   */
+  std::optional<int>
+  run_and_wait(const std::string              &path,
+               const std::vector<std::string> &arguments);
+
+  /// How a program has ended.
+  struct ProgramEnd
+  {
+    /// What it wrote to its standard output.
+    std::string output;
+    /// Exit status; 0 if a signal ended it.
+    int status = 0;
+    /// The signal that ended it; 0 if none did.
+    int  signal       = 0;
+    bool has_exceeded = false;
+  };
+
+  /**
+   * The same with the program's standard output taken. It reads nothing from
+   * its standard input, and its messages are thrown away. After @p time_limit
+   * seconds it is ended by SIGKILL (ProgramEnd::has_exceeded). Throws
+   * MachineError if it cannot be started.
+   */
+  ProgramEnd
+  run_for_output(const std::string              &path,
+                 const std::vector<std::string> &arguments,
+                 const double                    time_limit);
+} // namespace corotet
+
+#endif

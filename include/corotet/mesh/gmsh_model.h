@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_gmsh_model_h
+#define corotet_mesh_gmsh_model_h
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace corotet
+{
+  /// What gmsh is to make of a file.
+  struct GmshRequest
+  {
+    std::string path;
+    /// Cells are made of a geometry; a mesh has them.
+    bool is_geometry = false;
+    /// Of the edges; 0 leaves it to the file.
+    double       element_size  = 0;
+    unsigned int degree        = 1;
+    unsigned int n_refinements = 0;
+    /// Before the refinements; with more, none are made.
+    double max_n_cells = 0;
+    /// Of gmsh [s].
+    double time_limit = 0;
+  };
+
+  /**
+   * What gmsh has read or made of a file, in gmsh's own terms: what the program
+   * corotet-gmsh hands to the one that has started it.
+   */
+  struct GmshModel
+  {
+    /// A physical group of volumes (3) or surfaces (2), and the geometric
+    /// entities that belong to it.
+    struct Group
+    {
+      int              dimension = 0;
+      int              id        = 0;
+      std::string      name;
+      std::vector<int> entities;
+    };
+
+    /// A type of elements that volumes have.
+    struct ElementType
+    {
+      int           type = 0;
+      std::string   name;
+      std::uint64_t n_elements = 0;
+      /// Reference coordinates of the nodes, one point after another.
+      std::vector<double> nodes;
+    };
+
+    /// Elements of one type in one geometric entity: tags of their nodes, of
+    /// one element after another.
+    struct Elements
+    {
+      int                        entity = 0;
+      int                        type   = 0;
+      std::vector<std::uint64_t> nodes;
+    };
+
+    /// Why there is no model; empty if there is one.
+    std::string error;
+
+    std::vector<Group>       groups;
+    std::vector<ElementType> volume_types;
+    std::vector<Elements>    volumes;
+    std::vector<Elements>    surfaces;
+    /// Surfaces of volumes that are curved, by the geometry: its normals at the
+    /// mesh's nodes differ by more than 1e-3.
+    std::vector<int> curved_surfaces;
+
+    std::vector<std::uint64_t> node_tags;
+    /// x, y, z of each node.
+    std::vector<double> coordinates;
+
+    /// Whether refining would make more cells than are allowed: nothing but
+    /// volume_types is there then.
+    bool is_too_large = false;
+  };
+
+
+
+  /// Lets @p bytes transfer all of @p model: one function for both directions.
+  template <typename Bytes>
+  void
+  transfer(Bytes &bytes, GmshModel &model)
+  {
+    bytes.transfer(model.error);
+    bytes.transfer_all(model.groups, [&](GmshModel::Group &group) {
+      bytes.transfer(group.dimension);
+      bytes.transfer(group.id);
+      bytes.transfer(group.name);
+      bytes.transfer(group.entities);
+    });
+    bytes.transfer_all(model.volume_types, [&](GmshModel::ElementType &type) {
+      bytes.transfer(type.type);
+      bytes.transfer(type.name);
+      bytes.transfer(type.n_elements);
+      bytes.transfer(type.nodes);
+    });
+    for (auto *all : {&model.volumes, &model.surfaces})
+      bytes.transfer_all(*all, [&](GmshModel::Elements &elements) {
+        bytes.transfer(elements.entity);
+        bytes.transfer(elements.type);
+        bytes.transfer(elements.nodes);
+      });
+    bytes.transfer(model.curved_surfaces);
+    bytes.transfer(model.node_tags);
+    bytes.transfer(model.coordinates);
+    bytes.transfer(model.is_too_large);
+  }
+
+
+
+  /// Appends to @p bytes what is transferred.
+  class BytesWriter
+  {
+  public:
+    explicit BytesWriter(std::string &bytes)
+      : bytes(bytes)
+    {}
+
+    template <typename Number>
+      requires std::is_arithmetic_v<Number>
+    void
+    transfer(Number &number)
+    {
+      bytes.append(reinterpret_cast<const char *>(&number), sizeof(number));
+    }
+
+    /// A text or numbers.
+    template <typename List>
+      requires(!std::is_arithmetic_v<List>)
+    void
+    transfer(List &list)
+    {
+      std::uint64_t size = list.size();
+      transfer(size);
+      bytes.append(reinterpret_cast<const char *>(list.data()),
+                   size * sizeof(typename List::value_type));
+    }
+
+    template <typename Part, typename Action>
+    void
+    transfer_all(std::vector<Part> &parts, const Action &action)
+    {
+      std::uint64_t size = parts.size();
+      transfer(size);
+      for (Part &part : parts)
+        action(part);
+    }
+
+  private:
+    std::string &bytes;
+  };
+
+
+
+  /// Takes what is transferred from @p bytes, which must outlive this object.
+  /// Throws std::out_of_range where they end too early.
+  class BytesReader
+  {
+  public:
+    explicit BytesReader(const std::string_view bytes)
+      : rest(bytes)
+    {}
+
+    template <typename Number>
+      requires std::is_arithmetic_v<Number>
+    void
+    transfer(Number &number)
+    {
+      copy(&number, 1);
+    }
+
+    template <typename List>
+      requires(!std::is_arithmetic_v<List>)
+    void
+    transfer(List &list)
+    {
+      list.resize(size(sizeof(typename List::value_type)));
+      copy(list.data(), list.size());
+    }
+
+    template <typename Part, typename Action>
+    void
+    transfer_all(std::vector<Part> &parts, const Action &action)
+    {
+      // All parts begin with a number and a list.
+      parts.resize(size(2 * sizeof(int)));
+      for (Part &part : parts)
+        action(part);
+    }
+
+    bool
+    is_at_end() const
+    {
+      return rest.empty();
+    }
+
+  private:
+    // Of a list whose parts take @p part_size bytes or more.
+    std::uint64_t
+    size(const std::size_t part_size)
+    {
+      std::uint64_t result = 0;
+      transfer(result);
+      if (result > rest.size() / part_size)
+        throw std::out_of_range("a list is longer than all that is left");
+      return result;
+    }
+
+    template <typename Number>
+    void
+    copy(Number *numbers, const std::size_t n)
+    {
+      if (rest.size() / sizeof(Number) < n)
+        throw std::out_of_range("the bytes end too early");
+      if (n > 0)
+        std::memcpy(numbers, rest.data(), n * sizeof(Number));
+      rest.remove_prefix(n * sizeof(Number));
+    }
+
+    std::string_view rest;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_gmsh_process_h
+#define corotet_mesh_gmsh_process_h
+
+#include <corotet/mesh/gmsh_model.h>
+
+namespace corotet
+{
+  /**
+   * What gmsh makes of a file, in a process of its own that has limits on its
+   * memory (of a mesh: ten times its file and 100 MB; of a geometry: that of
+   * the machine) and on its time, reads no files outside of the file's folder,
+   * writes none and starts no programs. Throws InputError if it fails there or
+   * ends by a signal, and MachineError if it cannot be started.
+   */
+  GmshModel
+  run_gmsh(const GmshRequest &request);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/programs.h>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+namespace corotet
+{
+  namespace
+  {
+    // The file that holds this code: the program, or the shared library.
+    std::filesystem::path
+    file_of_this_code()
+    {
+      Dl_info info;
+      if (dladdr(reinterpret_cast<const void *>(&find_installed), &info) == 0 ||
+          info.dli_fname == nullptr)
+        return {};
+      return info.dli_fname;
+    }
+
+    // The corotet that a shell would start.
+    std::filesystem::path
+    program_of_path()
+    {
+      const char        *path = std::getenv("PATH");
+      std::istringstream folders(path == nullptr ? "" : path);
+      std::error_code    error;
+      for (std::string folder; std::getline(folders, folder, ':');)
+        if (!folder.empty() &&
+            std::filesystem::is_regular_file(folder + "/corotet", error))
+          return folder + "/corotet";
+      return {};
+    }
+
+    std::vector<char *>
+    pointers_to(std::vector<std::string> &words)
+    {
+      std::vector<char *> pointers;
+      for (std::string &word : words)
+        pointers.push_back(word.data());
+      pointers.push_back(nullptr);
+      return pointers;
+    }
+
+    // Waits for the end of @p process and returns what waitpid() says of it.
+    int
+    wait_for(const pid_t process)
+    {
+      int status = 0;
+      while (waitpid(process, &status, 0) < 0 && errno == EINTR)
+        ;
+      return status;
+    }
+
+    // A descriptor that is closed with its scope.
+    struct Descriptor
+    {
+      ~Descriptor()
+      {
+        if (number >= 0)
+          close(number);
+      }
+
+      int number = -1;
+    };
+
+    // Starts @p path with its standard output in the pipe.
+    pid_t
+    start(const std::string        &path,
+          std::vector<std::string> &words,
+          const int                 pipe_end)
+    {
+      posix_spawn_file_actions_t actions;
+      posix_spawn_file_actions_init(&actions);
+      posix_spawn_file_actions_addopen(
+        &actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+      posix_spawn_file_actions_adddup2(&actions, pipe_end, STDOUT_FILENO);
+      posix_spawn_file_actions_addopen(
+        &actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+      // Locks and files of this program are not the other's.
+      posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+      // What this program blocks or ignores, the other does not.
+      posix_spawnattr_t attributes;
+      posix_spawnattr_init(&attributes);
+      sigset_t none, all;
+      sigemptyset(&none);
+      sigfillset(&all);
+      posix_spawnattr_setsigmask(&attributes, &none);
+      posix_spawnattr_setsigdefault(&attributes, &all);
+      posix_spawnattr_setflags(&attributes,
+                               POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+      pid_t     process = 0;
+      const int failure = posix_spawn(&process,
+                                      path.c_str(),
+                                      &actions,
+                                      &attributes,
+                                      pointers_to(words).data(),
+                                      environ);
+      posix_spawnattr_destroy(&attributes);
+      posix_spawn_file_actions_destroy(&actions);
+      if (failure != 0)
+        throw MachineError(path +
+                           ": cannot be started: " + std::strerror(failure));
+      return process;
+    }
+  } // namespace
+
+  std::string
+  find_installed(const std::string &name)
+  {
+    for (const std::filesystem::path &file :
+         {std::filesystem::path("/proc/self/exe"),
+          file_of_this_code(),
+          program_of_path()})
+      {
+        std::error_code             error;
+        const std::filesystem::path real =
+          std::filesystem::canonical(file, error);
+        if (error)
+          continue;
+        for (std::filesystem::path folder = real.parent_path();;
+             folder                       = folder.parent_path())
+          {
+            const std::filesystem::path found = folder / name;
+            if (std::filesystem::exists(found, error))
+              return found;
+            if (folder == folder.parent_path())
+              break;
+          }
+      }
+    return "";
+  }
+
+  std::optional<int>
+  run_and_wait(const std::string              &path,
+               const std::vector<std::string> &arguments)
+  {
+    std::vector<std::string> words = {path};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    pid_t process;
+    if (posix_spawn(&process,
+                    path.c_str(),
+                    nullptr,
+                    nullptr,
+                    pointers_to(words).data(),
+                    environ) != 0)
+      return {};
+    const int status = wait_for(process);
+    if (!WIFEXITED(status))
+      return {};
+    return WEXITSTATUS(status);
+  }
+
+  ProgramEnd
+  run_for_output(const std::string              &path,
+                 const std::vector<std::string> &arguments,
+                 const double                    time_limit)
+  {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw MachineError(path + ": cannot be started: " + std::strerror(errno));
+    const Descriptor         from{ends[0]};
+    Descriptor               to{ends[1]};
+    std::vector<std::string> words = {path};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const pid_t process = start(path, words, to.number);
+    close(to.number);
+    to.number = -1;
+
+    using Clock             = std::chrono::steady_clock;
+    const auto        begin = Clock::now();
+    ProgramEnd        end;
+    std::vector<char> buffer(1 << 16);
+    for (;;)
+      {
+        const double left =
+          time_limit -
+          std::chrono::duration<double>(Clock::now() - begin).count();
+        if (left <= 0)
+          {
+            end.has_exceeded = true;
+            kill(process, SIGKILL);
+            break;
+          }
+        pollfd    event{from.number, POLLIN, 0};
+        const int milliseconds = std::ceil(std::min(left, 1e3) * 1e3);
+        if (poll(&event, 1, milliseconds) <= 0)
+          continue;
+        const ssize_t n = read(from.number, buffer.data(), buffer.size());
+        if (n < 0 && errno == EINTR)
+          continue;
+        if (n <= 0)
+          break;
+        end.output.append(buffer.data(), n);
+      }
+    const int status = wait_for(process);
+    if (WIFSIGNALED(status))
+      end.signal = WTERMSIG(status);
+    else
+      end.status = WEXITSTATUS(status);
+    return end;
+  }
+} // namespace corotet

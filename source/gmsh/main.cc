@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// corotet-gmsh: lets gmsh read or mesh one file, in a process that cannot do
+// harm, and writes a GmshModel to the standard output. Started by the library
+// (mesh/gmsh_mesh.cc), which waits for it.
+
+#include <fcntl.h>
+#include <gmsh.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <string>
+
+#include "model.h"
+#include "sandbox.h"
+
+namespace
+{
+  // Whether all bytes went to the descriptor @p file.
+  bool
+  write_all(const int file, const std::string &bytes)
+  {
+    for (std::size_t done = 0; done < bytes.size();)
+      {
+        const ssize_t n = write(file, bytes.data() + done, bytes.size() - done);
+        if (n <= 0)
+          return false;
+        done += n;
+      }
+    return true;
+  }
+} // namespace
+
+int
+main(const int argc, char **argv)
+{
+  using namespace corotet;
+  if (argc != 8)
+    {
+      std::fputs("corotet-gmsh is started by corotet, which reads meshes "
+                 "through it.\n",
+                 stderr);
+      return 1;
+    }
+  GmshRequest request;
+  request.path = argv[1];
+  request.is_geometry =
+    std::filesystem::path(request.path).extension() != ".msh";
+  request.element_size           = std::atof(argv[2]);
+  request.degree                 = std::atoi(argv[3]);
+  request.n_refinements          = std::atoi(argv[4]);
+  request.max_n_cells            = std::atof(argv[5]);
+  const std::string   folder     = argv[6];
+  const std::uint64_t max_memory = std::strtoull(argv[7], nullptr, 10);
+
+  // Whatever gmsh prints must not be taken for the result.
+  const int result = dup(STDOUT_FILENO);
+  const int null   = open("/dev/null", O_WRONLY);
+  dup2(null, STDOUT_FILENO);
+
+  GmshModel model;
+  try
+    {
+      // Neither the user's configuration nor a handler of Ctrl-C.
+      gmsh::initialize(0, nullptr, false, false);
+      gmsh::option::setNumber("General.Terminal", 0);
+      gmsh_program::confine({request.path, folder, "/usr/share/opencascade"},
+                            max_memory);
+      model = gmsh_program::make_model(request);
+    }
+  catch (const std::bad_alloc &)
+    {
+      model.error = "it needs more memory than it may have";
+    }
+  catch (const std::exception &error)
+    {
+      model.error = error.what();
+    }
+  if (!model.error.empty())
+    {
+      const std::string error = model.error;
+      model                   = {};
+      model.error             = error;
+    }
+  std::string bytes;
+  BytesWriter writer(bytes);
+  transfer(writer, model);
+  const bool written = write_all(result, bytes);
+  // Nothing is left to be saved; destructors could fail on a broken model.
+  std::_Exit(written ? 0 : 3);
+}

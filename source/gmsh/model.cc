@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include "model.h"
+
+#include <gmsh.h>
+
+#include <cmath>
+
+namespace corotet::gmsh_program
+{
+  namespace
+  {
+    // Tetrahedra with 4, 10 and 20 nodes.
+    constexpr int tetrahedra[] = {4, 11, 29};
+
+
+
+    std::vector<GmshModel::Group>
+    groups(const int dimension)
+    {
+      std::vector<GmshModel::Group> result;
+      gmsh::vectorpair              tags;
+      gmsh::model::getPhysicalGroups(tags, dimension);
+      for (const auto &[dim, id] : tags)
+        {
+          GmshModel::Group &group = result.emplace_back();
+          group.dimension         = dim;
+          group.id                = id;
+          gmsh::model::getPhysicalName(dim, id, group.name);
+          gmsh::model::getEntitiesForPhysicalGroup(dim, id, group.entities);
+        }
+      return result;
+    }
+
+
+
+    std::vector<GmshModel::ElementType>
+    volume_types()
+    {
+      std::vector<int>                      types;
+      std::vector<std::vector<std::size_t>> elements, nodes;
+      gmsh::model::mesh::getElements(types, elements, nodes, 3);
+      std::vector<GmshModel::ElementType> result;
+      for (std::size_t i = 0; i < types.size(); ++i)
+        {
+          GmshModel::ElementType &type = result.emplace_back();
+          type.type                    = types[i];
+          type.n_elements              = elements[i].size();
+          int dimension, order, n_nodes, n_primary_nodes;
+          gmsh::model::mesh::getElementProperties(types[i],
+                                                  type.name,
+                                                  dimension,
+                                                  order,
+                                                  n_nodes,
+                                                  type.nodes,
+                                                  n_primary_nodes);
+        }
+      return result;
+    }
+
+
+
+    // Those of each entity and type that there are.
+    template <typename Types>
+    std::vector<GmshModel::Elements>
+    elements(const int dimension, const Types &types)
+    {
+      std::vector<GmshModel::Elements> result;
+      gmsh::vectorpair                 entities;
+      gmsh::model::getEntities(entities, dimension);
+      for (const auto &[dim, entity] : entities)
+        for (const int type : types)
+          {
+            std::vector<std::size_t> tags, nodes;
+            gmsh::model::mesh::getElementsByType(type, tags, nodes, entity);
+            if (!nodes.empty())
+              result.push_back({entity, type, {nodes.begin(), nodes.end()}});
+          }
+      return result;
+    }
+
+
+
+    std::vector<int>
+    curved_surfaces()
+    {
+      std::vector<int> result;
+      gmsh::vectorpair surfaces;
+      gmsh::model::getEntities(surfaces, 2);
+      for (const auto &[dimension, entity] : surfaces)
+        {
+          std::string type;
+          gmsh::model::getType(dimension, entity, type);
+          std::vector<int> volumes, curves;
+          gmsh::model::getAdjacencies(dimension, entity, volumes, curves);
+          if (type == "Plane" || type == "Discrete surface" || volumes.empty())
+            continue;
+          std::vector<std::size_t> tags;
+          std::vector<double>      coordinates, parameters, normals;
+          gmsh::model::mesh::getNodes(
+            tags, coordinates, parameters, dimension, entity, true);
+          gmsh::model::getNormal(entity, parameters, normals);
+          for (std::size_t i = 3; i < normals.size(); i += 3)
+            if (std::hypot(normals[i] - normals[0],
+                           normals[i + 1] - normals[1],
+                           normals[i + 2] - normals[2]) > 1e-3)
+              {
+                result.push_back(entity);
+                break;
+              }
+        }
+      return result;
+    }
+
+
+
+    // Makes the cells of a geometry, of degree 1.
+    void
+    generate(const double element_size)
+    {
+      // After the file, which may set them too.
+      gmsh::option::setNumber("Mesh.ElementOrder", 1);
+      if (element_size > 0)
+        {
+          gmsh::option::setNumber("Mesh.MeshSizeMin", element_size);
+          gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
+        }
+      gmsh::model::mesh::generate(3);
+    }
+
+
+
+    std::size_t
+    n_cells()
+    {
+      std::vector<int>                      types;
+      std::vector<std::vector<std::size_t>> elements, nodes;
+      gmsh::model::mesh::getElements(types, elements, nodes, 3);
+      std::size_t result = 0;
+      for (const auto &of_type : elements)
+        result += of_type.size();
+      return result;
+    }
+  } // namespace
+
+
+
+  GmshModel
+  make_model(const GmshRequest &request)
+  {
+    gmsh::open(request.path);
+    GmshModel model;
+    if (request.is_geometry)
+      {
+        generate(request.element_size);
+        model.is_too_large = n_cells() > request.max_n_cells;
+        if (!model.is_too_large)
+          {
+            // With vertices on the geometry.
+            for (unsigned int i = 0; i < request.n_refinements; ++i)
+              gmsh::model::mesh::refine();
+            if (request.degree > 1)
+              gmsh::model::mesh::setOrder(request.degree);
+          }
+      }
+    model.volume_types = volume_types();
+    if (model.is_too_large)
+      return model;
+
+    model.groups = groups(3);
+    for (GmshModel::Group &group : groups(2))
+      model.groups.push_back(group);
+    model.volumes = elements(3, tetrahedra);
+    // Triangles with 3, 6 and 10 nodes.
+    model.surfaces        = elements(2, std::vector<int>{2, 9, 21});
+    model.curved_surfaces = curved_surfaces();
+    std::vector<std::size_t> tags;
+    std::vector<double>      parameters;
+    gmsh::model::mesh::getNodes(tags, model.coordinates, parameters);
+    model.node_tags.assign(tags.begin(), tags.end());
+    return model;
+  }
+} // namespace corotet::gmsh_program

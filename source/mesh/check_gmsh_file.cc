@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/mesh/check_gmsh_file.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace corotet
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    std::string
+    content_of(const std::string &path)
+    {
+      std::ifstream stream(path, std::ios::binary);
+      if (!stream)
+        throw MachineError(path + ": cannot be read (permission?)");
+      return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+
+
+    // A part of a .geo: a word, the content of a text, or any other character.
+    struct Token
+    {
+      enum class Kind
+      {
+        word,
+        text,
+        sign
+      };
+      Kind        kind;
+      std::string content;
+      unsigned    line;
+    };
+
+
+
+    bool
+    is_of_word(const char c)
+    {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    }
+
+
+
+    // Comments and spaces are left out.
+    std::vector<Token>
+    tokens_of(const std::string &text)
+    {
+      std::vector<Token> tokens;
+      unsigned           line = 1;
+      for (std::size_t i = 0; i < text.size();)
+        {
+          std::size_t end  = i + 1;
+          const auto  find = [&](const std::string &what) {
+            const std::size_t found = text.find(what, i + 1);
+            return found == std::string::npos ? text.size() :
+                                                 found + what.size();
+          };
+          if (text.compare(i, 2, "//") == 0)
+            end = find("\n");
+          else if (text.compare(i, 2, "/*") == 0)
+            end = find("*/");
+          else if (text[i] == '"' || text[i] == '\'')
+            {
+              end = find(std::string(1, text[i]));
+              tokens.push_back(
+                {Token::Kind::text, text.substr(i + 1, end - i - 2), line});
+            }
+          else if (is_of_word(text[i]))
+            {
+              while (end < text.size() && is_of_word(text[end]))
+                ++end;
+              tokens.push_back(
+                {Token::Kind::word, text.substr(i, end - i), line});
+            }
+          else if (!std::isspace(static_cast<unsigned char>(text[i])))
+            tokens.push_back({Token::Kind::sign, {text[i]}, line});
+          line += std::count(text.begin() + i, text.begin() + end, '\n');
+          i = end;
+        }
+      return tokens;
+    }
+
+
+
+    // What no geometry may do, by gmsh's keywords.
+    const std::map<std::string, std::string> &
+    forbidden_words()
+    {
+      static const std::map<std::string, std::string> words{
+        {"SystemCall", "runs a command"},
+        {"NonBlockingSystemCall", "runs a command"},
+        {"OnelabRun", "runs a command"},
+        {"OnelabAction", "runs a command"},
+        {"ExternalProcess", "runs a command"},
+        {"CommandLine", "runs a command"},
+        {"Save", "writes a file"},
+        {"Print", "writes a file"},
+        {"CreateDir", "makes a folder"},
+        {"Exit", "ends gmsh"},
+        {"Abort", "ends gmsh"},
+        {"Sleep", "waits"}};
+      return words;
+    }
+
+
+
+    class GeoCheck
+    {
+    public:
+      explicit GeoCheck(const std::string &path)
+        : folder(fs::weakly_canonical(fs::absolute(path).parent_path()))
+      {
+        check(path);
+      }
+
+    private:
+      using Kind = Token::Kind;
+
+      void
+      check(const std::string &path)
+      {
+        if (!seen.insert(fs::weakly_canonical(path).string()).second)
+          return;
+        file                            = path;
+        const std::vector<Token> tokens = tokens_of(content_of(path));
+        for (std::size_t i = 0; i < tokens.size(); ++i)
+          if (tokens[i].kind == Kind::word)
+            {
+              const bool is_option = is_sign(tokens, i + 1, '.');
+              if (const auto found = forbidden_words().find(tokens[i].content);
+                  found != forbidden_words().end() && !is_option)
+                refuse(tokens[i], found->second);
+              if (tokens[i].content == "Printf" && is_redirected(tokens, i + 1))
+                refuse(tokens[i], "writes a file here");
+              check_reading(tokens, i);
+              file = path;
+            }
+      }
+
+      static bool
+      is_sign(const std::vector<Token> &tokens,
+              const std::size_t         i,
+              const char                sign)
+      {
+        return i < tokens.size() && tokens[i].kind == Kind::sign &&
+               tokens[i].content[0] == sign;
+      }
+
+      // Whether '>' follows the brackets that begin at @p i.
+      static bool
+      is_redirected(const std::vector<Token> &tokens, std::size_t i)
+      {
+        for (int depth = 0; i < tokens.size(); ++i)
+          {
+            depth += is_sign(tokens, i, '(') - is_sign(tokens, i, ')');
+            if (depth == 0)
+              break;
+          }
+        return is_sign(tokens, i + 1, '>');
+      }
+
+      // A file that is named behind a word that reads one.
+      void
+      check_reading(const std::vector<Token> &tokens, const std::size_t i)
+      {
+        static const std::set<std::string> reading{"Include",
+                                                   "Merge",
+                                                   "MergeFile",
+                                                   "ShapeFromFile",
+                                                   "ListFromFile",
+                                                   "FileName"};
+        if (reading.count(tokens[i].content) == 0)
+          return;
+        std::size_t next = i + 1;
+        while (is_sign(tokens, next, '(') || is_sign(tokens, next, '='))
+          ++next;
+        if (next >= tokens.size() || tokens[next].kind != Kind::text)
+          return;
+        const fs::path named =
+          fs::path(file).parent_path() / tokens[next].content;
+        std::error_code error;
+        const fs::path  real = fs::weakly_canonical(fs::absolute(named), error);
+        if (error || std::mismatch(
+                       folder.begin(), folder.end(), real.begin(), real.end())
+                         .first != folder.end())
+          refuse(tokens[next],
+                 "reads a file outside of the folder of the geometry");
+        // What is no text in gmsh's language.
+        static const std::set<std::string> others{".msh",
+                                                  ".stl",
+                                                  ".step",
+                                                  ".stp",
+                                                  ".iges",
+                                                  ".igs",
+                                                  ".brep",
+                                                  ".brp",
+                                                  ".csv",
+                                                  ".txt",
+                                                  ".dat",
+                                                  ".png",
+                                                  ".jpg"};
+        if (others.count(real.extension().string()) == 0 &&
+            fs::is_regular_file(real, error) &&
+            tokens[i].content != "ListFromFile" &&
+            tokens[i].content != "FileName")
+          check(named.lexically_normal().string());
+      }
+
+      [[noreturn]] void
+      refuse(const Token &token, const std::string &deed) const
+      {
+        throw InputError(
+          "",
+          fmt::format("{}:{}: found '{}', which {}; a geometry may not run "
+                      "commands, write files, read files outside of its "
+                      "folder, wait, or end gmsh (cells are taken from gmsh "
+                      "as they are: nothing needs to be saved)",
+                      file,
+                      token.line,
+                      shortened(token.content),
+                      deed));
+      }
+
+      const fs::path        folder;
+      std::set<std::string> seen;
+      std::string           file;
+    };
+  } // namespace
+
+
+
+  void
+  check_msh(const std::string &path)
+  {
+    const std::string text = content_of(path);
+    if (!text.starts_with("$MeshFormat"))
+      throw InputError("",
+                       path + ": is no gmsh mesh: it must start with "
+                              "'$MeshFormat'");
+    for (const std::string section : {"MeshFormat", "Nodes", "Elements"})
+      for (const std::string start : {"\n$", "\n$End"})
+        if (section != "MeshFormat" || start != "\n$")
+          if (text.find(start + section) == std::string::npos)
+            throw InputError("",
+                             fmt::format("{}: is no whole gmsh mesh: found no "
+                                         "'{}{}'",
+                                         path,
+                                         start.substr(1),
+                                         section));
+  }
+
+
+
+  void
+  check_geo(const std::string &path)
+  {
+    const GeoCheck check(path);
+  }
+} // namespace corotet

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/programs.h>
+#include <corotet/mesh/gmsh_process.h>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+namespace corotet
+{
+  namespace
+  {
+    // An error of gmsh, "'PATH', line N: TEXT" or any other text, as
+    // "PATH:N: TEXT" or "PATH: TEXT".
+    std::string
+    message_of_gmsh(const std::string &path, std::string text)
+    {
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      const std::string start = "'" + path + "', line ";
+      if (text.compare(0, start.size(), start) != 0)
+        return path + ": gmsh: " + text;
+      const std::size_t colon = text.find(':', start.size());
+      return path + ":" + text.substr(start.size(), colon - start.size()) +
+             ": gmsh" + text.substr(std::min(colon, text.size()));
+    }
+
+
+
+    // What the process may have for a file [byte]: a mesh is not made longer
+    // than it is, a geometry may fill the machine.
+    std::uint64_t
+    memory_limit(const std::string &path, const bool is_geometry)
+    {
+      if (is_geometry)
+        return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+               sysconf(_SC_PAGESIZE);
+      return 100'000'000 + 10 * std::filesystem::file_size(path);
+    }
+
+
+
+    [[noreturn]] void
+    refuse_end(const std::string &path,
+               const ProgramEnd  &end,
+               const double       time_limit)
+    {
+      std::string what;
+      if (end.has_exceeded)
+        throw InputError("Mesh/gmsh/Time limit",
+                         fmt::format("{}: gmsh has not come to an end in {} s",
+                                     path,
+                                     time_limit));
+      if (end.signal == SIGINT || end.signal == SIGTERM)
+        what = "has been interrupted";
+      else if (end.signal != 0)
+        what = fmt::format("has crashed ({}); is the file damaged?",
+                           strsignal(end.signal));
+      else
+        what = fmt::format("has ended with status {} before it had a mesh",
+                           end.status);
+      throw InputError("", fmt::format("{}: gmsh {}", path, what));
+    }
+  } // namespace
+
+
+
+  GmshModel
+  run_gmsh(const GmshRequest &request)
+  {
+    const std::string program = find_installed("libexec/corotet/corotet-gmsh");
+    if (program.empty())
+      throw MachineError(
+        "libexec/corotet/corotet-gmsh, which reads meshes, is missing: it is "
+        "sought above the running program, above the library, and above the "
+        "first corotet in PATH");
+    const std::string folder =
+      std::filesystem::absolute(request.path).parent_path().string();
+    const ProgramEnd end = run_for_output(
+      program,
+      {request.path,
+       fmt::format("{}", request.element_size),
+       std::to_string(request.degree),
+       std::to_string(request.n_refinements),
+       fmt::format("{}", request.max_n_cells),
+       request.is_geometry ? folder : request.path,
+       std::to_string(memory_limit(request.path, request.is_geometry))},
+      request.time_limit);
+    if (end.has_exceeded || end.signal != 0 || end.status != 0)
+      refuse_end(request.path, end, request.time_limit);
+    GmshModel   model;
+    BytesReader reader(end.output);
+    try
+      {
+        transfer(reader, model);
+      }
+    catch (const std::out_of_range &)
+      {
+        refuse_end(request.path, end, request.time_limit);
+      }
+    if (!model.error.empty())
+      throw InputError("", message_of_gmsh(request.path, model.error));
+    return model;
+  }
+} // namespace corotet
