@@ -107,6 +107,19 @@ namespace corotet
     });
   }
 
+  std::int64_t
+  Log::size()
+  {
+    return from_root(comm, [&] {
+      const std::int64_t size =
+        file.is_open() ? file.tellp() : std::streampos(0);
+      if (size < 0)
+        throw MachineError(
+          "the log file cannot be written (is the disk full?)");
+      return size;
+    });
+  }
+
   void
   Log::clear_progress()
   {

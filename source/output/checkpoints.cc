@@ -27,6 +27,9 @@ namespace corotet
     namespace fs = std::filesystem;
     using Json   = nlohmann::ordered_json;
 
+    // A limit of wall time is one of all runs of the program.
+    const auto program_start = std::chrono::steady_clock::now();
+
     // What may be changed when a run is restarted: entries, and sections with a
     // slash at the end.
     const std::vector<std::string> changeable{
@@ -119,11 +122,13 @@ namespace corotet
 
   Checkpoints::Checkpoints(const CheckpointParameters &parameters,
                            const std::string          &directory,
+                           const std::string          &log_file,
                            const Json                 &values,
                            const Discretization       &discretization,
                            Log                        &log)
     : parameters(parameters)
     , directory(directory + "/checkpoint")
+    , log_file(log_file)
     , values(values)
     , discretization(discretization)
     , comm(discretization.communicator())
@@ -211,8 +216,7 @@ namespace corotet
   {
     std::int64_t log_size = 0;
     checkpoint.transfer("log_size", log_size);
-    log.resume(fs::path(directory).parent_path().string() + "/log.txt",
-               log_size);
+    log.resume(log_file, log_size);
     simulation.resume(observers, recording, checkpoint);
     written_step = simulation.step_number();
     log.line(fmt::format("Restarted from step {}, t = {:.6g} s",
@@ -228,7 +232,7 @@ namespace corotet
   }
 
   void
-  Checkpoints::run(Simulation &simulation)
+  Checkpoints::run(Simulation &simulation, const bool saves_end)
   {
     const StopSignals signals;
     int               asked = none;
@@ -264,7 +268,7 @@ namespace corotet
         asked = none;
       }
     simulation.finish();
-    if (parameters.are_written())
+    if (saves_end && parameters.are_written())
       write(simulation, false);
   }
 
@@ -287,7 +291,7 @@ namespace corotet
             seconds(written) >= 60 * parameters.minutes_between)
           mine |= save;
         if (parameters.wall_time_limit > 0 &&
-            seconds(started) >= parameters.wall_time_limit)
+            seconds(program_start) >= parameters.wall_time_limit)
           mine |= time_limit;
       }
     int all = none;

@@ -29,9 +29,12 @@ namespace corotet
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
        R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
-       R"(checkpoint/step_[0-9]+\.(h5|json)(\.tmp)?)"}};
+       R"((rows/[^/]+/)?checkpoint/step_[0-9]+\.(h5|json)(\.tmp)?)"}};
     const std::array<std::string_view, 4> own_folders{
-      {"solution", "stress_points", "rows", "checkpoint"}};
+      {"solution",
+       "stress_points",
+       "rows(/[^/]+)?",
+       "(rows/[^/]+/)?checkpoint"}};
 
     template <typename Patterns>
     bool

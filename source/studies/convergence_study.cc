@@ -41,6 +41,16 @@ namespace corotet
       });
     }
 
+    // Of a run that is done, in its own folder.
+    void
+    remove_checkpoints(const std::string &folder, const MPI_Comm comm)
+    {
+      on_root(comm, [&] {
+        std::error_code error;
+        std::filesystem::remove_all(folder, error);
+      });
+    }
+
     std::string
     describe(const StudyResult &result)
     {
@@ -148,6 +158,7 @@ namespace corotet
         // All that there is, if the study is stopped.
         write(results);
       }
+    remove_checkpoints(directory + "/rows/finer_run", comm);
     for (const std::string &line : StudyTable(results, quantities).lines())
       log.line(line);
     if (parameters.pictures)
@@ -189,8 +200,7 @@ namespace corotet
         return result;
       }
 
-    run->open_log(path + ".log");
-    StudyResult result = run->compute();
+    StudyResult result = run->compute(path, command.restart, false);
     Json        file{{"problem", problem}};
     if (parameters.reference == StudyReference::finer_run)
       {
@@ -203,6 +213,7 @@ namespace corotet
     on_root(comm, [&] {
       write_whole_file(path + ".json", file.dump(2) + "\n", "the result");
     });
+    remove_checkpoints(path, comm);
     return result;
   }
 
@@ -233,8 +244,9 @@ namespace corotet
                                        command.overrides,
                                        finer_case(),
                                        comm);
-    finer->open_log(directory + "/rows/finer_run.log");
-    const StudyResult result = finer->compute();
+    // Its end is kept for a restart: the runs that are left need it again.
+    const StudyResult result =
+      finer->compute(directory + "/rows/finer_run", command.restart, true);
     log.line("Finer run, " + finer_case().name() + ": " + describe(result));
     if (result.status != "done")
       throw ComputationError("the finer run has failed: " + result.message);

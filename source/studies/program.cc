@@ -6,6 +6,7 @@
 #include <corotet/studies/run_command.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 
 namespace corotet
@@ -27,11 +28,28 @@ namespace corotet
         run_command(command, file, MPI_COMM_WORLD);
       });
     }
+    // Open MPI leaves the memory that ranks of one machine share in /dev/shm
+    // when a process ends that no launcher has started. Such a process is
+    // alone: it needs none. Launchers set one of these variables, by which Open
+    // MPI itself knows them. What a user has set stays.
+    void
+    share_no_memory_if_alone()
+    {
+      for (const char *const set_by_launcher : {"PMIX_NAMESPACE",
+                                                "PMIX_RANK",
+                                                "PMI_RANK",
+                                                "PMI_FD",
+                                                "OMPI_COMM_WORLD_SIZE"})
+        if (std::getenv(set_by_launcher) != nullptr)
+          return;
+      setenv("OMPI_MCA_btl", "self", 0);
+    }
   } // namespace
 
   int
   run_program(const int argc, char **argv)
   {
+    share_no_memory_if_alone();
     // A file that reaches a limit is an error of writing, like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
 

@@ -181,9 +181,13 @@ namespace corotet
                                               simulation.start_time(),
                                               simulation.end_time(),
                                               log);
-        const nlohmann::ordered_json values  = file.values();
-        Checkpoints                  checkpoints(
-          parameters.checkpoint, directory, values, discretization, log);
+        const nlohmann::ordered_json      values = file.values();
+        Checkpoints                       checkpoints(parameters.checkpoint,
+                                directory,
+                                directory + "/log.txt",
+                                values,
+                                discretization,
+                                log);
         std::unique_ptr<CheckpointReader> checkpoint;
         if (command.restart && !command.validate)
           checkpoint = take_checkpoint(checkpoints);

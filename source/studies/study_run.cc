@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/memory.h>
 #include <corotet/base/text.h>
+#include <corotet/output/checkpoints.h>
 #include <corotet/output/history_writer.h>
 #include <corotet/output/stress_probes.h>
 #include <corotet/simulation/modal_analysis.h>
@@ -55,6 +56,18 @@ namespace corotet
           add_stress_columns(row,
                              stress_probes.names(),
                              stress_probes.stresses(state.stress()));
+      }
+
+      void
+      transfer(Archive &archive) override
+      {
+        std::string text = row.dump();
+        archive.within("study", [&] {
+          archive.transfer("row", text);
+          archive.transfer("newton_iterations", newton_iterations);
+          archive.transfer("linear_iterations", linear_iterations);
+        });
+        row = Json::parse(text);
       }
 
       void
@@ -211,20 +224,28 @@ namespace corotet
   }
 
   StudyResult
-  StudyRun::compute()
+  StudyRun::compute(const std::string &path,
+                    const bool         goes_on,
+                    const bool         saves_end)
   {
     StudyResult result;
     result.study_case = study_case;
     if (simulated)
-      simulate(result);
+      simulate(result, path, goes_on, saves_end);
     else
-      analyse_modes(result);
+      {
+        log.open(path + ".log");
+        analyse_modes(result);
+      }
     result.peak_memory_bytes = peak_memory(comm);
     return result;
   }
 
   void
-  StudyRun::simulate(StudyResult &result)
+  StudyRun::simulate(StudyResult       &result,
+                     const std::string &path,
+                     const bool         goes_on,
+                     const bool         saves_end)
   {
     std::vector<std::unique_ptr<Observer>> observers;
     observers.push_back(std::make_unique<LastRow>(
@@ -233,10 +254,35 @@ namespace corotet
       StressProbes(parameters.output.stress_probe_points(),
                    simulated->body().discretization,
                    parameters.output.raw_stress_at_probes)));
-    const auto &last = static_cast<const LastRow &>(*observers.front());
+    const auto       &last = static_cast<const LastRow &>(*observers.front());
+    const OutputTimes times{parameters.output.steps_between_rows, 0.};
+    const Json        values = file.values();
+    Checkpoints       checkpoints(parameters.checkpoint,
+                            path,
+                            path + ".log",
+                            values,
+                            simulated->body().discretization,
+                            log);
+    std::unique_ptr<CheckpointReader> checkpoint;
     try
       {
-        simulated->run(observers, {parameters.output.steps_between_rows, 0.});
+        if (goes_on)
+          checkpoint = checkpoints.newest();
+      }
+    catch (const InputError &)
+      {
+        // Of other parameters, as the study's finished runs may be.
+      }
+    try
+      {
+        if (checkpoint)
+          checkpoints.resume(*simulated, observers, times, *checkpoint);
+        else
+          {
+            log.open(path + ".log");
+            simulated->start(observers, times);
+          }
+        checkpoints.run(*simulated, saves_end);
       }
     catch (const ComputationError &error)
       {

@@ -7,10 +7,9 @@ A run that is killed at a random moment and goes on by --restart, perhaps severa
 run, to the last digit on the same number of ranks (but for wall times), and the same time series. On another number of ranks
 sums have another order and linear solvers leave other errors: the tolerances of ranks.py.
 
-As a script: checkpoints.py --kills N [--seed S] kills and restarts that many runs and prints a line for each kind of run.
+campaigns/restarts.py does more of the same, at random.
 """
 
-import argparse
 import collections
 import json
 import os
@@ -20,7 +19,6 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 import unittest
 
@@ -147,7 +145,7 @@ class Checkpoints(ProgramTest):
         return kills
 
     def test_killed_runs(self):
-        # A part of what the script does with --kills 1000.
+        # A part of what campaigns/restarts.py does.
         random.seed(1)
         for kind in KINDS:
             with self.subTest(kind=kind):
@@ -350,39 +348,5 @@ class Checkpoints(ProgramTest):
         self.assertEqual(rows_without_time(limited.output), rows_without_time(run.output))
 
 
-def kill_many(n, seed):
-    """Kills runs of all kinds on 1, 2 and 4 ranks until there were n kills."""
-    random.seed(seed)
-    test = Checkpoints()
-    test.setUp()
-    counts = collections.Counter()
-    references = {}
-    number = 0
-    try:
-        while sum(counts.values()) < n:
-            kind, ranks = random.choice(list(KINDS)), random.choice((1, 1, 1, 2, 2, 4))
-            # On several ranks Trilinos' factorisation gives other last digits each time, whether a run is disturbed or not.
-            if ranks > 1 and KINDS[kind].get("Linear solver/Type") == "direct":
-                continue
-            if (kind, ranks) not in references:
-                references[kind, ranks] = test.undisturbed(kind, ranks)
-            moments = [random.uniform(0.1, 1.1) for _ in range(random.choice((1, 1, 2, 3)))]
-            number += 1
-            counts[kind, ranks] += test.kill_and_restart(kind, *references[kind, ranks], moments, f"run {number}")
-            print(f"{sum(counts.values())} kills, {number} runs", end="\r", flush=True)
-    finally:
-        print(f"seed {seed}: {sum(counts.values())} kills in {number} runs")
-        for (kind, ranks), count in sorted(counts.items()):
-            print(f"{kind:20} {ranks} ranks: {count}")
-        test.doCleanups()
-
-
 if __name__ == "__main__":
-    if "--kills" in sys.argv:
-        parser = argparse.ArgumentParser(description=__doc__)
-        parser.add_argument("--kills", type=int)
-        parser.add_argument("--seed", type=int, default=0)
-        options = parser.parse_args()
-        kill_many(options.kills, options.seed)
-    else:
-        unittest.main()
+    unittest.main()

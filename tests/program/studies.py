@@ -96,6 +96,34 @@ class Studies(ProgramTest):
         self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2")
         self.assertNotEqual(float(self.rows()[0]["L2_error"]), 0.125)
 
+    def test_restart_within_a_run(self):
+        """The run that is under way goes on from its checkpoint; results are those of a study that nobody has disturbed."""
+        moving = {"Time integration/Type": "backward Euler", "Time integration/Time step": "0.25", "Exact solution/Displacement": "",
+                  "Convergence study/Reference": "finer run", "Convergence study/Quantities": "elastic_energy", "Loads/Gravity": "0; 0; -10",
+                  "Boundary conditions/Fixed": "x-min", "Convergence study/Pictures": "false"}
+        overrides = [word for entry, value in moving.items() for word in ("--set", f"{entry} = {value}")]
+        self.study(EXACT, *overrides)
+        undisturbed = self.rows()
+        files = {path.name for path in (self.folder / "out" / "rows").iterdir()}
+        stopped = 0
+        # Stopped after each step.
+        status = 4
+        arguments = ["--set", "Output/Overwrite = true"]
+        while status == 4:
+            self.assertLess(stopped, 100)
+            run = self.study(EXACT, *overrides, *arguments, "--set", "Checkpoint/Wall time limit = 1e-6", status=None)
+            status = run.returncode
+            arguments = ["--restart"]
+            stopped += status == 4
+            self.assertIn(status, (0, 4), run.stderr)
+        self.assertGreater(stopped, 10)
+        again = self.rows()
+        for row in (*undisturbed, *again):
+            for name in [name for name in row if "time" in name and name != "time_step" or "memory" in name]:
+                del row[name]
+        self.assertEqual(again, undisturbed)
+        self.assertEqual({path.name for path in (self.folder / "out" / "rows").iterdir()}, files)
+
     def test_ranks(self):
         """Two ranks find the same errors, to the solver's tolerance."""
         self.study(EXACT)

@@ -61,12 +61,10 @@ namespace corotet
     void
     resume(const std::string &path, const std::int64_t size);
 
-    /// Bytes of the file, on rank 0.
+    /// Bytes of the file. Throws MachineError if a line could not be written.
+    /// Collective.
     std::int64_t
-    size()
-    {
-      return file.is_open() ? static_cast<std::int64_t>(file.tellp()) : 0;
-    }
+    size();
 
   private:
     void

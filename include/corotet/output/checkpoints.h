@@ -53,10 +53,12 @@ namespace corotet
   class Checkpoints
   {
   public:
+    /// Of a run that writes into @p directory, with its log in @p log_file.
     /// @p values: the text of every entry of the run. The arguments must
     /// outlive this object.
     Checkpoints(const CheckpointParameters   &parameters,
                 const std::string            &directory,
+                const std::string            &log_file,
                 const nlohmann::ordered_json &values,
                 const Discretization         &discretization,
                 Log                          &log);
@@ -77,10 +79,11 @@ namespace corotet
            CheckpointReader                             &checkpoint);
 
     /// Makes all steps of a run that has been started, and finishes it.
-    /// Checkpoints are written when they are due, and at the end. Throws
-    /// Stopped after the run was saved, if it was to end earlier.
+    /// Checkpoints are written when they are due, and at the end unless
+    /// @p saves_end is false. Throws Stopped after the run was saved, if it was
+    /// to end earlier.
     void
-    run(Simulation &simulation);
+    run(Simulation &simulation, const bool saves_end = true);
 
   private:
     /// What the run is asked for; bits.
@@ -113,13 +116,13 @@ namespace corotet
 
     const CheckpointParameters   &parameters;
     std::string                   directory;
+    std::string                   log_file;
     const nlohmann::ordered_json &values;
     const Discretization         &discretization;
     const MPI_Comm                comm;
     Log                          &log;
     const FileOrder               order;
-    const Clock::time_point       started      = Clock::now();
-    Clock::time_point             written      = started;
+    Clock::time_point             written      = Clock::now();
     unsigned int                  written_step = 0;
   };
 } // namespace corotet

@@ -22,7 +22,8 @@ namespace corotet
    *
    * Results in the output directory: rows/NAME.json and rows/NAME.log of each
    * run, when it is finished; study.csv, study.tex and pictures of all. A study
-   * that was stopped goes on with the runs that have no file yet.
+   * that was stopped goes on with the runs that have no file yet, the one that
+   * was under way from its newest checkpoint, in rows/NAME.
    *
    * @p log must outlive this object. Members are collective.
    */

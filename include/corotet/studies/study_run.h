@@ -67,7 +67,7 @@ namespace corotet
   {
   public:
     /// Reads @p path with @p overrides and those of @p study_case, and checks
-    /// everything. Lines of the run's log go nowhere until open_log(). Throws
+    /// everything. Lines of the run's log go nowhere until compute(). Throws
     /// InputError.
     StudyRun(const std::string              &path,
              const std::vector<std::string> &overrides,
@@ -75,21 +75,20 @@ namespace corotet
              const MPI_Comm                  comm);
     ~StudyRun();
 
-    void
-    open_log(const std::string &path)
-    {
-      log.open(path);
-    }
-
     /// All parameters but those of the study and of the output, to recognize
     /// results of another problem by.
     nlohmann::ordered_json
     fingerprint() const;
 
-    /// Runs it. A failure is part of the result. Throws InputError if a
-    /// quantity is unknown.
+    /**
+     * Runs it, with its log in @p path.log and its checkpoints in the folder
+     * @p path. @p goes_on: from the newest checkpoint that is good and of the
+     * same parameters, if there is one. @p saves_end: the end is a checkpoint,
+     * too. A failure is part of the result. Throws InputError if a quantity is
+     * unknown, and Stopped after a signal.
+     */
     StudyResult
-    compute();
+    compute(const std::string &path, const bool goes_on, const bool saves_end);
 
     /// Null if the run is one of modes.
     const Simulation *
@@ -100,7 +99,10 @@ namespace corotet
 
   private:
     void
-    simulate(StudyResult &result);
+    simulate(StudyResult       &result,
+             const std::string &path,
+             const bool         goes_on,
+             const bool         saves_end);
     void
     analyse_modes(StudyResult &result);
     /// By name, of the modes that have been computed; others are not numbers.
