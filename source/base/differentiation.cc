@@ -60,8 +60,8 @@ namespace corotet
         entry,
         fmt::format("the expression \"{}\" cannot be differentiated: {}; "
                     "allowed are +, -, *, /, ^, numbers, x, y, z, t, pi and {}",
-                    formula,
-                    reason,
+                    shortened(formula),
+                    shortened(reason, 200),
                     join(differentiable_functions)));
     };
     try

@@ -5,7 +5,11 @@
 #include <corotet/base/expression.h>
 #include <corotet/base/formula_functions.h>
 #include <corotet/base/jet_formula.h>
+#include <corotet/base/not_finite.h>
 #include <corotet/base/text.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <fmt/format.h>
 #include <muParser.h>
@@ -16,6 +20,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 namespace corotet
 {
@@ -73,7 +78,7 @@ namespace corotet
         known.push_back(table);
       return fmt::format("it has the unknown name \"{}\"{}; known are {} and "
                          "muParser's functions",
-                         name,
+                         shortened(name),
                          suggestion.empty() ?
                            "" :
                            " (did you mean \"" + suggestion + "\"?)",
@@ -142,10 +147,36 @@ namespace corotet
   } // namespace
 
   // The compiled components and the variables that they read.
+  namespace
+  {
+    std::optional<NotFinite> first_not_finite;
+  }
+
+  std::optional<NotFinite>
+  take_not_finite(const MPI_Comm comm)
+  {
+    using namespace dealii::Utilities::MPI;
+    const std::optional<NotFinite> own   = std::exchange(first_not_finite, {});
+    const unsigned int             none  = n_mpi_processes(comm);
+    const unsigned int             rank  = this_mpi_process(comm);
+    const unsigned int             first = min(own ? rank : none, comm);
+    if (first == none)
+      return {};
+    const auto texts =
+      broadcast(comm,
+                own ? std::make_pair(own->entry, own->message) :
+                      std::pair<std::string, std::string>(),
+                first);
+    return NotFinite{texts.first, texts.second};
+  }
+
   struct Expression::Formulas
   {
-    Formulas(const unsigned int n_components, const TableFunctions &tables)
+    Formulas(const unsigned int    n_components,
+             const std::string    &entry,
+             const TableFunctions &tables)
       : parsers(n_components)
+      , entry(entry)
       , tables(tables)
     {
       for (mu::Parser &parser : parsers)
@@ -167,9 +198,7 @@ namespace corotet
 
     // Throws InputError.
     void
-    compile(const unsigned int component,
-            const std::string &formula,
-            const std::string &entry)
+    compile(const unsigned int component, const std::string &formula)
     {
       std::string reason =
         reason_to_refuse(formula, parsers[component], tables);
@@ -192,8 +221,8 @@ namespace corotet
           }
       throw InputError(entry,
                        fmt::format("the expression \"{}\" is no formula: {}",
-                                   formula,
-                                   reason));
+                                   shortened(formula),
+                                   shortened(reason, 500)));
     }
 
     // With derivatives in time. Few formulas need it.
@@ -207,11 +236,23 @@ namespace corotet
       return *formula;
     }
 
-    std::array<double, 4>   variables = {};
+    double
+    value(const dealii::Point<3> &p,
+          const double            t,
+          const unsigned int      component)
+    {
+      AssertIndexRange(component, parsers.size());
+      variables = {{p[0], p[1], p[2], t}};
+      return parsers[component].Eval();
+    }
+
     std::vector<mu::Parser> parsers;
+    // The parameter that has them.
+    const std::string entry;
 
   private:
     // The parsers point to these.
+    std::array<double, 4>                  variables = {};
     const TableFunctions                   tables;
     std::vector<std::optional<JetFormula>> jet_formulas;
   };
@@ -220,7 +261,7 @@ namespace corotet
                          const unsigned int    n_components,
                          const std::string    &entry,
                          const TableFunctions &tables)
-    : formulas(std::make_shared<Formulas>(n_components, tables))
+    : formulas(std::make_shared<Formulas>(n_components, entry, tables))
   {
     const std::vector<std::string> components =
       split_outside_brackets(text, ';');
@@ -229,7 +270,7 @@ namespace corotet
         entry,
         fmt::format("the expression \"{}\" has {} component{}; {} needed, "
                     "separated by semicolons",
-                    text,
+                    shortened(text),
                     components.size(),
                     components.size() == 1 ? "" : "s",
                     n_components == 1 ? "1 is" :
@@ -237,7 +278,7 @@ namespace corotet
 
     for (unsigned int c = 0; c < n_components; ++c)
       {
-        formulas->compile(c, components[c], entry);
+        formulas->compile(c, components[c]);
         for (const std::string &name : identifiers(components[c]))
           {
             time_dependent |= name == "t";
@@ -261,9 +302,22 @@ namespace corotet
                     const double            t,
                     const unsigned int      component) const
   {
-    AssertIndexRange(component, n_components());
-    formulas->variables = {{p[0], p[1], p[2], t}};
-    return formulas->parsers[component].Eval();
+    const double result = formulas->value(p, t, component);
+    if (!std::isfinite(result) && !first_not_finite)
+      first_not_finite = {
+        formulas->entry,
+        fmt::format("the expression \"{}\" is not finite: found {} at ({:.6g}, "
+                    "{:.6g}, {:.6g}) at t = {:g}; allowed are finite values",
+                    shortened(dealii::Utilities::trim(
+                      formulas->parsers[component].GetExpr())),
+                    std::isnan(result) ? "not a number" :
+                    result > 0         ? "infinity" :
+                                         "minus infinity",
+                    p[0],
+                    p[1],
+                    p[2],
+                    t)};
+    return result;
   }
 
   std::array<double, 2>
@@ -284,7 +338,7 @@ namespace corotet
           break;
         std::array<double, 4> u;
         for (unsigned int i = 0; i < 4; ++i)
-          u[i] = value(p, t + i * h, component);
+          u[i] = formulas->value(p, t + i * h, component);
         result = {{(-11 * u[0] + 18 * u[1] - 9 * u[2] + 2 * u[3]) / (6 * h),
                    (2 * u[0] - 5 * u[1] + 4 * u[2] - u[3]) / (h * h)}};
       }

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/text.h>
 #include <corotet/base/whole_file.h>
 
 #include <sys/ioctl.h>
@@ -51,10 +52,12 @@ namespace corotet
   }
 
   void
-  Log::line(const std::string &text)
+  Log::line(const std::string &message)
   {
     if (!root)
       return;
+    // Names in files of the user may have what controls a terminal.
+    const std::string text = printable(message, /* keep_lines = */ true);
     clear_progress();
     if (!quiet)
       std::cout << text << std::endl;

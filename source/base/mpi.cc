@@ -2,13 +2,13 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
 
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -42,15 +42,17 @@ namespace corotet
         {
           return {error.exit_status, "", error.what()};
         }
-      catch (const std::bad_alloc &)
-        {
-          return {3, "", "memory is too short"};
-        }
       catch (const std::filesystem::filesystem_error &error)
         {
           return {3,
                   "",
                   error.path1().string() + ": " + error.code().message()};
+        }
+      catch (const std::exception &error)
+        {
+          if (!is_lack_of_memory(error))
+            throw;
+          return {3, "", lack_of_memory()};
         }
       return {};
     }
@@ -127,9 +129,11 @@ namespace corotet
     const MPI_Comm for_the_end =
       dealii::Utilities::MPI::duplicate_communicator(comm);
     Outcome outcome;
+    bool    is_bug = true;
     try
       {
         outcome = outcome_of(program);
+        is_bug  = false;
       }
     catch (const std::exception &error)
       {
@@ -145,14 +149,14 @@ namespace corotet
         if (!is_agreed || this_mpi_process(comm) == 0)
           // In one piece: mpirun may lose some of several when the program
           // fails.
-          std::cerr << (outcome.exit_status == Stopped::status ?
-                          "corotet: stopped: " :
-                          "corotet: error: ") +
-                         printable(
-                           (outcome.entry.empty() ? "" : outcome.entry + ": ") +
-                           outcome.message) +
-                         "\n"
-                    << std::flush;
+          std::cerr
+            << (outcome.exit_status == Stopped::status ? "corotet: stopped: " :
+                                                         "corotet: error: ") +
+                 printable((outcome.entry.empty() ? "" : outcome.entry + ": ") +
+                             outcome.message,
+                           /* keep_lines = */ is_bug) +
+                 "\n"
+            << std::flush;
         if (!is_agreed)
           MPI_Abort(comm, outcome.exit_status);
       }

@@ -41,8 +41,10 @@ namespace corotet
     for (const auto &[name, value] : names_and_values(text))
       {
         if (!value)
-          throw InputError(
-            entry, fmt::format("found '{}'; allowed: {}", name, allowed));
+          throw InputError(entry,
+                           fmt::format("found '{}'; allowed: {}",
+                                       shortened(name),
+                                       allowed));
         pairs.emplace_back(name, *value);
       }
     return pairs;

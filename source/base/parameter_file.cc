@@ -109,10 +109,12 @@ namespace corotet
           node = &node->at(names[i]);
           if (needs_section && !is_section(*node))
             fail(statement,
-                 fmt::format("\"{}\" is an entry, not a subsection", names[i]));
+                 fmt::format("\"{}\" is an entry, not a subsection",
+                             shortened(names[i])));
           if (!needs_section && is_section(*node) && !statement.may_be_section)
             fail(statement,
-                 fmt::format("\"{}\" is a subsection, not an entry", names[i]));
+                 fmt::format("\"{}\" is a subsection, not an entry",
+                             shortened(names[i])));
           path += (path.empty() ? "" : "/") + names[i];
         }
       return *node;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <system_error>
 
 namespace corotet
@@ -35,7 +36,7 @@ namespace corotet
       if (error)
         refuse_statement(shortened(path), error.message());
       if (!exists)
-        refuse_statement(path, "there is no such file");
+        refuse_statement(shortened(path), "there is no such file");
       std::ifstream file(path);
       if (!fs::is_regular_file(path) || !file)
         refuse_statement(path, "it cannot be read as a file");
@@ -73,13 +74,17 @@ namespace corotet
       {
         std::ifstream     file        = open(path);
         const std::size_t outer_depth = sections.size();
-        std::string       line;
-        std::string       concatenated;
-        unsigned int      number       = 0;
-        unsigned int      first_number = 1;
+        lines_of_entries.emplace_back();
+        std::string  line;
+        std::string  concatenated;
+        unsigned int number       = 0;
+        unsigned int first_number = 1;
         while (std::getline(file, line))
           {
             ++number;
+            if (line.find('\0') != std::string::npos)
+              refuse_statement(fmt::format("{}:{}", path, number),
+                               "it has a zero byte; a parameter file is text");
             line = dealii::Utilities::trim(line);
             if (concatenated.empty())
               first_number = number;
@@ -98,7 +103,8 @@ namespace corotet
             sections.back().second,
             fmt::format("subsection \"{}\" is opened here and never left; "
                         "an \"end\" is missing",
-                        sections.back().first));
+                        shortened(sections.back().first)));
+        lines_of_entries.pop_back();
       }
 
       Statements statements;
@@ -150,8 +156,15 @@ namespace corotet
                 fmt::format("\"{}\" is not of the form \"set Entry = "
                             "value\"",
                             shortened(line)));
+            const std::string path = path_of(name);
+            const auto [first, is_new] =
+              lines_of_entries.back().emplace(path, number);
+            if (!is_new)
+              refuse_second(place,
+                            path,
+                            fmt::format(", first in line {}", first->second));
             statements.push_back(
-              {path_of(name),
+              {path,
                dealii::Utilities::trim(assignment->substr(equals + 1)),
                place});
           }
@@ -197,6 +210,9 @@ namespace corotet
 
       // Names of the subsections that are open, and where they were opened.
       std::vector<std::pair<std::string, std::string>> sections;
+      // Of each file that is open, which one may include another and then set
+      // entries of that to something else.
+      std::vector<std::map<std::string, unsigned int>> lines_of_entries;
       unsigned int                                     n_included = 0;
     };
   } // namespace
@@ -220,7 +236,7 @@ namespace corotet
         path,
         fmt::format("a parameter file cannot end in \"{}\"; allowed are "
                     ".prm, .json and .xml",
-                    ending));
+                    shortened(ending)));
     PrmReader reader;
     reader.read(path);
     return reader.statements;
@@ -240,7 +256,7 @@ namespace corotet
         "--set",
         fmt::format("\"{}\" is not of the form \"Section/Subsection/Entry "
                     "= value\"",
-                    text));
+                    shortened(text)));
     return {join(names, "/"),
             dealii::Utilities::trim(text.substr(equals + 1)),
             "--set"};

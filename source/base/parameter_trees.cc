@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/parameter_trees.h>
+#include <corotet/base/text.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -14,7 +15,9 @@
 
 #include <iterator>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <vector>
 
 namespace corotet
 {
@@ -69,12 +72,15 @@ namespace corotet
             const std::string                 &file,
             Statements                        &statements)
     {
+      std::set<std::string> names;
       for (const auto &[key, node] : tree)
         {
           if (key == "<xmlcomment>" || node.get_optional<std::string>("alias"))
             continue;
           const std::string name =
             path.empty() ? demangle(key) : path + "/" + demangle(key);
+          if (!names.insert(name).second)
+            refuse_second(file, name);
           const auto value = node.get_optional<std::string>("value");
           if (value || node.empty())
             {
@@ -121,7 +127,7 @@ namespace corotet
               file,
               fmt::format("\"{}\" is {}; allowed are a text, a number, true "
                           "and false",
-                          name,
+                          shortened(name),
                           value.is_null() ? "null" : "a list"));
         }
     }
@@ -131,6 +137,18 @@ namespace corotet
   refuse_statement(const std::string &place, const std::string &message)
   {
     throw InputError("", place + ": " + message);
+  }
+
+  void
+  refuse_second(const std::string &place,
+                const std::string &name,
+                const std::string &first)
+  {
+    refuse_statement(place,
+                     fmt::format("\"{}\" is set twice{}; allowed is once in a "
+                                 "file",
+                                 shortened(name),
+                                 first));
   }
 
   void
@@ -173,12 +191,25 @@ namespace corotet
   read_json_statements(const std::string &path, std::istream &file)
   {
     nlohmann::ordered_json tree;
+    // The parser keeps the last of several members with one name. Those of the
+    // objects that are open:
+    std::vector<std::set<std::string>> names;
     try
       {
-        tree = nlohmann::ordered_json::parse(
-          file, [&](const int depth, const auto, const auto &) {
+        using Event = nlohmann::ordered_json::parse_event_t;
+        tree        = nlohmann::ordered_json::parse(
+          file, [&](const int depth, const Event event, const auto &value) {
             if (depth > max_section_depth)
               refuse_as_too_deep(path);
+            if (event == Event::object_start)
+              names.emplace_back();
+            else if (event == Event::object_end)
+              names.pop_back();
+            else if (event == Event::key &&
+                     !names.back()
+                        .insert(value.template get<std::string>())
+                        .second)
+              refuse_second(path, value.template get<std::string>());
             return true;
           });
       }
@@ -191,7 +222,7 @@ namespace corotet
           text, match, std::regex("at line ([0-9]+), column [0-9]+: (.*)"));
         refuse_statement(found ? path + ":" + match[1].str() : path,
                          "it is no valid JSON: " +
-                           (found ? match[2].str() : text));
+                           shortened(found ? match[2].str() : text, 200));
       }
     if (!tree.is_object())
       refuse_statement(path, "it must be one JSON object, {...}");

@@ -6,6 +6,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/base/table_file.h>
 #include <corotet/base/table_functions.h>
+#include <corotet/base/text.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -38,7 +39,7 @@ namespace corotet
                          fmt::format("the name of a table is no name of a "
                                      "function: found '{}'; allowed are "
                                      "letters, digits and _, no digit first",
-                                     name));
+                                     shortened(name)));
       if (is_formula_name(name))
         throw InputError(entry,
                          fmt::format("the name of a table is taken: found "
@@ -57,7 +58,9 @@ namespace corotet
     read(const std::string &path, const std::string &entry)
     {
       if (!std::filesystem::is_regular_file(path))
-        throw InputError(entry, "there is no table file: found '" + path + "'");
+        throw InputError(entry,
+                         "there is no table file: found '" + shortened(path) +
+                           "'");
       return read_table_file(path);
     }
 

@@ -99,9 +99,8 @@ namespace corotet
   }
 
   std::string
-  shortened(const std::string &text)
+  shortened(const std::string &text, const std::size_t most)
   {
-    constexpr std::size_t most = 120;
     if (text.size() <= most)
       return text;
     return fmt::format("{}... ({} characters)",
@@ -110,15 +109,25 @@ namespace corotet
   }
 
   std::string
-  printable(const std::string &message)
+  printable(const std::string &message, const bool keep_lines)
   {
     constexpr std::size_t most = 4000;
     std::string           result;
-    for (const char c : message)
-      if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
-        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-      else
-        result += c;
+    for (std::size_t i = 0; i < message.size(); ++i)
+      {
+        const auto byte = static_cast<unsigned char>(message[i]);
+        const auto next = static_cast<unsigned char>(
+          i + 1 < message.size() ? message[i + 1] : 0);
+        const bool is_kept = keep_lines && (byte == '\n' || byte == '\t');
+        // Those above 0x7f, by which a terminal is controlled, too, have two
+        // bytes in UTF-8.
+        const bool is_high = byte == 0xc2 && next >= 0x80 && next < 0xa0;
+        if (is_high || ((byte < 0x20 || byte == 0x7f) && !is_kept))
+          result += fmt::format("\\x{:02x}", is_high ? next : byte);
+        else
+          result += message[i];
+        i += is_high;
+      }
     return result.size() <= most ? result : start_of(result, most) + "...";
   }
 

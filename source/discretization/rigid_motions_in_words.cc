@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 #include <tuple>
 
 namespace corotet
@@ -154,52 +156,110 @@ namespace corotet
     return enumeration(words);
   }
 
+  namespace
+  {
+    std::string
+    name_of_part(const ConnectedParts &parts,
+                 const unsigned int    part,
+                 const MeshNames      &names)
+    {
+      const auto &centre = parts.centres[part];
+      std::string text =
+        "the part at " + place(centre, centre.norm() + parts.radii[part]);
+      if (names.all().size() > 1)
+        {
+          std::vector<std::string> of_part;
+          for (const unsigned int region : parts.regions[part])
+            of_part.push_back("'" + names.name(region) + "'");
+          text += (of_part.size() == 1 ? " of region " : " of regions ") +
+                  enumeration(of_part);
+        }
+      return text;
+    }
+
+    // Parts are numbered otherwise on other numbers of ranks: these in the
+    // order of their places.
+    std::vector<unsigned int>
+    in_order_of_places(const ConnectedParts            &parts,
+                       const std::vector<unsigned int> &some)
+    {
+      double length = 0;
+      for (unsigned int part = 0; part < parts.n_parts; ++part)
+        length =
+          std::max(length, parts.centres[part].norm() + parts.radii[part]);
+      std::vector<std::tuple<double, double, double, unsigned int>> order;
+      for (const unsigned int part : some)
+        order.emplace_back(without_round_off(parts.centres[part][0], length),
+                           without_round_off(parts.centres[part][1], length),
+                           without_round_off(parts.centres[part][2], length),
+                           part);
+      std::sort(order.begin(), order.end());
+      std::vector<unsigned int> result;
+      for (const auto &[x, y, z, part] : order)
+        result.push_back(part);
+      return result;
+    }
+
+    // More are not listed.
+    constexpr unsigned int max_parts = 3;
+  } // namespace
+
   std::string
   RigidMotions::name(const unsigned int part) const
   {
-    if (parts.n_parts == 1)
-      return "the body";
-    const auto &centre = parts.centres[part];
-    std::string text =
-      "the part at " + place(centre, centre.norm() + parts.radii[part]);
-    const MeshNames &names = discretization.mesh().regions();
-    if (names.all().size() > 1)
-      {
-        std::vector<std::string> of_part;
-        for (const unsigned int region : parts.regions[part])
-          of_part.push_back("'" + names.name(region) + "'");
-        text += (of_part.size() == 1 ? " of region " : " of regions ") +
-                enumeration(of_part);
-      }
-    return text;
+    return parts.n_parts == 1 ?
+             "the body" :
+             name_of_part(parts, part, discretization.mesh().regions());
+  }
+
+  std::string
+  unconnected_parts(const Discretization &discretization)
+  {
+    const ConnectedParts                            parts(discretization);
+    std::set<std::pair<unsigned int, unsigned int>> pairs;
+    for (const auto &joint : parts.joints)
+      pairs.insert({joint.part, joint.other});
+    DisjointSets sets(parts.n_parts);
+    for (const auto &[a, b] :
+         of_all_ranks(pairs, discretization.communicator()))
+      sets.unite(a, b);
+    const auto [numbers, n_bodies] = sets.numbers();
+    if (n_bodies == 1)
+      return "";
+    // Of each body its first part in the order of places.
+    std::vector<unsigned int> all(parts.n_parts);
+    std::iota(all.begin(), all.end(), 0u);
+    std::set<unsigned int>   known;
+    std::vector<std::string> words;
+    for (const unsigned int part : in_order_of_places(parts, all))
+      if (known.insert(numbers[part]).second && words.size() < max_parts)
+        words.push_back(
+          name_of_part(parts, part, discretization.mesh().regions()));
+    if (n_bodies > max_parts)
+      words.push_back(fmt::format("{} more", n_bodies - max_parts));
+    return fmt::format("there are {} bodies that touch nowhere, and each moves "
+                       "on its own: {}",
+                       n_bodies,
+                       enumeration(words));
   }
 
   std::string
   RigidMotions::description() const
   {
-    // Parts are numbered otherwise on other numbers of ranks: in the order of
-    // their places.
-    constexpr unsigned int                                        max_parts = 3;
-    std::vector<std::tuple<double, double, double, unsigned int>> order;
-    double                                                        length = 0;
-    for (unsigned int part = 0; part < parts.n_parts; ++part)
-      length = std::max(length, parts.centres[part].norm() + parts.radii[part]);
+    std::vector<unsigned int> moving;
     for (unsigned int part = 0; part < parts.n_parts; ++part)
       if (!motions_of(part).empty())
-        order.emplace_back(without_round_off(parts.centres[part][0], length),
-                           without_round_off(parts.centres[part][1], length),
-                           without_round_off(parts.centres[part][2], length),
-                           part);
-    std::sort(order.begin(), order.end());
+        moving.push_back(part);
     std::vector<std::string> words;
-    for (const auto &[x, y, z, part] : order)
+    for (const unsigned int part : in_order_of_places(parts, moving))
       if (words.size() < max_parts)
         words.push_back(
           name(part) + " can " +
           describe(motions_of(part), parts.centres[part], parts.radii[part]));
     std::string text = join(words, "; ");
-    if (order.size() > max_parts)
-      text += fmt::format("; {} more parts can move", order.size() - max_parts);
+    if (moving.size() > max_parts)
+      text +=
+        fmt::format("; {} more parts can move", moving.size() - max_parts);
     return text;
   }
 } // namespace corotet

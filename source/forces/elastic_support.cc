@@ -190,15 +190,17 @@ namespace corotet
                               const std::string &text,
                               const Direction    direction,
                               const auto        &add) {
-      const std::string     entry = "Supports/" + name;
-      std::set<std::string> known;
+      const std::string      entry = "Supports/" + name;
+      const MeshNames       &names = context.discretization.mesh().boundaries();
+      std::set<unsigned int> known;
       for (const auto &[boundary, value] : named_values(text, entry))
         {
-          if (!known.insert(boundary).second)
+          if (!known.insert(names.id(boundary, entry)).second)
             throw InputError(entry,
                              fmt::format("found boundary '{}' twice; allowed: "
                                          "each boundary once",
-                                         boundary));
+                                         names.name(
+                                           names.id(boundary, entry))));
           SurfaceCoefficient coefficient(
             context, boundary, value, direction, entry);
           if (!coefficient.is_zero())

@@ -3,6 +3,8 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/named_values.h>
+#include <corotet/base/text.h>
+#include <corotet/discretization/point_search.h>
 #include <corotet/forces/point_forces.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,12 +12,50 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace corotet
 {
   using dealii::Point;
   using dealii::Tensor;
+
+  namespace
+  {
+    const std::string point_forces_entry = "Loads/Point forces";
+
+    // Whether an owned cell has the point, or is so near that it may be meant:
+    // a point on the surface of a curved body is a little outside of its cells.
+    bool
+    is_at_owned_cell(const Discretization &discretization,
+                     const Point<3>       &x,
+                     const double          distance_to_node)
+    {
+      // In heights of the cell.
+      constexpr double  near = 0.2;
+      const PointSearch search(discretization);
+      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+        {
+          const auto      nodes   = discretization.cell_nodes(c);
+          const Point<3> &origin  = discretization.node_position(nodes[0]);
+          double          longest = 0;
+          for (unsigned int v = 1; v < 4; ++v)
+            longest =
+              std::max(longest,
+                       origin.distance(discretization.node_position(nodes[v])));
+          // Every point of a cell is so near to a node, and others far away.
+          if (distance_to_node > 2 * longest)
+            continue;
+          const Tensor<1, 3> xi =
+            discretization.geometry(c).inverse_jacobian * (x - origin);
+          if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >
+                -near ||
+              search.find(c, x))
+            return true;
+        }
+      return false;
+    }
+  } // namespace
 
   PointForce::PointForce(const Discretization &discretization,
                          const Point<3>       &target,
@@ -45,6 +85,21 @@ namespace corotet
                                           discretization.node_position(node) :
                                           Point<3>(),
                                         owner);
+    const bool is_at_body = is_at_owned_cell(discretization, target, minimum);
+    if (dealii::Utilities::MPI::max(is_at_body ? 1 : 0, comm) == 0)
+      throw InputError(
+        point_forces_entry,
+        fmt::format(
+          "the point ({:.6g}, {:.6g}, {:.6g}) lies outside the body: "
+          "found a distance of {:.3g} m to the nearest node, ({:.6g}, "
+          "{:.6g}, {:.6g}); allowed are points of the body",
+          target[0],
+          target[1],
+          target[2],
+          minimum,
+          position[0],
+          position[1],
+          position[2]));
     log.line(fmt::format(
       "Point force at node ({:.6g}, {:.6g}, {:.6g}), {:.3g} m from ({:.6g}, "
       "{:.6g}, {:.6g})",
@@ -85,21 +140,22 @@ namespace corotet
   {
     if (dealii::Utilities::trim(forces).empty())
       return {};
-    return {{"Loads/Point forces", forces, ""}};
+    return {{point_forces_entry, forces, ""}};
   }
 
   void
   PointForcesKind::add_to(ForceTerms &terms, const ForceContext &context) const
   {
-    const std::string entry   = "Loads/Point forces",
+    const std::string entry   = point_forces_entry,
                       allowed = "'x y z: fx; fy; fz'";
     for (const auto &[place, force] : named_values(forces, entry, allowed))
       {
         const auto target = point_of(place);
         if (!target)
-          throw InputError(
-            entry,
-            fmt::format("found '{}: {}'; allowed: {}", place, force, allowed));
+          throw InputError(entry,
+                           fmt::format("found '{}'; allowed: {}",
+                                       shortened(place + ": " + force),
+                                       allowed));
         terms.add(std::make_unique<PointForce>(
           context.discretization,
           *target,

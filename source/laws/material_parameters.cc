@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/named_values.h>
+#include <corotet/base/text.h>
 #include <corotet/laws/material_parameters.h>
 
 #include <deal.II/base/utilities.h>
@@ -30,7 +31,7 @@ namespace corotet
       throw InputError(entry,
                        fmt::format("'{}' is not a number; allowed: a number, "
                                    "or 'region: number, ...'",
-                                   text));
+                                   shortened(text)));
     }
 
     // The values of one entry by region id.
@@ -119,7 +120,7 @@ namespace corotet
                       "Young's modulus [Pa], positive." + by_region);
     prm.add_parameter("Poisson's ratio",
                       poissons_ratio,
-                      "Poisson's ratio [-], in (-1, 0.5)." + by_region);
+                      "Poisson's ratio [-], in (-1, 0.499999]." + by_region);
     prm.add_parameter("Density",
                       density,
                       "Mass per volume [kg/m^3], positive." + by_region);
@@ -147,8 +148,11 @@ namespace corotet
       nu,
       regions,
       nu_entry,
-      [](const double v) { return v > -1 && v < 0.5; },
-      "-1 < nu < 0.5 (at 0.5 the material is incompressible)");
+      // Pressures are lambda / mu times displacements, which have eight digits
+      // by the tolerances: of a pressure two are left at the bound.
+      [](const double v) { return v > -1 && v <= 0.499999; },
+      "-1 < nu <= 0.499999 (at 0.5 the material is incompressible; 0.499 is in "
+      "general close enough)");
     check(rho, regions, rho_entry, positive, "a positive number of kg/m^3");
 
     std::map<unsigned int, IsotropicMaterial> result;

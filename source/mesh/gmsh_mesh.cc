@@ -30,7 +30,8 @@ namespace corotet
                          shortened(path) + ": " + error.message());
       if (!is_file)
         throw InputError("Mesh/gmsh/File",
-                         "there is no mesh file: found '" + path + "'");
+                         "there is no mesh file: found '" + shortened(path) +
+                           "'");
       const std::string extension =
         std::filesystem::path(path).extension().string();
       if (extension == ".msh")
@@ -39,8 +40,8 @@ namespace corotet
         check_geo(path);
       else
         throw InputError("Mesh/gmsh/File",
-                         "the kind of mesh file is unknown: found '" + path +
-                           "'; allowed are .msh and .geo");
+                         "the kind of mesh file is unknown: found '" +
+                           shortened(path) + "'; allowed are .msh and .geo");
     }
 
 

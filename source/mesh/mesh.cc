@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
 #include <corotet/mesh/check_mesh.h>
@@ -42,10 +43,21 @@ namespace corotet
     void
     check_size(const SerialMesh  &mesh,
                const unsigned int n_refinements,
+               const unsigned int element_degree,
                const unsigned int n_ranks)
     {
       check_number_of_cells(mesh.cells.size(), n_refinements);
       const double n_cells = mesh.cells.size() * std::pow(8., n_refinements);
+      // Half of what was measured for a body at rest, solvers not included
+      // [byte]. Several ranks may be on several machines.
+      constexpr double bytes_per_cell[] = {350, 600, 1500};
+      if (n_ranks == 1)
+        check_memory(n_cells * bytes_per_cell[element_degree - 1],
+                     fmt::format("{:.4g} cells of degree {}",
+                                 n_cells,
+                                 element_degree),
+                     "fewer cells, a lower Discretization/Degree or ranks on "
+                     "more machines need less");
       if (n_cells < n_ranks)
         refuse_mesh(mesh,
                     fmt::format("too few cells: found {} for {} ranks; each "
@@ -196,7 +208,10 @@ namespace corotet
     on_root(comm, [&] {
       check_mesh(mesh, element_degree);
       const unsigned int n_left = n_refinements - mesh.n_refinements;
-      check_size(mesh, n_left, dealii::Utilities::MPI::n_mpi_processes(comm));
+      check_size(mesh,
+                 n_left,
+                 element_degree,
+                 dealii::Utilities::MPI::n_mpi_processes(comm));
       refine_uniformly(mesh, n_left);
       if (n_left > 0 && mesh.geometry_degree > 1)
         // Vertices have moved to where the curves have them.

@@ -41,7 +41,7 @@ namespace corotet
     const std::string plural  = kind == "boundary" ? "boundaries" : kind + "s";
     const std::string similar = nearest(name_or_id, known);
     throw InputError(entry,
-                     "no such " + kind + ": found '" + name_or_id +
+                     "no such " + kind + ": found '" + shortened(name_or_id) +
                        "'; the mesh has " +
                        (known.empty() ? "no " + plural :
                                         "the " + plural + ": " + join(known)) +

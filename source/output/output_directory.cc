@@ -3,15 +3,22 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/text.h>
 #include <corotet/output/directory_lock.h>
 #include <corotet/output/output_directory.h>
 
+#include <linux/magic.h>
+#include <sys/statfs.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <functional>
 #include <regex>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace corotet
@@ -123,6 +130,34 @@ namespace corotet
       return old_results(directory);
     }
 
+    // A folder must be possible there: below what exists already.
+    void
+    check_place(const fs::path &directory)
+    {
+      fs::path place = fs::absolute(directory);
+      while (!fs::exists(place) && place.has_relative_path())
+        place = place.parent_path();
+      if (!fs::is_directory(place))
+        throw InputError(directory_entry,
+                         "the output directory '" +
+                           shortened(directory.string()) + "' is below '" +
+                           shortened(place.string()) +
+                           "', which is a file; allowed is a name in a folder");
+      struct statfs properties{};
+      int           number = 0;
+      if (statfs(place.c_str(), &properties) != 0 ||
+          access(place.c_str(), W_OK | X_OK) != 0)
+        number = errno;
+      else if (properties.f_type == PROC_SUPER_MAGIC ||
+               properties.f_type == SYSFS_MAGIC)
+        number = EROFS;
+      if (number != 0)
+        throw MachineError(
+          "the output directory '" + shortened(directory.string()) +
+          "' cannot be made or filled in '" + shortened(place.string()) +
+          "': " + std::generic_category().message(number));
+    }
+
     // Runs @p action on the directory on rank 0.
     void
     on_root_with_directory(const std::string &directory,
@@ -136,9 +171,14 @@ namespace corotet
           }
         catch (const fs::filesystem_error &error)
           {
-            throw MachineError(
-              "the output directory '" + directory +
-              "' cannot be made or emptied: " + error.code().message());
+            const std::string message =
+              "the output directory '" + shortened(directory) +
+              "' cannot be made or emptied: " + error.code().message();
+            if (error.code() == std::errc::filename_too_long ||
+                error.code() == std::errc::not_a_directory ||
+                error.code() == std::errc::too_many_symbolic_link_levels)
+              throw InputError(directory_entry, message);
+            throw MachineError(message);
           }
       });
     }
@@ -151,6 +191,7 @@ namespace corotet
   {
     on_root_with_directory(directory, comm, [&](const fs::path &path) {
       to_be_removed(path, overwrite);
+      check_place(path);
     });
   }
 

@@ -30,7 +30,7 @@ namespace corotet
         throw InputError(entry,
                          fmt::format("'{}' cannot be a probe's name; letters, "
                                      "digits and _ are allowed, no digit first",
-                                     name));
+                                     shortened(name)));
     }
 
     // NAME_x must not be two columns of the history.
@@ -61,14 +61,14 @@ namespace corotet
               entry,
               fmt::format("two probes are called '{}'; each name "
                           "must be used once",
-                          name));
+                          shortened(name)));
           const auto position = point_of(place);
           if (!position)
             throw InputError(entry,
                              fmt::format("probe '{}' is at '{}'; its position "
                                          "must be three numbers (x y z, in m)",
-                                         name,
-                                         place));
+                                         shortened(name),
+                                         shortened(place)));
           points.push_back({name, *position});
         }
       return points;

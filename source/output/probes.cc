@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
 #include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 
@@ -77,6 +78,16 @@ namespace corotet
                             mpi::max(upper[c], discretization.communicator()));
       return text;
     }
+    // To the nearest one [m]. Collective.
+    double
+    distance_to_nodes(const Point<3> &x, const Discretization &discretization)
+    {
+      double distance = std::numeric_limits<double>::max();
+      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+        distance =
+          std::min(distance, x.distance(discretization.node_position(n)));
+      return mpi::min(distance, discretization.communicator());
+    }
   } // namespace
 
   void
@@ -87,11 +98,13 @@ namespace corotet
   {
     throw InputError(entry,
                      fmt::format("probe '{}' at ({}, {}, {}) lies outside the "
-                                 "body, which has {} (m)",
-                                 name,
+                                 "body, {:.3g} m from its nearest node; the "
+                                 "body has {} (m)",
+                                 shortened(name),
                                  x[0],
                                  x[1],
                                  x[2],
+                                 distance_to_nodes(x, discretization),
                                  bounding_box(discretization)));
   }
 

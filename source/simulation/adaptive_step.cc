@@ -28,8 +28,9 @@ namespace corotet
       "Error of the displacement that a step may make, relative "
       "to the largest displacement so far, both as root mean "
       "squares over the body [-]. A step that makes more is "
-      "repeated with a shorter one.",
-      Double(1e-15, 1));
+      "repeated with a shorter one. (Below, the errors that Newton's method "
+      "and round-off leave look like those of steps.)",
+      Double(1e-12, 1));
     prm.add_parameter("Smallest step",
                       smallest_step,
                       "In s. A step of this length is taken whatever error it "

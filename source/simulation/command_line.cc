@@ -48,7 +48,7 @@ namespace corotet
       if (!argument.starts_with('-'))
         fail(fmt::format("unexpected argument \"{}\"; one parameter file is "
                          "allowed",
-                         argument));
+                         shortened(argument)));
 
       std::vector<std::string> options;
       for (const CLI::Option *option : app.get_options())
@@ -57,7 +57,7 @@ namespace corotet
       const std::string suggestion =
         nearest(argument.substr(0, argument.find('=')), options);
       fail(fmt::format("unknown option \"{}\"; {}",
-                       argument,
+                       shortened(argument),
                        suggestion.empty() ?
                          "allowed are " + join(options) :
                          "did you mean \"" + suggestion + "\"?"));

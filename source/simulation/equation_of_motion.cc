@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/ghosted_copy.h>
+#include <corotet/base/not_finite.h>
 #include <corotet/simulation/equation_of_motion.h>
 
 #include <fmt/format.h>
@@ -104,6 +105,9 @@ namespace corotet
   std::string
   EquationOfMotion::why_not_finite() const
   {
+    const auto found = take_not_finite(body.discretization.communicator());
+    if (found)
+      return ": " + found->entry + ": " + found->message;
     const ElasticState state = body.elasticity.state(u);
     if (std::isfinite(state.energy))
       return "";

@@ -55,7 +55,7 @@ namespace corotet
                          fmt::format("found '{}', but the data are made from "
                                      "the exact solution; allowed: '{}', or "
                                      "Exact solution/Manufacture = false",
-                                     given.value,
+                                     shortened(given.value),
                                      given.none));
   }
 
@@ -70,7 +70,15 @@ namespace corotet
         ids.insert(id);
     else if (text != "none")
       for (const std::string &name : split_outside_brackets(text, ','))
-        ids.insert(boundaries.id(name, "Exact solution/Displacement boundary"));
+        {
+          const std::string  entry = "Exact solution/Displacement boundary";
+          const unsigned int id    = boundaries.id(name, entry);
+          if (!ids.insert(id).second)
+            throw InputError(entry,
+                             fmt::format("found boundary '{}' twice; allowed: "
+                                         "each boundary once",
+                                         boundaries.name(id)));
+        }
     return ids;
   }
 

@@ -111,6 +111,7 @@ namespace corotet
           parameters.modes.number,
           solver.max_eigenvalues(),
           solver.n_free_unknowns()));
+    check_shift();
     the_body.describe(log);
     note_what_is_ignored();
     wall_times.setup = seconds();
@@ -140,6 +141,37 @@ namespace corotet
     note_cut_group(pairs.values);
     for (unsigned int i = 0; i < computed.size(); ++i)
       check(computed[i], i + 1);
+  }
+
+  void
+  ModalAnalysis::check_shift() const
+  {
+    // No mode of the mesh has an omega^2 as high as that: (c_p / h)^2 with the
+    // speed of pressure waves and the smallest height of a cell, times what
+    // elements of degree 3 and shapes make of it, and more.
+    double largest = 0;
+    for (unsigned int c = 0; c < the_body.discretization.n_owned_cells(); ++c)
+      {
+        const CellGeometry      &geometry = the_body.discretization.geometry(c);
+        const IsotropicMaterial &material =
+          the_body.materials.at(geometry.region);
+        largest =
+          std::max(largest,
+                   (material.lambda + 2 * material.mu) / material.density *
+                     geometry.inverse_jacobian.norm_square());
+      }
+    const double bound =
+      1e4 * dealii::Utilities::MPI::max(largest,
+                                        the_body.discretization.communicator());
+    if (parameters.modes.shift > bound)
+      throw InputError(
+        "Modes/Shift",
+        fmt::format(
+          "found {:.6g} 1/s^2; allowed: less than {:.3g} 1/s^2, which "
+          "is above omega^2 of all modes, and best 1e-3 to 0.1 times "
+          "that of the lowest one (0: the program's choice)",
+          parameters.modes.shift,
+          bound));
   }
 
   void

@@ -5,6 +5,7 @@
 #include <corotet/discretization/rigid_motions.h>
 #include <corotet/operators/rotation_difference.h>
 #include <corotet/simulation/simulation.h>
+#include <corotet/simulation/start_checks.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -23,8 +24,10 @@ namespace corotet
     , stepper(parameters, system, log)
   {
     the_body.describe(log);
+    warn_of_body(the_body, parameters, log);
     if (!parameters.time_integrator.selected().is_dynamic())
       check_supports();
+    check_start(system, parameters, stepper.state(), log);
     wall_times.setup = seconds();
   }
 

@@ -146,6 +146,8 @@ namespace corotet
   TimeLoop::warn_of_steps(const double n, const double dt)
   {
     constexpr double many = 1e7;
+    if (n_planned == 0)
+      n_planned = n;
     if (!(n > many) || has_warned)
       return;
     has_warned = true;

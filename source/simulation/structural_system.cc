@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/exceptions.h>
 #include <corotet/base/expression.h>
+#include <corotet/base/not_finite.h>
 #include <corotet/simulation/structural_system.h>
 
 namespace corotet
@@ -25,14 +27,29 @@ namespace corotet
     const Body &body = equation_of_motion.body;
     for (Vector *vector : {&state.u, &state.v, &state.a})
       body.discretization.initialize_vector(*vector);
-    const Expression u0(body.problem.initial_displacement(),
+    // Those of the parameters, or made from the exact solution.
+    const auto expression = [&](const std::string &name,
+                                const std::string &text,
+                                const std::string &given) {
+      return Expression(text,
                         3,
-                        "Initial conditions/Displacement",
+                        text == given ? "Initial conditions/" + name :
+                                        "Exact solution/Displacement",
                         body.tables);
-    const Expression v0(body.problem.initial_velocity(),
-                        3,
-                        "Initial conditions/Velocity",
-                        body.tables);
+    };
+    const Expression u0           = expression("Displacement",
+                                     body.problem.initial_displacement(),
+                                     parameters.initial_displacement);
+    const Expression v0           = expression("Velocity",
+                                     body.problem.initial_velocity(),
+                                     parameters.initial_velocity);
+    const auto       check_finite = [&] {
+      if (const auto found =
+            take_not_finite(body.discretization.communicator()))
+        throw InputError(found->entry, found->message);
+    };
+    // Of constant loads, which are known by now.
+    check_finite();
     for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
       {
         const dealii::Point<3> x = body.discretization.node_position(n);
@@ -44,6 +61,7 @@ namespace corotet
             state.v.local_element(3 * n + a) = v[a];
           }
       }
+    check_finite();
   }
 
   void

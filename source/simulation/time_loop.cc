@@ -105,7 +105,8 @@ namespace corotet
                                "gradients a step",
                                report.linear_iterations));
         if (!std::isfinite(body.root_mean_square(present.a)))
-          throw ComputationError("the forces at the start are not finite");
+          throw ComputationError("the forces at the start are not finite" +
+                                 system.equation().why_not_finite());
       }
     else
       present.v = 0;

@@ -26,8 +26,8 @@ namespace corotet
     double end_time = 0, time_step = 0;
     archive.transfer("end_time", end_time);
     archive.transfer("time_step", time_step);
-    const unsigned int n_planned = n_steps;
-    const double       planned   = step_length;
+    const unsigned int n_equal = n_steps;
+    const double       planned = step_length;
     transfer(archive);
     if (!is_between_records)
       {
@@ -59,7 +59,7 @@ namespace corotet
         done *= factor;
         good_done *= factor;
       }
-    if (n_planned > 0)
+    if (n_equal > 0)
       begin_equal_steps(step_number(record));
     else if (n_steps > 0)
       {

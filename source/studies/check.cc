@@ -63,7 +63,7 @@ namespace corotet
         throw InputError(entry,
                          fmt::format("'{}' is not constant; allowed: numbers, "
                                      "pi and functions of them",
-                                     text));
+                                     shortened(text)));
       return expression.value({}, 0);
     }
 
@@ -143,8 +143,10 @@ namespace corotet
         }
       catch (const mu::Parser::exception_type &error)
         {
-          throw InputError(
-            entry, fmt::format("'{}' is no formula: {}", text, error.GetMsg()));
+          throw InputError(entry,
+                           fmt::format("'{}' is no formula: {}",
+                                       shortened(text),
+                                       shortened(error.GetMsg(), 200)));
         }
     }
 
@@ -168,7 +170,7 @@ namespace corotet
       const std::string suggestion = nearest(name, columns);
       throw InputError(entry,
                        fmt::format("the results have no column \"{}\"; {}",
-                                   name,
+                                   shortened(name),
                                    suggestion.empty() ?
                                      "they have " + join(columns) :
                                      "did you mean \"" + suggestion + "\"?"));
@@ -192,14 +194,14 @@ namespace corotet
                        fmt::format("found '{}'; allowed: 'NAME: STATISTIC "
                                    "FORMULA where CONDITION = REFERENCE +- "
                                    "TOLERANCE', or < or > REFERENCE",
-                                   text));
+                                   shortened(text)));
     label = dealii::Utilities::trim(text.substr(0, colon));
     // It is to be a cell of a table in a .csv file.
     if (label.empty() || label.find_first_of(",\"|") != std::string::npos)
       throw InputError(entry,
                        fmt::format("'{}' cannot be a check's name; allowed: "
                                    "text without commas, quotes and bars",
-                                   label));
+                                   shortened(label)));
     parse_quantity(dealii::Utilities::trim(
                      text.substr(colon + 1, relation - colon - 1)),
                    columns);
@@ -217,8 +219,8 @@ namespace corotet
       throw InputError(entry,
                        fmt::format("found '{}' as the statistic of check "
                                    "'{}'; allowed: {}",
-                                   word,
-                                   label,
+                                   shortened(word),
+                                   shortened(label),
                                    join(statistics)));
     statistic               = word;
     const std::string where = " where ";
@@ -242,8 +244,8 @@ namespace corotet
                                    "REFERENCE +- TOLERANCE', or a bound "
                                    "without tolerance",
                                    relation,
-                                   expectation,
-                                   label));
+                                   shortened(expectation),
+                                   shortened(label)));
     if (relation != '=')
       return;
     tolerance_text   = dealii::Utilities::trim(expectation.substr(sign + 2));
@@ -257,9 +259,9 @@ namespace corotet
                        fmt::format("found the tolerance '{}' for {} in check "
                                    "'{}'; allowed: a positive one, in % of "
                                    "what is not zero",
-                                   tolerance_text,
+                                   shortened(tolerance_text),
                                    reference,
-                                   label));
+                                   shortened(label)));
   }
 
   double

@@ -10,6 +10,7 @@
 #include <corotet/output/modes_writer.h>
 #include <corotet/output/observers.h>
 #include <corotet/output/output_directory.h>
+#include <corotet/output/result_size.h>
 #include <corotet/simulation/simulation.h>
 #include <corotet/studies/convergence_study.h>
 #include <corotet/studies/run_command.h>
@@ -90,8 +91,7 @@ namespace corotet
         directory = parameters.output.directory_of_run(command.parameter_file);
         // Before the work starts; nothing is removed before all input is
         // checked.
-        if (!command.validate)
-          check_output_directory(directory, may_overwrite(), comm);
+        check_output_directory(directory, may_overwrite(), comm);
       }
 
       void
@@ -181,6 +181,12 @@ namespace corotet
                                               simulation.start_time(),
                                               simulation.end_time(),
                                               log);
+        warn_of_size(output,
+                     directory,
+                     discretization,
+                     simulation.planned_steps(),
+                     simulation.end_time() - simulation.start_time(),
+                     log);
         const nlohmann::ordered_json      values = file.values();
         Checkpoints                       checkpoints(parameters.checkpoint,
                                 directory,

@@ -171,7 +171,14 @@ namespace corotet
           throw InputError(section + "Quantities",
                            fmt::format("found '{}'; allowed: 'name' or 'name: "
                                        "number'",
-                                       value ? name + ": " + *value : name));
+                                       shortened(value ? name + ": " + *value :
+                                                         name)));
+        for (const Quantity &other : result)
+          if (other.name == name)
+            throw InputError(section + "Quantities",
+                             fmt::format("found '{}' twice; allowed: each "
+                                         "quantity once",
+                                         shortened(name)));
         result.push_back(quantity);
       }
     return result;

@@ -343,7 +343,7 @@ namespace corotet
             throw InputError(quantities_entry,
                              fmt::format("the quantity '{}' is unknown; "
                                          "allowed are {}",
-                                         quantity.name,
+                                         shortened(quantity.name),
                                          join(names)));
           }
         result.push_back(values.at(quantity.name).get<double>());

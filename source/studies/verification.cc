@@ -127,7 +127,7 @@ namespace corotet
           throw InputError("Verification/Checks",
                            fmt::format("two checks are called '{}'; each name "
                                        "must be used once",
-                                       checks.back().name()));
+                                       shortened(checks.back().name())));
       }
   }
 

@@ -6,6 +6,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/expression.h>
+#include <corotet/base/not_finite.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -173,4 +174,26 @@ TEST(Expression, RefusesUnknownNames)
             "\"sine\" (did you mean \"sin\"?); known are x, y, z, t, pi, ramp, "
             "smooth_step, pulse, half_sine, triangle and muParser's "
             "functions");
+}
+
+// The first one is told, once; by no derivative, whose differences may go where
+// the formula ends.
+TEST(Expression, NotesValuesThatAreNotFinite)
+{
+  take_not_finite(MPI_COMM_WORLD);
+  const Expression formula("1/x; log(y)", 2, "Section/Entry");
+  EXPECT_EQ(formula.value({0.5, 1., 0.}, 0, 0), 2);
+  EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
+  formula.value({0., 1., 2.}, 3, 0);
+  formula.value({0., -1., 2.}, 4, 1);
+  const auto found = take_not_finite(MPI_COMM_WORLD);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->entry, "Section/Entry");
+  EXPECT_EQ(found->message,
+            "the expression \"1/x\" is not finite: found infinity at (0, 1, 2) "
+            "at t = 3; allowed are finite values");
+  EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
+  const Expression root("sqrt(t)", 1, "Section/Entry");
+  root.time_derivatives({}, 0, 0.1);
+  EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
 }

@@ -171,6 +171,37 @@ TEST(ParameterFile, RefusesDeepNesting)
             "b.prm:1000: more than 1000 files are included");
 }
 
+// Also where a subsection is left and entered again; but another file may set
+// what an included one has set.
+TEST(ParameterFile, RefusesEntriesThatAreSetTwice)
+{
+  Example           example;
+  const std::string set = "subsection Material\n  set Density = 3\nend\n";
+  EXPECT_EQ(example.refusal("a.prm", set + set),
+            "a.prm:5: \"Material/Density\" is set twice, first in line 2; "
+            "allowed is once in a file");
+  example.folder.write("b.prm", set);
+  EXPECT_EQ(example.refusal("a.prm", "include b.prm\n" + set), "accepted");
+  EXPECT_EQ(example.refusal("a.prm", "include b.prm\ninclude b.prm\n"),
+            "accepted");
+  for (const std::string entries :
+       {R"({"Material": {"Density": 1, "Density": 2}})",
+        R"({"Density": 1, "Material": {}, "Density": 2})"})
+    EXPECT_EQ(example.refusal("a.json", entries),
+              "a.json: \"Density\" is set twice; allowed is once in a file");
+  EXPECT_EQ(example.refusal("a.xml",
+                            "<ParameterHandler><Material/><Material/>"
+                            "</ParameterHandler>"),
+            "a.xml: \"Material\" is set twice; allowed is once in a file");
+}
+
+TEST(ParameterFile, RefusesZeroBytes)
+{
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm", "\n" + std::string(1, '\0') + "\n"),
+            "a.prm:2: it has a zero byte; a parameter file is text");
+}
+
 // A value of any length is not repeated.
 TEST(ParameterFile, RefusesLongValuesInShort)
 {
@@ -178,7 +209,7 @@ TEST(ParameterFile, RefusesLongValuesInShort)
   EXPECT_EQ(example.refusal("a.prm",
                             "subsection Material\n  set Law = " +
                               std::string(1000000, 'x') + "\nend\n"),
-            "a.prm:2: the value \"" + std::string(120, 'x') +
+            "a.prm:2: the value \"" + std::string(80, 'x') +
               "... (1000000 characters)\" of \"Material/Law\" is not allowed; "
               "allowed is one of linear, corotational");
 }

@@ -115,7 +115,7 @@ TEST(TableFile, RefusesWhatIsNoTable)
   EXPECT_EQ(file_refusal("t,1\n0,1\n1,2\n"), ":1" + number + "'t'");
   EXPECT_EQ(file_refusal("t,u\ns,m\n0,1\n1,2\n"), ":2" + number + "'s'");
   EXPECT_EQ(file_refusal("0,1\n" + std::string(200, 'a') + ",2\n"),
-            ":2" + number + "'" + std::string(120, 'a') +
+            ":2" + number + "'" + std::string(80, 'a') +
               "... (200 characters)'");
 
   const std::string columns = ": a row of a table has two numbers, separated "

@@ -42,13 +42,17 @@ TEST(Text, Join)
 TEST(Text, ShortenedAndPrintable)
 {
   EXPECT_EQ(shortened("short"), "short");
-  EXPECT_EQ(shortened(std::string(120, 'a')), std::string(120, 'a'));
+  EXPECT_EQ(shortened(std::string(80, 'a')), std::string(80, 'a'));
   EXPECT_EQ(shortened(std::string(1000000, 'a')),
-            std::string(120, 'a') + "... (1000000 characters)");
+            std::string(80, 'a') + "... (1000000 characters)");
   // The two bytes of one character are not parted.
-  EXPECT_EQ(shortened(std::string(119, 'a') + "\u00e9bc"),
-            std::string(119, 'a') + "... (123 characters)");
-  EXPECT_EQ(printable("a\033[2Jb\n\tc\r"), "a\\x1b[2Jb\n\tc\\x0d");
+  EXPECT_EQ(shortened(std::string(79, 'a') + "\u00e9bc"),
+            std::string(79, 'a') + "... (83 characters)");
+  EXPECT_EQ(printable("a\033[2Jb\n\tc\r"), "a\\x1b[2Jb\\x0a\\x09c\\x0d");
+  EXPECT_EQ(printable("a\033[2Jb\n\tc\r", true), "a\\x1b[2Jb\n\tc\\x0d");
+  // Delete, and one of the control characters behind it; a space that does
+  // not break has the same first byte, and stays.
+  EXPECT_EQ(printable("\x7f\u009b\u00a0\u00e9"), "\\x7f\\x9b\u00a0\u00e9");
   EXPECT_EQ(printable(std::string(5000, 'a')), std::string(4000, 'a') + "...");
 }
 

@@ -173,6 +173,12 @@ TEST(Loads, Refusals)
             }),
             "Loads/Point forces: found '1 2: 0;0;1'; allowed: 'x y z: fx; fy; "
             "fz'");
+  EXPECT_EQ(refusal([] {
+              Loaded(1, section("Loads", {{"Point forces", "1 2 16: 0;0;1"}}));
+            }),
+            "Loads/Point forces: the point (1, 2, 16) lies outside the body: "
+            "found a distance of 15 m to the nearest node, (1, 2, 1); allowed "
+            "are points of the body");
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements,

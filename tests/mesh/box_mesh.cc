@@ -97,7 +97,21 @@ TEST(BoxMesh, Refusals)
 {
   EXPECT_EQ(refusal([] { make_box("0,0,0", "1,1,1", "10000,10000,1"); }),
             "Mesh/box/Cells: too many cells: found 10000 x 10000 x 1, which "
-            "makes 5e+08 tetrahedra; at most 1e8 are allowed");
+            "makes 5e+08 tetrahedra and, with elements of degree 1, 6e+08 "
+            "unknowns; at most 1e8 tetrahedra are allowed");
+  // Coordinates without digits for the cells; and a plate as thin as paper, in
+  // whose size there would be none either.
+  const std::string allowed =
+    "; allowed are coordinates up to 1e10 times the shortest edge";
+  EXPECT_EQ(refusal([] { make_box("1e17, 0, 0", "1,1,1", "2,1,1"); }),
+            "Mesh/box/Origin: cells are lost in the round-off of coordinates: "
+            "found cells with edges of 0.5 m and coordinates up to 1e+17 m" +
+              allowed);
+  EXPECT_EQ(refusal([] { make_box("0, 0, 0", "1e30,1,1e-30", "1,1,1"); }),
+            "Mesh/box/Origin: cells are lost in the round-off of coordinates: "
+            "found cells with edges of 1e-30 m and coordinates up to 1e+30 m" +
+              allowed);
+  EXPECT_EQ(make_box("9e9, 0, 0", "1,1,1", "1,1,1").cells.size(), 5u);
   for (const std::string size : {"1, 1", "1, 0, 1", "1, -1, 1", "1, a, 1"})
     EXPECT_THROW(make_box("0,0,0", size, "1,1,1"), dealii::ExceptionBase)
       << size;

@@ -83,7 +83,7 @@ TEST(Probes, OutsideIsRefused)
   ModelBody body(1);
   try
     {
-      Probes({{"in", {0.5, 0.1, 0.1}}, {"tip", {1.5, 0.25, 0.1}}},
+      Probes({{"in", {0.5, 0.1, 0.1}}, {"tip", {1.5, 0.5, 0.25}}},
              body.discretization);
       ADD_FAILURE() << "no error";
     }
@@ -91,8 +91,9 @@ TEST(Probes, OutsideIsRefused)
     {
       EXPECT_EQ(error.entry, "Output/Probes");
       EXPECT_STREQ(error.what(),
-                   "probe 'tip' at (1.5, 0.25, 0.1) lies outside the body, "
-                   "which has x in [0, 1], y in [0, 0.5], z in [0, 0.25] (m)");
+                   "probe 'tip' at (1.5, 0.5, 0.25) lies outside the body, 0.5 "
+                   "m from its nearest node; the body has x in [0, 1], y in "
+                   "[0, 0.5], z in [0, 0.25] (m)");
     }
 }
 

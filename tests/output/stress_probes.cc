@@ -149,8 +149,9 @@ TEST(StressProbes, Refusals)
     return message_of<InputError>([&] { probes_at(text, body); });
   };
   EXPECT_EQ(refusal("far: 2 0 0"),
-            "probe 'far' at (2, 0, 0) lies outside the body, which has x in "
-            "[0, 1], y in [0, 0.5], z in [0, 0.25] (m)");
+            "probe 'far' at (2, 0, 0) lies outside the body, 1 m from its "
+            "nearest node; the body has x in [0, 1], y in [0, 0.5], z in "
+            "[0, 0.25] (m)");
   EXPECT_EQ(refusal("a: 1 2"),
             "probe 'a' is at '1 2'; its position must be three numbers (x y z, "
             "in m)");

@@ -105,6 +105,22 @@ TEST(Supports, OneBody)
     }
 }
 
+// Bodies that have an edge or a vertex in common are one.
+TEST(Supports, UnconnectedParts)
+{
+  const auto found = [](const dealii::Tensor<1, 3> &shift) {
+    const MovingBody body(two_cubes(shift), "");
+    return unconnected_parts(body.discretization);
+  };
+  EXPECT_EQ(
+    found(dealii::Tensor<1, 3>({3., 0., 0.})),
+    "there are 2 bodies that touch nowhere, and each moves on its own: "
+    "the part at (0.5, 0.5, 0.5) of region 'body' and the part at (3.5, "
+    "0.5, 0.5) of region 'second'");
+  for (const double z : {0., 1.})
+    EXPECT_EQ(found(dealii::Tensor<1, 3>({1., 1., z})), "");
+}
+
 // What hangs at an edge or a vertex only turns about it; with a further support
 // it does not. Other bodies are told apart by their place.
 TEST(Supports, SeveralParts)

@@ -7,6 +7,8 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <exception>
+#include <string>
 
 namespace corotet
 {
@@ -18,6 +20,28 @@ namespace corotet
   /// Measures the peak from now on, where the system allows it (Linux does).
   void
   reset_peak_memory();
+
+  /// What this process may have [byte]: the memory of the machine, or less
+  /// where a limit is set.
+  double
+  available_memory();
+
+  /// Throws MachineError if @p n_bytes, which @p what needs at least, are more
+  /// than available_memory(). @p advice is what takes less.
+  void
+  check_memory(const double       n_bytes,
+               const std::string &what,
+               const std::string &advice);
+
+  /// Whether an exception, of this program or of a library, tells that no
+  /// memory was to be had.
+  bool
+  is_lack_of_memory(const std::exception &error);
+
+  /// What there is to be said about a lack of memory, with what this process
+  /// has and may have.
+  std::string
+  lack_of_memory();
 } // namespace corotet
 
 #endif

@@ -20,7 +20,14 @@ namespace corotet
   [[noreturn]] void
   refuse_statement(const std::string &place, const std::string &message);
 
-  /// Throws the one of a file with more.
+  /// Throws the one of an entry, or in .json and .xml files a section, that is
+  /// in a file twice. @p first: where before, ", first in line N" or nothing.
+  [[noreturn]] void
+  refuse_second(const std::string &place,
+                const std::string &name,
+                const std::string &first = "");
+
+  /// Throws the one of a file with more levels.
   [[noreturn]] void
   refuse_as_too_deep(const std::string &place);
 

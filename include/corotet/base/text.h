@@ -30,15 +30,16 @@ namespace corotet
   void
   skip_byte_order_mark(std::istream &file);
 
-  /// A text of any length for a message: of a long one the start, and how long
-  /// it is.
+  /// A text of any length for a message: of one that is longer than @p most
+  /// bytes the start, and how long it is.
   std::string
-  shortened(const std::string &text);
+  shortened(const std::string &text, const std::size_t most = 80);
 
-  /// A message for a terminal: control characters as \xNN, and no more than a
-  /// few thousand characters.
+  /// A message for a terminal: control characters as \xNN, those that end lines
+  /// and tabs, too, unless @p keep_lines; and no more than a few thousand
+  /// characters.
   std::string
-  printable(const std::string &message);
+  printable(const std::string &message, const bool keep_lines = false);
 
   /**
    * The parts of @p text between separators that stand outside of all () and

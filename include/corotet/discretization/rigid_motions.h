@@ -99,6 +99,14 @@ namespace corotet
   };
 
   /**
+   * In words, if the body consists of several that have no node in common:
+   * which, by their places and regions. Empty otherwise. The same on any number
+   * of ranks. Collective.
+   */
+  std::string
+  unconnected_parts(const Discretization &discretization);
+
+  /**
    * In words: "move along x and rotate about the axis through (0, 0, 0) along
    * z". @p motions are linearly independent, those of a part with this @p
    * centre and @p radius, as RigidMotions has them.

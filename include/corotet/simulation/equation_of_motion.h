@@ -131,8 +131,8 @@ namespace corotet
     }
 
     /// What may be the reason that the forces of the last evaluation are not
-    /// finite: cells without a stress, or nothing that is known. To be appended
-    /// to an error.
+    /// finite: a formula that is not, cells without a stress, or nothing that
+    /// is known. To be appended to an error. Collective.
     std::string
     why_not_finite() const;
 

@@ -111,6 +111,9 @@ namespace corotet
     /// By a first look at the lowest mode that deforms the body.
     void
     choose_shift();
+    /// Throws InputError if the shift is beyond all modes. Collective.
+    void
+    check_shift() const;
     Mode
     make_mode(const Vector &x) const;
     /// 1 or -1, to multiply x with.

@@ -66,6 +66,14 @@ namespace corotet
       return parameters.end_time;
     }
 
+    /// How many steps the run will have, as far as that is known at its start
+    /// [-].
+    double
+    planned_steps() const
+    {
+      return stepper.planned_steps();
+    }
+
     /**
      * Computes all steps and shows observers those that @p recording names. If
      * the computation fails, observers are told so before the ComputationError

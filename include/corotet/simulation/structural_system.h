@@ -27,7 +27,8 @@ namespace corotet
                      Log                        &log);
 
     /// Sizes the vectors of @p state and gives it the initial displacement and
-    /// velocity.
+    /// velocity. Throws InputError if these, or loads, are not finite.
+    /// Collective.
     void
     initialize(State &state) const;
 

@@ -94,6 +94,14 @@ namespace corotet
       return is_between_records ? unrecorded.step : record.step;
     }
 
+    /// How many steps the run will have, as far as that is known at its start
+    /// [-].
+    double
+    planned_steps() const
+    {
+      return n_planned;
+    }
+
     /// Of the state [s].
     double
     time() const
@@ -131,7 +139,7 @@ namespace corotet
       return control && step % control->steps_between_estimates == 0;
     }
     /// Warns, once, if a run of that many steps [-] of that length [s] takes
-    /// very long.
+    /// very long. The first call is that of the start.
     void
     warn_of_steps(const double n, const double dt);
 
@@ -258,8 +266,9 @@ namespace corotet
     StepRecord unrecorded;
     bool       is_between_records = false;
 
-    bool is_partial = false;
-    bool has_warned = false;
+    bool   is_partial = false;
+    bool   has_warned = false;
+    double n_planned  = 0;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
   };

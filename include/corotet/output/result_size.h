@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_result_size_h
+#define corotet_output_result_size_h
+
+#include <corotet/base/log.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/output/output_parameters.h>
+
+#include <string>
+
+namespace corotet
+{
+  /**
+   * Bytes that the results of a run of so many steps [-] and so many seconds
+   * will have at least: rows of the history and states of the time series.
+   */
+  double
+  estimated_size(const OutputParameters &parameters,
+                 const Discretization   &discretization,
+                 const double            n_steps,
+                 const double            duration);
+
+  /**
+   * Warns if results will be larger than the room on their disk, or than 100
+   * GB. Collective.
+   */
+  void
+  warn_of_size(const OutputParameters &parameters,
+               const std::string      &directory,
+               const Discretization   &discretization,
+               const double            n_steps,
+               const double            duration,
+               Log                    &log);
+} // namespace corotet
+
+#endif

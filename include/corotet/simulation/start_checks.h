@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_start_checks_h
+#define corotet_simulation_start_checks_h
+
+#include <corotet/base/log.h>
+#include <corotet/simulation/structural_system.h>
+
+namespace corotet
+{
+  /**
+   * Throws InputError if a run cannot begin with the state @p initial: if the
+   * initial displacement contradicts a support or turns cells inside out, or if
+   * a load is not finite at the start or at the end. Statics begin at rest,
+   * whatever the initial displacement is. Warns of supports that jump.
+   * Collective.
+   */
+  void
+  check_start(StructuralSystem           &system,
+              const SimulationParameters &parameters,
+              const State                &initial,
+              Log                        &log);
+
+  /**
+   * Warns of what is allowed, and seldom meant: materials that are almost
+   * incompressible, and parts of the body that do not hang together (in
+   * dynamics; statics refuses those without a support). Collective.
+   */
+  void
+  warn_of_body(const Body                 &body,
+               const SimulationParameters &parameters,
+               Log                        &log);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/mpi.h>
+#include <corotet/output/result_size.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace corotet
+{
+  namespace
+  {
+    // Rows of the history, and states of the time series.
+    std::pair<double, double>
+    numbers_of_records(const OutputParameters &parameters,
+                       const double            n_steps,
+                       const double            duration)
+    {
+      const double interval   = parameters.time_between_results;
+      const double n_results  = interval > 0 ? duration / interval : 0;
+      const double n_rows     = n_steps / parameters.steps_between_rows;
+      const double between    = parameters.time_between_states(duration);
+      const double n_intended = between > 0 ? duration / between : n_rows;
+      const double n_all      = std::max(n_rows, std::min(n_results, n_steps));
+      return {n_all, std::min(n_intended, n_all)};
+    }
+
+    double
+    free_space(const std::string &directory)
+    {
+      namespace fs   = std::filesystem;
+      fs::path place = fs::absolute(directory);
+      while (!fs::exists(place) && place.has_relative_path())
+        place = place.parent_path();
+      return static_cast<double>(fs::space(place).available);
+    }
+  } // namespace
+
+  double
+  estimated_size(const OutputParameters &parameters,
+                 const Discretization   &discretization,
+                 const double            n_steps,
+                 const double            duration)
+  {
+    // Numbers of 64 bits: displacement and velocity, and three of each cell;
+    // with stress at nodes, two tensors there. Those of a row are text, of 12
+    // characters or more where they are not zero.
+    const double of_node =
+      8 * (6 + (parameters.has_stress_at_nodes() ? 12 : 0));
+    const double of_cell = 8 * 3;
+    const double of_row  = 12 * 20;
+    const auto [rows, states] =
+      numbers_of_records(parameters, n_steps, duration);
+    return rows * of_row + states * (of_node * discretization.n_global_nodes() +
+                                     of_cell * discretization.n_global_cells());
+  }
+
+  void
+  warn_of_size(const OutputParameters &parameters,
+               const std::string      &directory,
+               const Discretization   &discretization,
+               const double            n_steps,
+               const double            duration,
+               Log                    &log)
+  {
+    constexpr double gigabyte = 1e9;
+    constexpr double many     = 100 * gigabyte;
+    const double     size =
+      estimated_size(parameters, discretization, n_steps, duration);
+    const double free = from_root(discretization.communicator(),
+                                  [&] { return free_space(directory); });
+    if (size <= std::min(many, free))
+      return;
+    const auto [rows, states] =
+      numbers_of_records(parameters, n_steps, duration);
+    log.warning(fmt::format(
+      "Output: results will have some {:.3g} GB, and the disk has {:.3g} GB "
+      "left: {:.3g} rows of history.csv and {:.3g} states of solution.vtkhdf; "
+      "Steps between rows and Time between results make them fewer",
+      size / gigabyte,
+      free / gigabyte,
+      rows,
+      states));
+  }
+} // namespace corotet

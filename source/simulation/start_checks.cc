@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/not_finite.h>
+#include <corotet/discretization/rigid_motions.h>
+#include <corotet/simulation/start_checks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace corotet
+{
+  namespace
+  {
+    const std::string displacement_entry = "Initial conditions/Displacement";
+
+    // The cube root of the volume.
+    double
+    size_of(const Discretization &discretization)
+    {
+      double volume = 0;
+      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+        volume += discretization.geometry(c).volume;
+      return std::cbrt(
+        dealii::Utilities::MPI::sum(volume, discretization.communicator()));
+    }
+
+    // Nodes of supports must be where these are at the start.
+    void
+    check_supports_at_start(StructuralSystem           &system,
+                            const SimulationParameters &parameters,
+                            const State                &initial,
+                            Log                        &log)
+    {
+      const Body           &body           = system.equation().body;
+      const Discretization &discretization = body.discretization;
+      const MPI_Comm        comm           = discretization.communicator();
+      State                 moved          = initial;
+      system.prescribe(moved, parameters.start_time, 1.);
+      double       largest = 0;
+      unsigned int unknown = 0;
+      for (const unsigned int i : body.motion.unknowns())
+        {
+          const double difference =
+            std::abs(moved.u.local_element(i) - initial.u.local_element(i));
+          if (difference > largest)
+            {
+              largest = difference;
+              unknown = i;
+            }
+        }
+      const double largest_of_all = dealii::Utilities::MPI::max(largest, comm);
+      // Of what is written with six digits.
+      if (largest_of_all <= 1e-6 * size_of(discretization))
+        return;
+      // Without an initial displacement it may be meant: supports that jump.
+      if (norm(initial.u) == 0)
+        return log.warning(
+          fmt::format("supports jump by up to {:.6g} m at the start, which "
+                      "crushes the cells there; let the displacement begin at "
+                      "zero, as smooth_step does, or give the body an initial "
+                      "displacement",
+                      largest_of_all));
+      on_all_ranks(comm, [&] {
+        if (largest != largest_of_all)
+          return;
+        const dealii::Point<3> x = discretization.node_position(unknown / 3);
+        const std::string      text =
+          fmt::format("the initial displacement contradicts a support: found "
+                      "{:.6g} m in {} at the node ({:.6g}, {:.6g}, {:.6g}); "
+                      "allowed at t = {:g} is what Boundary conditions say, "
+                      "{:.6g} m",
+                      initial.u.local_element(unknown),
+                      "xyz"[unknown % 3],
+                      x[0],
+                      x[1],
+                      x[2],
+                      parameters.start_time,
+                      moved.u.local_element(unknown));
+        throw InputError(displacement_entry, text);
+      });
+    }
+
+    // Crushed cells are allowed, which round-off makes a little negative.
+    void
+    check_inversions(const ElasticState &state)
+    {
+      if (state.min_det_F < -1e-8)
+        throw InputError(
+          displacement_entry,
+          fmt::format("the initial displacement turns {} cells inside out: "
+                      "found det F = {:.3g}; allowed is none below zero",
+                      state.inverted_cells,
+                      state.min_det_F));
+    }
+
+    void
+    check_loads(EquationOfMotion &equation,
+                const State      &state,
+                const double      time)
+    {
+      try
+        {
+          equation.evaluate_forces(state, time, 1.);
+        }
+      catch (const ComputationError &error)
+        {
+          throw InputError("", error.what());
+        }
+      const auto found =
+        take_not_finite(equation.body.discretization.communicator());
+      if (found)
+        throw InputError(found->entry, found->message);
+    }
+  } // namespace
+
+  void
+  check_start(StructuralSystem           &system,
+              const SimulationParameters &parameters,
+              const State                &initial,
+              Log                        &log)
+  {
+    EquationOfMotion &equation = system.equation();
+    const bool dynamic = parameters.time_integrator.selected().is_dynamic();
+    if (dynamic)
+      {
+        check_supports_at_start(system, parameters, initial, log);
+        equation.set_state(initial);
+        check_inversions(
+          equation.body.elasticity.state(equation.displacement()));
+        check_loads(equation, initial, parameters.start_time);
+      }
+    // Better now than after hours.
+    check_loads(equation, initial, parameters.end_time);
+  }
+
+  void
+  warn_of_body(const Body                 &body,
+               const SimulationParameters &parameters,
+               Log                        &log)
+  {
+    for (const auto &[region, material] : body.materials)
+      {
+        // With 0.499 displacements of degree 2 and 3 are good to some percent,
+        // and solvers need a few times more iterations.
+        const double nu =
+          material.lambda / (2 * (material.lambda + material.mu));
+        if (nu > 0.499)
+          log.warning(fmt::format(
+            "Material/Poisson's ratio: {:.9g} of region '{}' is almost that of "
+            "an incompressible material: cells become too stiff, and "
+            "iterations many or without end; 0.499 is in general close enough, "
+            "and Linear solver/Type = direct needs no iterations",
+            nu,
+            body.mesh.regions().name(region)));
+      }
+    if (!parameters.time_integrator.selected().is_dynamic())
+      return;
+    const std::string parts = unconnected_parts(body.discretization);
+    if (!parts.empty())
+      log.warning("Mesh: " + parts);
+  }
+} // namespace corotet
