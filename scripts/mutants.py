@@ -197,7 +197,7 @@ class Source:
         token, before = self.tokens[i], self.tokens[i - 1]
         spaced = self.blank(token.start - 1) and self.blank(token.end)
         operand = before.kind in ("number", "name") and before.text not in BOUND_NAMES or before.text in (")", "]")
-        is_text = before.kind == "string" or self.tokens[i + 1].kind == "string"
+        is_text = token.text == "+" and "string" in (before.kind, self.tokens[i + 1].kind)
         if token.text in BINARY and spaced and operand and not is_text:
             slot = self.slot(i, i, token.text not in ("&&", "||"))
             for new in BINARY[token.text]:
