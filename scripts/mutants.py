@@ -30,9 +30,9 @@ BINARY = {"+": ["-"], "-": ["+"], "*": ["/"], "/": ["*"], "%": ["/"], "<": ["<="
 UPDATES = {"+=": ["-="], "-=": ["+="], "*=": ["/="], "/=": ["*="]}
 NAMES = {"min": "max", "max": "min", "true": "false", "false": "true", "sin": "cos", "cos": "sin"}
 BOUND_NAMES = {"return", "throw", "else", "do", "case", "default", "new", "delete", "const", "in"}
-# What is not run, or is for developers only.
+# What is not run, is for developers only, or spares time.
 UNEVALUATED = {"sizeof", "decltype", "noexcept", "static_assert", "requires", "alignas", "Assert", "AssertThrow", "AssertDimension",
-               "AssertIndexRange", "__builtin_expect"}
+               "AssertIndexRange", "__builtin_expect", "reserve"}
 # Statements without a result: what is left out with them is time, memory, or a line of the log.
 NO_RESULT = re.compile(r"\breserve\(|\bshrink_to_fit\(|^\(void\)|Assert|^COROTET|^DEAL_II|Scope|\bTimer|^static_cast<void>|\blog\.\w+\(")
 
@@ -197,7 +197,8 @@ class Source:
         token, before = self.tokens[i], self.tokens[i - 1]
         spaced = self.blank(token.start - 1) and self.blank(token.end)
         operand = before.kind in ("number", "name") and before.text not in BOUND_NAMES or before.text in (")", "]")
-        if token.text in BINARY and spaced and operand:
+        is_text = token.text == "+" and "string" in (before.kind, self.tokens[i + 1].kind)
+        if token.text in BINARY and spaced and operand and not is_text:
             slot = self.slot(i, i, token.text not in ("&&", "||"))
             for new in BINARY[token.text]:
                 yield self.mutant(i, new, slot, False, "operator")

@@ -15,6 +15,12 @@ TEST(Text, NearestFindsTheFewestChanges)
   EXPECT_EQ(nearest("Densty", {"Degree", "Density"}), "Density");
   // One replaced character wins against two.
   EXPECT_EQ(nearest("x-mix", {"y-min", "x-max", "x-min"}), "x-max");
+  // A letter too many or too few, wherever it is, is one change: all that short
+  // words may have.
+  EXPECT_EQ(nearest("ab", {"b"}), "b");
+  EXPECT_EQ(nearest("ab", {"a"}), "a");
+  EXPECT_EQ(nearest("b", {"ab"}), "ab");
+  EXPECT_EQ(nearest("a", {"ab"}), "ab");
 }
 
 TEST(Text, NearestIgnoresCase)

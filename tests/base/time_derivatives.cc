@@ -195,6 +195,10 @@ TEST(TimeDerivatives, WhatFollowsAtKinks)
   expect("half_sine(t, 0, 1)", 1, 0, 0);
   expect("pulse(t, 0, 1)*t", 0, 1, 0);
   expect("pulse(t, 0, 1)*t", 1, 0, 0);
+  // An argument that stays where the pulse begins is inside for ever, one at
+  // its end outside.
+  expect("pulse(1, 1, 2)*t", 0.5, 1, 0);
+  expect("pulse(2, 1, 2)*t", 0.5, 0, 0);
   expect("abs(t)", 0, 1, 0);
   expect("abs(-t)", 0, 1, 0);
   expect("min(t, 2 - t)", 1, -1, 0);
