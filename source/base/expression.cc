@@ -94,6 +94,12 @@ namespace corotet
     {
       if (formula.empty())
         return "it is empty; a formula is needed, for example 0";
+      if (const int depth = depth_of_parentheses(formula);
+          depth > max_parentheses)
+        return fmt::format("found parentheses {} deep in each other; allowed "
+                           "are {}",
+                           depth,
+                           max_parentheses);
       if (split_outside_brackets(formula, ',').size() > 1)
         return "it has a comma outside of parentheses; components are "
                "separated by semicolons";
@@ -331,6 +337,10 @@ namespace corotet
       return {};
     const Jet jet = formulas->jets(component).value({{p[0], p[1], p[2], t}});
     std::array<double, 2> result{{jet.first, jet.second}};
+    // Of a formula without rules the value is not a number; its derivatives
+    // are then those of a constant.
+    if (std::isnan(jet.value))
+      result.fill(jet.value);
     // Forwards, and where the formula ends, backwards.
     for (const double h : {width, -width})
       {

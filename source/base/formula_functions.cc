@@ -139,4 +139,16 @@ namespace corotet
            std::find(random_functions.begin(), random_functions.end(), name) !=
              random_functions.end();
   }
+
+  int
+  depth_of_parentheses(const std::string &formula)
+  {
+    int depth = 0, deepest = 0;
+    for (const char c : formula)
+      {
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        deepest = std::max(deepest, depth);
+      }
+    return deepest;
+  }
 } // namespace corotet

@@ -99,9 +99,35 @@ namespace corotet
       instructions.push_back(instruction);
     }
 
+    // While it lives, a rule of the grammar is within another one. Of formulas
+    // that nest too deeply derivatives are made of differences.
+    class Nesting
+    {
+    public:
+      explicit Nesting(unsigned int &depth)
+        : depth(depth)
+      {
+        if (++depth > 1000)
+          throw NoRule();
+      }
+
+      Nesting(const Nesting &) = delete;
+      Nesting &
+      operator=(const Nesting &) = delete;
+
+      ~Nesting()
+      {
+        --depth;
+      }
+
+    private:
+      unsigned int &depth;
+    };
+
     void
     conditional()
     {
+      const Nesting nesting(depth);
       binary(0);
       if (!take("?"))
         return;
@@ -143,6 +169,7 @@ namespace corotet
     void
     signed_power()
     {
+      const Nesting nesting(depth);
       if (take("-"))
         {
           signed_power();
@@ -224,6 +251,7 @@ namespace corotet
     const std::string    &text;
     const TableFunctions &tables;
     std::size_t           position = 0;
+    unsigned int          depth    = 0;
   };
 
   JetFormula::JetFormula(const std::string &text, const TableFunctions &tables)

@@ -40,6 +40,13 @@ namespace corotet
       std::ifstream file(path);
       if (!fs::is_regular_file(path) || !file)
         refuse_statement(path, "it cannot be read as a file");
+      if (const auto size = fs::file_size(path, error);
+          !error && size > max_file_size)
+        refuse_statement(path,
+                         fmt::format("it has {} bytes; a parameter file may "
+                                     "have {}",
+                                     size,
+                                     max_file_size));
       skip_byte_order_mark(file);
       return file;
     }
@@ -131,7 +138,7 @@ namespace corotet
             if (sections.size() == max_section_depth)
               refuse_as_too_deep(place);
             sections.emplace_back(*name, place);
-            statements.push_back({path_of(""), std::nullopt, place});
+            add_statement(statements, {path_of(""), std::nullopt, place});
           }
         else if (const auto rest = behind_keyword(line, "end"))
           {
@@ -163,10 +170,11 @@ namespace corotet
               refuse_second(place,
                             path,
                             fmt::format(", first in line {}", first->second));
-            statements.push_back(
-              {path,
-               dealii::Utilities::trim(assignment->substr(equals + 1)),
-               place});
+            add_statement(statements,
+                          {path,
+                           dealii::Utilities::trim(
+                             assignment->substr(equals + 1)),
+                           place});
           }
         else if (const auto included = behind_keyword(line, "include"))
           {

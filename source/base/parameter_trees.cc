@@ -25,26 +25,72 @@ namespace corotet
   {
     using Statements = std::vector<ParameterStatement>;
 
-    // Before the reader proper sees it.
+    [[noreturn]] void
+    refuse_as_too_many(const std::string &path)
+    {
+      refuse_statement(path,
+                       fmt::format("it has more than {} elements; allowed are "
+                                   "as many",
+                                   max_tree_entries));
+    }
+
+    // Where what begins at @p begin ends by @p end: behind that, or at the end
+    // of the text.
+    std::size_t
+    behind(const std::string &text,
+           const std::size_t  begin,
+           const std::string &end)
+    {
+      const std::size_t found = text.find(end, begin);
+      return found == std::string::npos ? text.size() : found + end.size();
+    }
+
+    // The end of a tag: a > outside of quotation marks.
+    std::size_t
+    end_of_tag(const std::string &text, std::size_t i)
+    {
+      for (char quote = '\0'; i < text.size(); ++i)
+        if (quote != '\0')
+          quote = text[i] == quote ? '\0' : quote;
+        else if (text[i] == '>')
+          return i;
+        else if (text[i] == '"' || text[i] == '\'')
+          quote = text[i];
+      return i;
+    }
+
+    // Before the reader proper sees it, which takes from its stack for each
+    // level, and has no limit.
     void
     check_xml(const std::string &path, const std::string &text)
     {
-      int depth = 0;
-      for (std::size_t i = text.find('<'); i != std::string::npos;
-           i             = text.find('<', i + 1))
-        if (text.compare(i, 9, "<!DOCTYPE") == 0 ||
-            text.compare(i, 8, "<!ENTITY") == 0)
+      int         depth      = 0;
+      std::size_t n_elements = 0;
+      for (std::size_t i = text.find('<'); i < text.size();
+           i             = text.find('<', i))
+        if (text.compare(i, 4, "<!--") == 0)
+          i = behind(text, i + 4, "-->");
+        else if (text.compare(i, 9, "<![CDATA[") == 0)
+          i = behind(text, i + 9, "]]>");
+        else if (text.compare(i, 2, "<!") == 0)
           refuse_statement(
             path, "it has a document type or entities; allowed are neither");
+        else if (text.compare(i, 2, "<?") == 0)
+          i = behind(text, i + 2, "?>");
         else if (text.compare(i, 2, "</") == 0)
-          --depth;
-        else if (text.compare(i, 2, "<!") != 0 && text.compare(i, 2, "<?") != 0)
           {
-            const std::size_t end = text.find('>', i);
-            if (end == std::string::npos || text[end - 1] != '/')
+            --depth;
+            i = behind(text, i + 2, ">");
+          }
+        else
+          {
+            i = end_of_tag(text, i + 1);
+            if (text[i - 1] != '/')
               ++depth;
             if (depth > max_section_depth)
               refuse_as_too_deep(path);
+            if (++n_elements > max_tree_entries)
+              refuse_as_too_many(path);
           }
     }
 
@@ -86,11 +132,12 @@ namespace corotet
             {
               const std::string text =
                 dealii::Utilities::trim(value ? *value : node.data());
-              statements.push_back({name, text, file, !value && text.empty()});
+              add_statement(statements,
+                            {name, text, file, !value && text.empty()});
             }
           else
             {
-              statements.push_back({name, std::nullopt, file});
+              add_statement(statements, {name, std::nullopt, file});
               collect(node, name, file, statements);
             }
         }
@@ -111,17 +158,18 @@ namespace corotet
             {
               if (value.contains("alias"))
                 continue;
-              statements.push_back({name, std::nullopt, file});
+              add_statement(statements, {name, std::nullopt, file});
               collect(value, name, file, statements);
             }
           else if (value.is_string())
             {
               const std::string text =
                 dealii::Utilities::trim(value.get<std::string>());
-              statements.push_back({name, text, file, !whole && text.empty()});
+              add_statement(statements,
+                            {name, text, file, !whole && text.empty()});
             }
           else if (value.is_number() || value.is_boolean())
-            statements.push_back({name, value.dump(), file});
+            add_statement(statements, {name, value.dump(), file});
           else
             refuse_statement(
               file,
@@ -149,6 +197,23 @@ namespace corotet
                                  "file",
                                  shortened(name),
                                  first));
+  }
+
+  void
+  add_statement(std::vector<ParameterStatement> &statements,
+                const ParameterStatement        &statement)
+  {
+    if (statements.size() == max_statements)
+      refuse_statement(statement.place,
+                       fmt::format("there are more than {} statements",
+                                   max_statements));
+    if (statement.path.size() > max_path_length)
+      refuse_statement(statement.place,
+                       fmt::format("the name \"{}\", with the sections it is "
+                                   "in, is too long; allowed are {} characters",
+                                   shortened(statement.path),
+                                   max_path_length));
+    statements.push_back(statement);
   }
 
   void
@@ -194,6 +259,7 @@ namespace corotet
     // The parser keeps the last of several members with one name. Those of the
     // objects that are open:
     std::vector<std::set<std::string>> names;
+    std::size_t                        n_entries = 0;
     try
       {
         using Event = nlohmann::ordered_json::parse_event_t;
@@ -201,6 +267,9 @@ namespace corotet
           file, [&](const int depth, const Event event, const auto &value) {
             if (depth > max_section_depth)
               refuse_as_too_deep(path);
+            // Names, values, and both ends of objects and lists.
+            if (++n_entries > 2 * max_tree_entries)
+              refuse_as_too_many(path);
             if (event == Event::object_start)
               names.emplace_back();
             else if (event == Event::object_end)

@@ -60,6 +60,37 @@ namespace corotet
                                      shortened(text)));
       return *value;
     }
+
+    // Differences and slopes of what is accepted are finite, and so are the
+    // values between the rows.
+    void
+    check_slope(const TableRows &rows, const std::string &place)
+    {
+      constexpr double  largest = 1e100;
+      const std::size_t last    = rows.values.size() - 1;
+      if (!(std::abs(rows.values[last]) <= largest) ||
+          !(std::abs(rows.arguments[last]) <= largest))
+        throw InputError("",
+                         fmt::format("{}: the numbers of a table are between "
+                                     "{} and {}: found {} and {}",
+                                     place,
+                                     -largest,
+                                     largest,
+                                     rows.arguments[last],
+                                     rows.values[last]));
+      if (last == 0)
+        return;
+      const double slope = (rows.values[last] - rows.values[last - 1]) /
+                           (rows.arguments[last] - rows.arguments[last - 1]);
+      if (!(std::abs(slope) <= largest))
+        throw InputError("",
+                         fmt::format("{}: the slope of a table is between {} "
+                                     "and {}: found {}",
+                                     place,
+                                     -largest,
+                                     largest,
+                                     slope));
+    }
   } // namespace
 
   TableRows
@@ -109,6 +140,7 @@ namespace corotet
                                        rows.arguments.back()));
         rows.arguments.push_back(argument);
         rows.values.push_back(checked_number(texts[1], place));
+        check_slope(rows, place);
       }
     if (file.bad())
       throw MachineError(path + ": cannot be read to its end");

@@ -132,13 +132,21 @@ namespace corotet
     private:
       using Kind = Token::Kind;
 
+      // @p depth: in how many files this one is included.
       void
-      check(const std::string &path)
+      check(const std::string &path, const unsigned int depth = 0)
       {
         if (!seen.insert(fs::weakly_canonical(path).string()).second)
           return;
-        file                            = path;
-        const std::vector<Token> tokens = tokens_of(content_of(path));
+        if (depth > max_include_depth)
+          throw InputError("",
+                           fmt::format("{}: files include each other more than "
+                                       "{} deep",
+                                       path,
+                                       max_include_depth));
+        file                                   = path;
+        const std::vector<Token>       tokens  = tokens_of(content_of(path));
+        const std::vector<std::size_t> closing = closing_brackets(tokens);
         for (std::size_t i = 0; i < tokens.size(); ++i)
           if (tokens[i].kind == Kind::word)
             {
@@ -146,9 +154,10 @@ namespace corotet
               if (const auto found = forbidden_words().find(tokens[i].content);
                   found != forbidden_words().end() && !is_option)
                 refuse(tokens[i], found->second);
-              if (tokens[i].content == "Printf" && is_redirected(tokens, i + 1))
+              if (tokens[i].content == "Printf" &&
+                  is_redirected(tokens, closing, i + 1))
                 refuse(tokens[i], "writes a file here");
-              check_reading(tokens, i);
+              check_reading(tokens, i, depth);
               file = path;
             }
       }
@@ -162,22 +171,39 @@ namespace corotet
                tokens[i].content[0] == sign;
       }
 
+      // For each opening bracket the one that closes it, or the end.
+      static std::vector<std::size_t>
+      closing_brackets(const std::vector<Token> &tokens)
+      {
+        std::vector<std::size_t> result(tokens.size(), tokens.size()), open;
+        for (std::size_t i = 0; i < tokens.size(); ++i)
+          if (is_sign(tokens, i, '('))
+            open.push_back(i);
+          else if (is_sign(tokens, i, ')') && !open.empty())
+            {
+              result[open.back()] = i;
+              open.pop_back();
+            }
+        return result;
+      }
+
       // Whether '>' follows the brackets that begin at @p i.
       static bool
-      is_redirected(const std::vector<Token> &tokens, std::size_t i)
+      is_redirected(const std::vector<Token>       &tokens,
+                    const std::vector<std::size_t> &closing,
+                    const std::size_t               i)
       {
-        for (int depth = 0; i < tokens.size(); ++i)
-          {
-            depth += is_sign(tokens, i, '(') - is_sign(tokens, i, ')');
-            if (depth == 0)
-              break;
-          }
-        return is_sign(tokens, i + 1, '>');
+        return i < tokens.size() &&
+               is_sign(tokens,
+                       (is_sign(tokens, i, '(') ? closing[i] : i) + 1,
+                       '>');
       }
 
       // A file that is named behind a word that reads one.
       void
-      check_reading(const std::vector<Token> &tokens, const std::size_t i)
+      check_reading(const std::vector<Token> &tokens,
+                    const std::size_t         i,
+                    const unsigned int        depth)
       {
         static const std::set<std::string> reading{"Include",
                                                    "Merge",
@@ -219,7 +245,7 @@ namespace corotet
             fs::is_regular_file(real, error) &&
             tokens[i].content != "ListFromFile" &&
             tokens[i].content != "FileName")
-          check(named.lexically_normal().string());
+          check(named.lexically_normal().string(), depth + 1);
       }
 
       [[noreturn]] void
@@ -236,6 +262,8 @@ namespace corotet
                       shortened(token.content),
                       deed));
       }
+
+      static constexpr unsigned int max_include_depth = 20;
 
       const fs::path        folder;
       std::set<std::string> seen;

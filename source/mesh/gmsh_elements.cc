@@ -14,17 +14,27 @@ namespace corotet::gmsh_elements
 {
   namespace
   {
-    // gmsh's reference tetrahedron is deal.II's.
+    // gmsh's reference tetrahedron is deal.II's. A process of gmsh that was
+    // damaged may say anything.
     std::vector<unsigned int>
-    node_order(const std::vector<double> &theirs, const unsigned int degree)
+    node_order(const std::vector<double> &theirs,
+               const unsigned int         degree,
+               const std::string         &path)
     {
       std::vector<unsigned int> order;
       for (const dealii::Point<3> &ours : map_points(degree))
         for (unsigned int j = 0; j < theirs.size() / 3; ++j)
           if (ours.distance(
                 {theirs[3 * j], theirs[3 * j + 1], theirs[3 * j + 2]}) < 1e-6)
-            order.push_back(j);
-      AssertDimension(order.size(), theirs.size() / 3);
+            {
+              order.push_back(j);
+              break;
+            }
+      if (order.size() != map_points(degree).size())
+        throw InputError("",
+                         path + ": gmsh has handed back other reference nodes "
+                                "than those of its tetrahedra; is the file "
+                                "damaged?");
       return order;
     }
   } // namespace
@@ -42,7 +52,7 @@ namespace corotet::gmsh_elements
         {
           result = {type.type,
                     found->second,
-                    node_order(type.nodes, found->second)};
+                    node_order(type.nodes, found->second, path)};
           kinds.push_back("'" + type.name + "'");
         }
       else

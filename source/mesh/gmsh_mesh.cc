@@ -101,9 +101,8 @@ namespace corotet
       explicit UsedNodes(const GmshModel &model)
         : coordinates(model.coordinates)
       {
-        if (coordinates.size() == 3 * model.node_tags.size())
-          for (std::size_t i = 0; i < model.node_tags.size(); ++i)
-            positions.emplace(model.node_tags[i], i);
+        for (std::size_t i = 0; i < model.node_tags.size(); ++i)
+          positions.emplace(model.node_tags[i], i);
       }
 
       dealii::Point<3>
@@ -201,7 +200,7 @@ namespace corotet
           if (group == groups.of_entity.end())
             continue;
           const std::vector<std::uint64_t> &tags = elements->nodes;
-          const unsigned int                n    = n_nodes.at(elements->type);
+          const std::size_t                 n    = n_nodes.at(elements->type);
           for (std::size_t i = 0; i + n <= tags.size(); i += n)
             mesh.faces.push_back({{{nodes.vertex(mesh, tags[i]),
                                     nodes.vertex(mesh, tags[i + 1]),
@@ -209,39 +208,39 @@ namespace corotet
                                   group->second});
         }
     }
-
-
-
-    SerialMesh
-    read(const GmshModel   &model,
-         const std::string &path,
-         const bool         has_geometry)
-    {
-      const gmsh_elements::Tetrahedra kind =
-        gmsh_elements::tetrahedra(model, path);
-      const PhysicalGroups volumes  = physical_groups(model, path, 3);
-      const PhysicalGroups surfaces = physical_groups(model, path, 2);
-
-      SerialMesh mesh;
-      mesh.origin         = path;
-      mesh.region_names   = volumes.names;
-      mesh.boundary_names = surfaces.names;
-      UsedNodes nodes(model);
-      read_cells(mesh, model, nodes, kind, volumes);
-      read_faces(mesh, model, nodes, surfaces);
-      if (kind.degree > 1)
-        return mesh;
-      std::set<unsigned int> curved;
-      for (const int entity : model.curved_surfaces)
-        if (const auto group = surfaces.of_entity.find(entity);
-            group == surfaces.of_entity.end())
-          curved.insert(no_boundary);
-        else
-          curved.insert(group->second);
-      remark_facets(mesh, has_geometry ? curved : faceted_boundaries(mesh));
-      return mesh;
-    }
   } // namespace
+
+
+
+  SerialMesh
+  mesh_of_model(const GmshModel   &model,
+                const std::string &path,
+                const bool         has_geometry)
+  {
+    const gmsh_elements::Tetrahedra kind =
+      gmsh_elements::tetrahedra(model, path);
+    const PhysicalGroups volumes  = physical_groups(model, path, 3);
+    const PhysicalGroups surfaces = physical_groups(model, path, 2);
+
+    SerialMesh mesh;
+    mesh.origin         = path;
+    mesh.region_names   = volumes.names;
+    mesh.boundary_names = surfaces.names;
+    UsedNodes nodes(model);
+    read_cells(mesh, model, nodes, kind, volumes);
+    read_faces(mesh, model, nodes, surfaces);
+    if (kind.degree > 1)
+      return mesh;
+    std::set<unsigned int> curved;
+    for (const int entity : model.curved_surfaces)
+      if (const auto group = surfaces.of_entity.find(entity);
+          group == surfaces.of_entity.end())
+        curved.insert(no_boundary);
+      else
+        curved.insert(group->second);
+    remark_facets(mesh, has_geometry ? curved : faceted_boundaries(mesh));
+    return mesh;
+  }
 
 
 
@@ -315,7 +314,7 @@ namespace corotet
           n_cells += type.n_elements;
         check_number_of_cells(n_cells, n_refinements);
       }
-    SerialMesh mesh = read(model, path, is_geometry);
+    SerialMesh mesh = mesh_of_model(model, path, is_geometry);
     if (is_geometry)
       mesh.n_refinements = n_refinements;
     return mesh;

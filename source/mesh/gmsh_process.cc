@@ -12,6 +12,9 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <set>
+#include <stdexcept>
 
 namespace corotet
 {
@@ -67,7 +70,91 @@ namespace corotet
                            end.status);
       throw InputError("", fmt::format("{}: gmsh {}", path, what));
     }
+
+
+
+    // Elements of gmsh that a model consists of, by its number of their type:
+    // how many nodes they have. Tetrahedra and triangles of degree 1, 2, 3.
+    using NodeNumbers = std::map<int, std::size_t>;
+    const NodeNumbers tetrahedron_nodes{{4, 4}, {11, 10}, {29, 20}};
+    const NodeNumbers triangle_nodes{{2, 3}, {9, 6}, {21, 10}};
+
+
+
+    bool
+    have_all_nodes(const std::vector<GmshModel::Elements> &all,
+                   const NodeNumbers                      &n_nodes)
+    {
+      return std::all_of(all.begin(), all.end(), [&](const auto &elements) {
+        const auto found = n_nodes.find(elements.type);
+        return found != n_nodes.end() &&
+               elements.nodes.size() % found->second == 0;
+      });
+    }
+
+
+
+    // Whether lists that belong to each other have the sizes and kinds that
+    // they must have.
+    bool
+    fits_together(const GmshModel &model)
+    {
+      const auto is_group = [](const GmshModel::Group &group) {
+        return (group.dimension == 2 || group.dimension == 3) && group.id >= 0;
+      };
+      const auto has_whole_nodes = [](const GmshModel::ElementType &type) {
+        const auto found = tetrahedron_nodes.find(type.type);
+        return found == tetrahedron_nodes.end() ||
+               type.nodes.size() == 3 * found->second;
+      };
+      std::set<int> types;
+      for (const GmshModel::ElementType &type : model.volume_types)
+        types.insert(type.type);
+      const auto is_announced = [&](const GmshModel::Elements &elements) {
+        return types.contains(elements.type);
+      };
+      return std::all_of(model.groups.begin(), model.groups.end(), is_group) &&
+             std::all_of(model.volume_types.begin(),
+                         model.volume_types.end(),
+                         has_whole_nodes) &&
+             std::all_of(model.volumes.begin(),
+                         model.volumes.end(),
+                         is_announced) &&
+             have_all_nodes(model.volumes, tetrahedron_nodes) &&
+             have_all_nodes(model.surfaces, triangle_nodes) &&
+             model.coordinates.size() == 3 * model.node_tags.size();
+    }
+
+
+
+    [[noreturn]] void
+    refuse_model(const std::string &path)
+    {
+      throw InputError("",
+                       path + ": gmsh has handed back what is no mesh; is the "
+                              "file damaged?");
+    }
   } // namespace
+
+
+
+  GmshModel
+  model_of_bytes(const std::string_view bytes, const std::string &path)
+  {
+    GmshModel   model;
+    BytesReader reader(bytes);
+    try
+      {
+        transfer(reader, model);
+      }
+    catch (const std::out_of_range &)
+      {
+        refuse_model(path);
+      }
+    if (!reader.is_at_end() || (model.error.empty() && !fits_together(model)))
+      refuse_model(path);
+    return model;
+  }
 
 
 
@@ -92,18 +179,10 @@ namespace corotet
        request.is_geometry ? folder : request.path,
        std::to_string(memory_limit(request.path, request.is_geometry))},
       request.time_limit);
-    if (end.has_exceeded || end.signal != 0 || end.status != 0)
+    if (end.has_exceeded || end.signal != 0 || end.status != 0 ||
+        end.output.empty())
       refuse_end(request.path, end, request.time_limit);
-    GmshModel   model;
-    BytesReader reader(end.output);
-    try
-      {
-        transfer(reader, model);
-      }
-    catch (const std::out_of_range &)
-      {
-        refuse_end(request.path, end, request.time_limit);
-      }
+    const GmshModel model = model_of_bytes(end.output, request.path);
     if (!model.error.empty())
       throw InputError("", message_of_gmsh(request.path, model.error));
     return model;

@@ -5,6 +5,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/base/version.h>
 #include <corotet/base/whole_file.h>
+#include <corotet/output/checkpoint_checksum.h>
 #include <corotet/output/checkpoint_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,6 +19,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <system_error>
 
@@ -29,56 +31,6 @@ namespace corotet
 
     // Of what is in a checkpoint and what it means.
     constexpr int format_version = 1;
-
-    // Every bit of the result depends on every bit of x (the finalizer of
-    // splitmix64; Steele, Lea, Flood, Fast splittable pseudorandom number
-    // generators, 2014).
-    std::uint64_t
-    mixed(std::uint64_t x)
-    {
-      x += 0x9e3779b97f4a7c15;
-      x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-      x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-      return x ^ (x >> 31);
-    }
-
-    // Checksums are sums over words of eight bytes, each mixed with its place:
-    // so parts may be summed by different ranks.
-    std::uint64_t
-    checksum_of_word(const std::uint64_t word, const std::uint64_t place)
-    {
-      return mixed(word ^ mixed(place));
-    }
-
-    // @p data are the bytes from word number @p first on.
-    std::uint64_t
-    checksum_of_bytes(const char         *data,
-                      const std::size_t   size,
-                      const std::uint64_t first)
-    {
-      std::uint64_t sum = 0;
-      for (std::size_t i = 0; i < size; i += 8)
-        {
-          std::uint64_t word = 0;
-          std::memcpy(&word, data + i, std::min<std::size_t>(8, size - i));
-          sum += checksum_of_word(word, first + i / 8);
-        }
-      return sum;
-    }
-
-    // As text: JSON's numbers are not made for 64 bits.
-    std::string
-    checksum_text(const std::uint64_t checksum)
-    {
-      return fmt::format("{:016x}", checksum);
-    }
-
-    std::string
-    checksum_of_text(const std::string &text)
-    {
-      return checksum_text(checksum_of_bytes(text.data(), text.size(), 0) +
-                           mixed(text.size()));
-    }
 
     class FileDescriptor
     {
@@ -156,11 +108,13 @@ namespace corotet
                         place);
             if (n == 0)
               break;
-            sum += checksum_of_bytes(buffer.data(), n, place / 8);
+            sum += checkpoint_checksum::of_bytes(buffer.data(), n, place / 8);
             place += n;
           }
       });
-      return {size, checksum_text(dealii::Utilities::MPI::sum(sum, comm))};
+      return {size,
+              checkpoint_checksum::in_words(
+                dealii::Utilities::MPI::sum(sum, comm))};
     }
 
     // Of the vertices and regions of all cells. Collective.
@@ -172,17 +126,19 @@ namespace corotet
         {
           const auto          nodes = discretization.cell_nodes(c);
           const std::uint64_t first = 13 * discretization.mesh_cell(c);
-          sum += checksum_of_word(discretization.geometry(c).region, first);
+          sum += checkpoint_checksum::of_word(discretization.geometry(c).region,
+                                              first);
           for (unsigned int v = 0; v < 4; ++v)
             for (unsigned int a = 0; a < 3; ++a)
               {
                 const double  x = discretization.node_position(nodes[v])[a];
                 std::uint64_t word;
                 std::memcpy(&word, &x, sizeof(word));
-                sum += checksum_of_word(word, first + 1 + 3 * v + a);
+                sum +=
+                  checkpoint_checksum::of_word(word, first + 1 + 3 * v + a);
               }
         }
-      return checksum_text(
+      return checkpoint_checksum::in_words(
         dealii::Utilities::MPI::sum(sum, discretization.communicator()));
     }
 
@@ -208,6 +164,54 @@ namespace corotet
       return name;
     }
 
+    // Whether all texts are where texts are expected, and so on: what has a
+    // right checksum may still be made by anybody.
+    bool
+    has_all_parts(const Json &content)
+    {
+      const auto is_text = [&](const char *name) {
+        return content.at(name).is_string();
+      };
+      const auto is_number = [&](const char *name) {
+        return content.at(name).is_number_unsigned();
+      };
+      const std::function<bool(const Json &)> are_entries =
+        [&](const Json &section) {
+          return std::all_of(section.begin(),
+                             section.end(),
+                             [&](const Json &node) {
+                               return node.is_string() ||
+                                      (node.is_object() && are_entries(node));
+                             });
+        };
+      const Json &parameters = content.at("parameters");
+      const Json &values     = content.at("values");
+      return is_number("format") && is_number("cells") &&
+             is_number("vectors_size") && is_text("mesh_checksum") &&
+             is_text("vectors_checksum") &&
+             (parameters.is_object() || parameters.is_null()) &&
+             are_entries(parameters) && values.is_object() &&
+             std::all_of(values.begin(), values.end(), [](const Json &value) {
+               return value.is_string();
+             });
+    }
+
+    Json
+    parse_content(const std::string &text, const std::string &file)
+    {
+      // As deep as the sections of parameters, and what they are in.
+      constexpr int max_depth = 30;
+      return Json::parse(text, [&](const int depth, const auto, const auto &) {
+        if (depth > max_depth)
+          throw InputError("",
+                           fmt::format("{}: damaged: it is nested more than {} "
+                                       "levels deep",
+                                       file,
+                                       max_depth));
+        return true;
+      });
+    }
+
     // Reads and checks PATH.json. On rank 0.
     Json
     read_content(const std::string &file)
@@ -220,20 +224,22 @@ namespace corotet
                                   "permission missing?)");
       try
         {
-          Json              content  = Json::parse(text);
+          Json              content  = parse_content(text, file);
           const std::string checksum = content.at("checksum");
           content.erase("checksum");
-          if (checksum_of_text(content.dump()) != checksum)
+          if (checkpoint_checksum::of_text(content.dump()) != checksum)
             throw InputError("", file + ": damaged: its checksum is wrong");
-          const int found = content.at("format");
+          const Json &found = content.at("format");
           if (found != format_version)
             throw InputError("",
                              fmt::format("{}: found a checkpoint of format "
                                          "{}; allowed: {}, that of this "
                                          "program",
                                          file,
-                                         found,
+                                         found.dump(),
                                          format_version));
+          if (!has_all_parts(content))
+            throw InputError("", file + ": damaged: it is no whole checkpoint");
           return content;
         }
       catch (const Json::exception &)
@@ -294,7 +300,7 @@ namespace corotet
       content["vectors_checksum"] = vectors_file.checksum;
       content["parameters"]       = parameters;
       content["values"]           = values;
-      content["checksum"]         = checksum_of_text(content.dump());
+      content["checksum"] = checkpoint_checksum::of_text(content.dump());
       write_whole_file(path + ".json",
                        content.dump(1) + "\n",
                        "the checkpoint",

@@ -79,6 +79,16 @@ namespace corotet
       archive.transfer("block_steps", steps);
       archive.transfer("block_results", n_results);
     });
+    if (steps.size() != levels.size() || n_results.size() != levels.size())
+      throw InputError(
+        "",
+        fmt::format("a checkpoint has {} levels, {} steps and {} "
+                    "numbers of results for the files of '{}'; "
+                    "needed are as many of each",
+                    levels.size(),
+                    steps.size(),
+                    n_results.size(),
+                    name));
     blocks.clear();
     for (std::size_t i = 0; i < levels.size(); ++i)
       blocks.push_back({levels[i], steps[i], n_results[i]});

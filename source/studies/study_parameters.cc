@@ -18,6 +18,9 @@ namespace corotet
   {
     const std::string section = "Convergence study/";
 
+    // Far more than anybody waits for.
+    constexpr double max_cases = 10000;
+
     // All values, or the one that says that the parameter file's is taken.
     template <typename T>
     std::vector<std::optional<T>>
@@ -135,6 +138,16 @@ namespace corotet
     if (!sorted(time_steps, std::greater<>()))
       throw InputError(section + "Time steps",
                        "the values do not decrease; each is allowed once");
+    // As a floating point number, which does not overflow.
+    const double n_cases = 1. * choices(masses).size() *
+                           choices(rotations).size() * degrees.size() *
+                           choices(time_steps).size() * refinements.size();
+    if (n_cases > max_cases)
+      throw InputError(section + "Degrees",
+                       fmt::format("found {} runs, one for each combination of "
+                                   "values; allowed are {}",
+                                   n_cases,
+                                   max_cases));
     std::vector<StudyCase> result;
     for (const auto &mass : choices(masses))
       for (const auto &rotation : choices(rotations))

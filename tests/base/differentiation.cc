@@ -110,3 +110,47 @@ TEST(Differentiation, Refusals)
   EXPECT_NE(derivative_refusal("1/(x").find("cannot be differentiated"),
             std::string::npos);
 }
+
+// Numbers are not computed with, however large they would become.
+TEST(Differentiation, NumbersStayAsTheyAre)
+{
+  const double x = p[0];
+  EXPECT_NEAR(derivative("x^2*1^9^9^9^9", {"x"}), 2 * x, round_off);
+  EXPECT_NEAR(derivative("sin(9^9)*0*x + x^3", {"x"}), 3 * x * x, round_off);
+  EXPECT_NEAR(derivative("pow(x, 1.5) + x^-2", {"x"}),
+              1.5 * std::sqrt(x) - 2 / (x * x * x),
+              100 * round_off);
+  // Also where the base is zero.
+  EXPECT_EQ(Expression(differentiate("(x - x)^2 + pow(x - x, 2)", {"x"}, ""),
+                       1,
+                       "Entry")
+              .value(p, t),
+            0.);
+}
+
+TEST(Differentiation, RefusesTooMuch)
+{
+  const auto nested = [](const std::string &start, const unsigned int n) {
+    std::string result = "x";
+    for (unsigned int i = 0; i < n; ++i)
+      result = start + result + ")";
+    return result;
+  };
+  EXPECT_NE(derivative_refusal(nested("(", 101)).find("parentheses more than "),
+            std::string::npos);
+  std::string powers = "x", product = "x";
+  for (unsigned int i = 0; i < 101; ++i)
+    powers += "^x";
+  for (unsigned int i = 0; i < 500; ++i)
+    product += "*sin(x + " + std::to_string(i) + ")";
+  EXPECT_NE(derivative_refusal(powers).find("it has more than 100 powers"),
+            std::string::npos);
+  EXPECT_NE(derivative_refusal(product).find(
+              "it or its derivative has more than 20000 parts"),
+            std::string::npos);
+  EXPECT_NE(derivative_refusal("x + 1e400").find("or is too large"),
+            std::string::npos);
+  EXPECT_NE(
+    derivative_refusal("factorial(x)").find("it has the function 'factorial'"),
+    std::string::npos);
+}

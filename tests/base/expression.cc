@@ -197,3 +197,23 @@ TEST(Expression, NotesValuesThatAreNotFinite)
   root.time_derivatives({}, 0, 0.1);
   EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
 }
+
+// What reads formulas calls itself for each of them.
+TEST(Expression, RefusesDeepParentheses)
+{
+  const auto nested = [](const unsigned int n) {
+    return std::string(n, '(') + "x" + std::string(n, ')');
+  };
+  EXPECT_EQ(expression_refusal(nested(100), 1), "accepted");
+  EXPECT_EQ(
+    expression_refusal(nested(101), 1),
+    "the expression \"" + nested(101).substr(0, 80) +
+      "... (203 characters)\" is no formula: found parentheses 101 deep "
+      "in each other; allowed are 100");
+  // Powers need no parentheses: then derivatives are differences.
+  std::string powers = "t*1";
+  for (unsigned int i = 0; i < 2000; ++i)
+    powers += "^1";
+  const Expression expression(powers, 1, "Entry");
+  EXPECT_NEAR(expression.time_derivatives({}, 0.5, 1e-3)[0], 1, 1e-11);
+}

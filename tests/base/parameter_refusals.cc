@@ -162,6 +162,13 @@ TEST(ParameterFile, RefusesDeepNesting)
             "a.json: " + reason);
   EXPECT_EQ(example.refusal("a.prm", repeated("subsection a\n", 100000)),
             "a.prm:21: " + reason);
+  // What only looks as if it closed an element.
+  for (const std::string closed : {"<a><!--</a>-->",
+                                   "<a><![CDATA[</a>]]>",
+                                   "<a><?b </a>?>",
+                                   "<a b='</a>'>"})
+    EXPECT_EQ(example.refusal("a.xml", repeated(closed, 50000)),
+              "a.xml: " + reason);
   EXPECT_EQ(example.refusal("a.xml",
                             "<!DOCTYPE a [<!ENTITY b \"b\">]><a>&b;</a>"),
             "a.xml: it has a document type or entities; allowed are neither");
@@ -200,6 +207,38 @@ TEST(ParameterFile, RefusesZeroBytes)
   Example example;
   EXPECT_EQ(example.refusal("a.prm", "\n" + std::string(1, '\0') + "\n"),
             "a.prm:2: it has a zero byte; a parameter file is text");
+}
+
+// A file does not make the program want many times its length of memory, nor
+// hours.
+TEST(ParameterFile, RefusesTooMuch)
+{
+  const auto repeated = [](const std::string &text, const unsigned int n) {
+    std::string result;
+    for (unsigned int i = 0; i < n; ++i)
+      result += text;
+    return result;
+  };
+  Example example;
+  EXPECT_EQ(example.refusal("a.prm", std::string(2000001, '\n')),
+            "a.prm: it has 2000001 bytes; a parameter file may have 2000000");
+  EXPECT_EQ(example.refusal("a.prm", repeated("set a=1\n", 50001)),
+            "a.prm:50001: there are more than 50000 statements");
+  const std::string name(600, 'a');
+  EXPECT_EQ(example.refusal("a.prm",
+                            "subsection " + name + "\nset " + name + " = 1\n"),
+            "a.prm:2: the name \"" + std::string(80, 'a') +
+              "... (1201 characters)\", with the sections it is in, is too "
+              "long; allowed are 1000 characters");
+  const std::string many =
+    "it has more than 20000 elements; allowed are as many";
+  EXPECT_EQ(example.refusal("a.xml", "<a>" + repeated("<b/>", 20000) + "</a>"),
+            "a.xml: " + many);
+  std::string entries;
+  for (unsigned int i = 0; i < 20000; ++i)
+    entries += "\"" + std::to_string(i) + "\":1,";
+  EXPECT_EQ(example.refusal("a.json", "{" + entries + "\"b\":1}"),
+            "a.json: " + many);
 }
 
 // A value of any length is not repeated.

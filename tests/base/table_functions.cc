@@ -131,6 +131,14 @@ TEST(TableFile, RefusesWhatIsNoTable)
             ":3" + increase + "0.25 after 0.5");
   EXPECT_EQ(file_refusal("0 1\n\n0 2\n"), ":3" + increase + "0 after 0");
 
+  EXPECT_EQ(
+    file_refusal("0 1\n1 -2e100\n"),
+    ":2: the numbers of a table are between -1e+100 and 1e+100: found 1 "
+    "and -2e+100");
+  EXPECT_EQ(file_refusal("0 0\n1e-90 1e30\n"),
+            ":2: the slope of a table is between -1e+100 and 1e+100: found "
+            "1e+120");
+
   const std::string few = ": a table has at least 2 rows: found ";
   EXPECT_EQ(file_refusal(""), few + "0");
   EXPECT_EQ(file_refusal("t,u\n1,2\n"), few + "1");

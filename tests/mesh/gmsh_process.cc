@@ -4,12 +4,16 @@
 // gmsh runs in a process of its own: what a file does there, or what happens to
 // it there, ends in a message.
 
+#include <corotet/mesh/gmsh_process.h>
+
+#include <fmt/format.h>
 #include <gmsh.h>
 #include <gtest/gtest.h>
 #include <linux/landlock.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <functional>
 #include <iterator>
 #include <random>
 
@@ -202,4 +206,54 @@ TEST(GmshProcess, DamagedBinaryMeshes)
     }
   EXPECT_GT(n_refused, 5u);
   EXPECT_LT(n_refused, 40u);
+}
+
+TEST(GmshProcess, DeepIncludes)
+{
+  const TemporaryFolder folder;
+  for (unsigned int i = 0; i < 30; ++i)
+    folder.write(fmt::format("part_{}.geo", i),
+                 fmt::format("Include \"part_{}.geo\";\n", i + 1));
+  EXPECT_EQ(message_of(folder / "part_0.geo"),
+            (folder / "part_21.geo") +
+              ": files include each other more than 20 deep");
+}
+
+// Whatever a damaged process of gmsh hands back is a model or a message.
+TEST(GmshProcess, OtherModels)
+{
+  GmshModel model;
+  model.volume_types = {{4, "Tetrahedron 4", 1, std::vector<double>(12)}};
+  model.volumes      = {{1, 4, {1, 2, 3, 4}}};
+  model.node_tags    = {1, 2, 3, 4};
+  model.coordinates.resize(12);
+  const auto message_about = [](GmshModel changed) {
+    std::string bytes;
+    BytesWriter writer(bytes);
+    transfer(writer, changed);
+    return refusal([&] { model_of_bytes(bytes, "x.msh"); });
+  };
+  EXPECT_EQ(message_about(model), "nothing was refused");
+  const std::string message =
+    "x.msh: gmsh has handed back what is no mesh; is the file damaged?";
+  const std::function<void(GmshModel &)> changes[] = {
+    [](GmshModel &changed) { changed.volumes[0].nodes.push_back(1); },
+    [](GmshModel &changed) { changed.volumes[0].type = 11; },
+    [](GmshModel &changed) { changed.volume_types[0].nodes.resize(11); },
+    [](GmshModel &changed) { changed.surfaces = {{1, 3, {1, 2, 3}}}; },
+    [](GmshModel &changed) { changed.surfaces = {{1, 2, {1, 2}}}; },
+    [](GmshModel &changed) { changed.coordinates.pop_back(); },
+    [](GmshModel &changed) { changed.groups = {{3, -1, "a", {1}}}; },
+    [](GmshModel &changed) { changed.groups = {{1, 1, "a", {1}}}; }};
+  for (const auto &change : changes)
+    {
+      GmshModel changed = model;
+      change(changed);
+      EXPECT_EQ(message_about(changed), message);
+    }
+  EXPECT_EQ(refusal([] { model_of_bytes("abc", "x.msh"); }), message);
+  // Of other reference nodes: here all are in one place.
+  EXPECT_EQ(refusal([&] { mesh_of_model(model, "x.msh", false); }),
+            "x.msh: gmsh has handed back other reference nodes than those of "
+            "its tetrahedra; is the file damaged?");
 }

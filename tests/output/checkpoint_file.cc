@@ -4,6 +4,7 @@
 // What goes into a checkpoint comes out again, to the last bit, or the
 // checkpoint is refused.
 
+#include <corotet/output/checkpoint_checksum.h>
 #include <corotet/output/checkpoint_file.h>
 
 #include <gtest/gtest.h>
@@ -233,4 +234,39 @@ TEST_F(CheckpointFile, OtherMeshIsRefused)
     message_of<InputError>([&] {
       reader.check_mesh();
     }).starts_with("--restart: found a mesh of 96 cells that is not"));
+}
+
+// A checksum is no secret: what has a right one is read with the same care.
+TEST_F(CheckpointFile, WrongContentWithARightChecksum)
+{
+  using Json         = nlohmann::ordered_json;
+  const Json content = Json::parse(content_of(path + ".json"));
+  wait_for_all();
+  const auto refusal_with = [&](const std::string &name, const Json &value) {
+    Json changed = content;
+    changed.erase("checksum");
+    changed[name]       = value;
+    changed["checksum"] = checkpoint_checksum::of_text(changed.dump());
+    if (on_rank_0())
+      std::ofstream(path + ".json") << changed.dump();
+    wait_for_all();
+    const std::string message = refusal();
+    wait_for_all();
+    return message;
+  };
+  const std::string damaged =
+    path + ".json: damaged: it is no whole checkpoint";
+  EXPECT_EQ(refusal_with("vectors_size", "many"), damaged);
+  EXPECT_EQ(refusal_with("vectors_checksum", 3), damaged);
+  EXPECT_EQ(refusal_with("cells", -1), damaged);
+  EXPECT_EQ(refusal_with("values", {{"number", 3}}), damaged);
+  EXPECT_EQ(refusal_with("parameters", {{"Mesh", {{"Type", 3}}}}), damaged);
+  EXPECT_EQ(refusal_with("format", 2),
+            path + ".json: found a checkpoint of format 2; allowed: 1, that of "
+                   "this program");
+  Json deep = 1;
+  for (unsigned int i = 0; i < 40; ++i)
+    deep = Json{{"a", deep}};
+  EXPECT_EQ(refusal_with("parameters", deep),
+            path + ".json: damaged: it is nested more than 30 levels deep");
 }

@@ -191,6 +191,7 @@ end
         for setting, message in (
             ("Convergence study/Refinements = 1, 0", "Convergence study/Refinements: the values do not increase"),
             ("Convergence study/Degrees = 2, 2", "Convergence study/Degrees: a value is given twice"),
+            ("Convergence study/Time steps = " + ", ".join(str(9999 - i) for i in range(9999)), "one for each combination of values; allowed are 10000"),
             ("Convergence study/Quantities = tip_z", "Convergence study/Quantities: the quantity 'tip_z' is unknown"),
             ("Convergence study/Quantities = momentum_x: a", "found 'momentum_x: a'; allowed: 'name' or 'name: number'"),
             ("Convergence study/Masses = row sum", "row sum"),

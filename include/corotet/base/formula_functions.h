@@ -62,6 +62,14 @@ namespace corotet
   /// refuse one.
   bool
   is_formula_name(const std::string &name);
+
+  /// How deep parentheses of a formula may stand in each other: what reads it
+  /// must not run out of its stack.
+  constexpr int max_parentheses = 100;
+
+  /// How deep they do.
+  int
+  depth_of_parentheses(const std::string &formula);
 } // namespace corotet
 
 #endif

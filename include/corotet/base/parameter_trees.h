@@ -16,6 +16,19 @@ namespace corotet
   /// not run out of their stack.
   constexpr int max_section_depth = 20;
 
+  /// What a parameter file may have; none needs a tenth of it. So no file makes
+  /// the program want much more memory or time than it is long.
+  constexpr std::size_t max_file_size    = 2'000'000;
+  constexpr std::size_t max_statements   = 50'000;
+  constexpr std::size_t max_path_length  = 1'000;
+  constexpr std::size_t max_tree_entries = 20'000;
+
+  /// Appends a statement. Throws InputError if there are too many, or its path
+  /// is too long.
+  void
+  add_statement(std::vector<ParameterStatement> &statements,
+                const ParameterStatement        &statement);
+
   /// Throws an InputError at "FILE" or "FILE:LINE".
   [[noreturn]] void
   refuse_statement(const std::string &place, const std::string &message);

@@ -4,6 +4,7 @@
 #ifndef corotet_mesh_gmsh_mesh_h
 #define corotet_mesh_gmsh_mesh_h
 
+#include <corotet/mesh/gmsh_model.h>
 #include <corotet/mesh/mesh_source.h>
 
 namespace corotet
@@ -36,6 +37,17 @@ namespace corotet
     unsigned int geometry_degree = 1;
     double       time_limit      = 3600;
   };
+
+  /**
+   * The mesh that a model, whose parts fit together, consists of. Throws
+   * InputError that blames the file @p path if it has other cells than
+   * tetrahedra of one degree, entities of two groups or nodes without
+   * coordinates. @p has_geometry: gmsh knows which of its surfaces are curved.
+   */
+  SerialMesh
+  mesh_of_model(const GmshModel   &model,
+                const std::string &path,
+                const bool         has_geometry);
 } // namespace corotet
 
 #endif

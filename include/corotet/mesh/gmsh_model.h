@@ -193,8 +193,8 @@ namespace corotet
     void
     transfer_all(std::vector<Part> &parts, const Action &action)
     {
-      // All parts begin with a number and a list.
-      parts.resize(size(2 * sizeof(int)));
+      // All parts have two numbers and the length of a list, at least.
+      parts.resize(size(2 * sizeof(int) + sizeof(std::uint64_t)));
       for (Part &part : parts)
         action(part);
     }

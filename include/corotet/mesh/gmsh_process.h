@@ -17,6 +17,15 @@ namespace corotet
    */
   GmshModel
   run_gmsh(const GmshRequest &request);
+
+  /**
+   * The model that such a process has handed back as @p bytes, which may be
+   * anything: the file @p path may have damaged it. Throws InputError that
+   * blames the file if they are no model, or one whose parts do not fit
+   * together.
+   */
+  GmshModel
+  model_of_bytes(const std::string_view bytes, const std::string &path);
 } // namespace corotet
 
 #endif

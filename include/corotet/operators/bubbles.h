@@ -103,9 +103,9 @@ namespace corotet::bubbles
           }
         for (int f = 0; f < 4; ++f)
           {
-            const auto &[a, b, c] = faces[f];
-            double &face          = d[10 + f][k];
-            face                  = 27 * ((a == k) * lambda[b] * lambda[c] +
+            const int a = faces[f][0], b = faces[f][1], c = faces[f][2];
+            double   &face = d[10 + f][k];
+            face           = 27 * ((a == k) * lambda[b] * lambda[c] +
                          (b == k) * lambda[c] * lambda[a] +
                          (c == k) * lambda[a] * lambda[b]) -
                    27. / 64 * cell;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What looks at mesh files before gmsh does, and what takes from gmsh's process
+// the bytes that it hands back: whatever the file did to that process.
+
+#include <corotet/base/log.h>
+#include <corotet/mesh/check_gmsh_file.h>
+#include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/gmsh_mesh.h>
+#include <corotet/mesh/gmsh_process.h>
+#include <corotet/mesh/mesh.h>
+
+#include <mpi.h>
+
+#include "targets.h"
+
+namespace fuzz
+{
+  void
+  read_mesh_file(const std::string &input)
+  {
+    const std::string path = write("mesh.msh", input);
+    is_accepted([&] { corotet::check_msh(path); });
+  }
+
+  // Behind a line "//====" is a second file, part.geo, which the first may
+  // include.
+  void
+  read_geometry(const std::string &input)
+  {
+    const std::string mark = "\n//====\n";
+    const std::size_t cut  = input.find(mark);
+    write("part.geo",
+          cut == std::string::npos ? "" : input.substr(cut + mark.size()));
+    const std::string path = write("main.geo", input.substr(0, cut));
+    is_accepted([&] { corotet::check_geo(path); });
+  }
+
+  // A mesh that has been accepted can be used. The first byte says whether it
+  // was made of a geometry, and for which elements it is to be.
+  void
+  read_gmsh_model(const std::string &input)
+  {
+    if (input.empty())
+      return;
+    const unsigned int  first = static_cast<unsigned char>(input[0]);
+    corotet::SerialMesh mesh;
+    if (!is_accepted([&] {
+          mesh = corotet::mesh_of_model(
+            corotet::model_of_bytes(std::string_view(input).substr(1),
+                                    "mesh.msh"),
+            "mesh.msh",
+            first % 2 == 1);
+        }))
+      return;
+    if (mesh.cells.size() > 20)
+      return;
+    is_accepted([&] {
+      corotet::Log        log(MPI_COMM_SELF, true);
+      const corotet::Mesh whole(
+        mesh, first / 2 % 2, 1., MPI_COMM_SELF, log, 1 + first / 4 % 3);
+    });
+  }
+} // namespace fuzz

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Parameter files in all their forms, read as the program does: what is
+// accepted can be written and read again with the same values.
+
+#include <corotet/base/parameter_file.h>
+#include <corotet/studies/run_parameters.h>
+
+#include <nlohmann/json.hpp>
+
+#include "targets.h"
+
+namespace fuzz
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    // The form that a file has, by its first character.
+    std::string
+    ending_of(const std::string &input)
+    {
+      const std::size_t first = input.find_first_not_of(" \t\r\n");
+      const char        c     = first == std::string::npos ? ' ' : input[first];
+      return c == '{' || c == '[' ? ".json" : c == '<' ? ".xml" : ".prm";
+    }
+
+    // All that follows from the entries without a mesh.
+    void
+    use(const corotet::RunParameters &parameters, const std::string &path)
+    {
+      is_accepted([&] { parameters.output.probe_points(); });
+      is_accepted([&] { parameters.output.stress_probe_points(); });
+      is_accepted([&] { parameters.study.cases(); });
+      is_accepted([&] { parameters.study.quantity_list(); });
+      parameters.output.directory_of_run(path);
+    }
+
+    // Names of files become relative to another folder, and are written in
+    // another way.
+    Json
+    values_but_files(const corotet::ParameterFile &file)
+    {
+      Json values = file.values();
+      values["Mesh"]["gmsh"].erase("File");
+      values.erase("Tables");
+      return values;
+    }
+  } // namespace
+
+  void
+  read_parameters(const std::string &input)
+  {
+    static const std::string part = write("part.prm", "set Type = modes\n");
+    const std::string        path = write("case" + ending_of(input), input);
+    // All entries are declared for those only that are well formed.
+    if (!is_accepted([&] { corotet::read_parameter_statements(path); }))
+      return;
+    corotet::RunParameters parameters;
+    corotet::ParameterFile file;
+    parameters.declare_parameters(file.handler());
+    if (!is_accepted([&] { file.read(path, {}); }))
+      return;
+    use(parameters, path);
+
+    const std::string written = scratch() / "written.prm";
+    file.write_effective(written);
+    corotet::RunParameters parameters_again;
+    corotet::ParameterFile again;
+    parameters_again.declare_parameters(again.handler());
+    try
+      {
+        again.read(written, {});
+      }
+    catch (const corotet::Error &error)
+      {
+        require(false, std::string("what is written is read: ") + error.what());
+      }
+    require(values_but_files(file) == values_but_files(again),
+            "what is written has the values that were read");
+  }
+} // namespace fuzz
