@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <ginac/ginac.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace corotet
@@ -48,6 +49,18 @@ namespace corotet
           }
       return "";
     }
+
+    int
+    depth_of_brackets(const std::string &formula)
+    {
+      int depth = 0, deepest = 0;
+      for (const char c : formula)
+        {
+          depth += (c == '(') - (c == ')');
+          deepest = std::max(deepest, depth);
+        }
+      return deepest;
+    }
   } // namespace
 
   std::string
@@ -64,6 +77,13 @@ namespace corotet
                     shortened(reason, 200),
                     join(differentiable_functions)));
     };
+    // Derivatives of what is longer or deeper fill the memory.
+    constexpr std::size_t most   = 1000;
+    constexpr int         levels = 20;
+    if (formula.size() > most)
+      refuse(fmt::format("it has more than {} characters", most));
+    if (depth_of_brackets(formula) > levels)
+      refuse(fmt::format("it has brackets more than {} deep", levels));
     try
       {
         const GiNaC::symtab table = symbols();
