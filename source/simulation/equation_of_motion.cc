@@ -11,14 +11,25 @@
 
 namespace corotet
 {
+  namespace
+  {
+    ForceTerms
+    make_terms(Body &body, const SimulationParameters &parameters, Log &log)
+    {
+      // What was noted before belongs to others.
+      take_not_finite(body.discretization.communicator());
+      return parameters.forces.make(
+        body.force_context(log, parameters.start_time));
+    }
+  } // namespace
+
   EquationOfMotion::EquationOfMotion(Body                       &body,
                                      const SimulationParameters &parameters,
                                      WallTimes                  &wall_times,
                                      Log                        &log)
     : body(body)
     , wall_times(wall_times)
-    , terms(
-        parameters.forces.make(body.force_context(log, parameters.start_time)))
+    , terms(make_terms(body, parameters, log))
   {
     body.problem.add_to(
       terms, body.discretization, body.reference, body.materials, body.law);

@@ -93,7 +93,10 @@ namespace corotet
       prm.add_parameter("Displacement",
                         initial_displacement,
                         "At the start time [m]: 'x; y; z', expressions in x, "
-                        "y, z, t.");
+                        "y, z, t. On boundaries with a prescribed displacement "
+                        "it must be that; it may crush cells, but turn none "
+                        "inside out. In statics it is the first guess of "
+                        "Newton's method.");
       prm.add_parameter("Velocity",
                         initial_velocity,
                         "At the start time [m/s]: 'x; y; z', expressions in x, "

@@ -132,11 +132,10 @@ namespace corotet
     if (dynamic)
       {
         check_supports_at_start(system, parameters, initial, log);
-        equation.set_state(initial);
-        check_inversions(
-          equation.body.elasticity.state(equation.displacement()));
         check_loads(equation, initial, parameters.start_time);
       }
+    equation.set_state(initial);
+    check_inversions(equation.body.elasticity.state(equation.displacement()));
     // Better now than after hours.
     check_loads(equation, initial, parameters.end_time);
   }
@@ -149,10 +148,11 @@ namespace corotet
     for (const auto &[region, material] : body.materials)
       {
         // With 0.499 displacements of degree 2 and 3 are good to some percent,
-        // and solvers need a few times more iterations.
+        // and solvers need a few times more iterations. That it is this number
+        // is known up to round-off.
         const double nu =
           material.lambda / (2 * (material.lambda + material.mu));
-        if (nu > 0.499)
+        if (nu > 0.499 + 1e-9)
           log.warning(fmt::format(
             "Material/Poisson's ratio: {:.9g} of region '{}' is almost that of "
             "an incompressible material: cells become too stiff, and "

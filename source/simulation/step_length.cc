@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace corotet
 {
   void
@@ -94,6 +97,20 @@ namespace corotet
     first_step  = step;
     first_done  = done;
     step_length = duration / n_steps;
+    // Times have 16 digits: so four are left for the length of a step.
+    constexpr double least = 1e-12;
+    const double     latest =
+      std::max(std::abs(parameters.start_time), std::abs(parameters.end_time));
+    if (!(step_length >= least * latest))
+      throw InputError(
+        "Time integration/Time step",
+        fmt::format(
+          "steps are lost in the round-off of times: found steps of "
+          "{:g} s and times up to {:g} s; allowed are steps of {:.3g} "
+          "s or more there",
+          step_length,
+          latest,
+          least * latest));
     warn_of_steps(n, step_length);
   }
 

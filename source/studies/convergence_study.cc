@@ -8,6 +8,7 @@
 #include <corotet/base/timing.h>
 #include <corotet/base/version.h>
 #include <corotet/base/whole_file.h>
+#include <corotet/mesh/check_mesh.h>
 #include <corotet/studies/convergence_study.h>
 #include <corotet/studies/study_table.h>
 
@@ -97,6 +98,8 @@ namespace corotet
                            command.overrides,
                            one,
                            comm);
+        if (!modes)
+          check_finest(run.simulation()->body().discretization);
         if (!modes && parameters.reference == StudyReference::finer_run &&
             run.simulation()->body().mesh.geometry_degree() > 1)
           throw InputError(
@@ -104,6 +107,34 @@ namespace corotet
             "found 'finer run' for curved cells; allowed: 'exact "
             "solution' or 'none', or straight cells");
       }
+  }
+
+  void
+  ConvergenceStudy::check_finest(const Discretization &coarsest) const
+  {
+    unsigned int most = 0;
+    for (const StudyCase &one : cases)
+      most = std::max(most, one.refinements);
+    const unsigned int further =
+      parameters.reference == StudyReference::finer_run ?
+        parameters.further_refinements :
+        0;
+    const double n_cells =
+      static_cast<double>(coarsest.n_global_cells()) *
+      std::pow(8., double(most + further) - cases.front().refinements);
+    if (n_cells > largest_number_of_cells(0))
+      throw InputError("Convergence study/Refinements",
+                       fmt::format("too many cells: found {} refinements{}, "
+                                   "which make {:.3g} cells; at most {:.3g} "
+                                   "are allowed",
+                                   most,
+                                   further > 0 ?
+                                     fmt::format(" and {} more of the finer "
+                                                 "run",
+                                                 further) :
+                                     "",
+                                   n_cells,
+                                   largest_number_of_cells(0)));
   }
 
   std::vector<std::string>

@@ -46,7 +46,7 @@ TEST(ParameterFile, KnowsWhereEntriesWereSet)
   Example           example;
   const std::string file = example.folder.write("a.prm",
                                                 "subsection Material\n"
-                                                "  set Density = 1\n"
+                                                "  # A comment.\n"
                                                 "  set Density = \\\n"
                                                 "    2\n"
                                                 "end\n"

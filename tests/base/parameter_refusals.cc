@@ -222,7 +222,10 @@ TEST(ParameterFile, RefusesTooMuch)
   Example example;
   EXPECT_EQ(example.refusal("a.prm", std::string(2000001, '\n')),
             "a.prm: it has 2000001 bytes; a parameter file may have 2000000");
-  EXPECT_EQ(example.refusal("a.prm", repeated("set a=1\n", 50001)),
+  std::string statements;
+  for (unsigned int i = 0; i < 50001; ++i)
+    statements += "set " + std::to_string(i) + "=1\n";
+  EXPECT_EQ(example.refusal("a.prm", statements),
             "a.prm:50001: there are more than 50000 statements");
   const std::string name(600, 'a');
   EXPECT_EQ(example.refusal("a.prm",

@@ -31,6 +31,9 @@ def formula_rows():
         for kind, text, *parts in kinds if number == 0 else [kinds[(2 * number + i) % len(kinds)] for i in range(2)]:
             if kind == "infinite at a point" and ("x-max" in form or "1 0 0" in form):
                 text = text.replace("1/x^2", "1/(x-1)^2")
+            if entry.startswith("Supports/"):
+                # These look at their values themselves.
+                parts = [{"found infinity": "value inf", "found not a number": "nan"}.get(part, part) for part in parts]
             yield wrong(f"{entry}, {kind}", f"{entry} = {form.format(text)}", *parts)
     for entry, value in (("Loads/Gravity", "0; 0; 1/(1-t)"), (TRACTION, "x-max: 0; 0; log(1-t)"), (PRESSURE, "x-max: sqrt(0.5-t)"),
                          ("Loads/Point forces", "1 0 0: 0; 0; 1/(t-1)"), ("Loads/Body force", "0; 0; x/(t-1)")):
@@ -120,6 +123,8 @@ def time_rows():
     yield wrong("no duration", "Time integration/End time = 0", "after the start time 0")
     yield wrong("no step", "Time integration/Time step = 0", "allowed: a positive number")
     yield wrong("too many steps", "Time integration/Time step = 1e-12", "1e+12 steps", "at most 4000000000")
+    yield wrong("steps lost in round-off", ("Time integration/Start time = 1e16", "Time integration/End time = 10000000000000002",
+                                           "Time integration/Time step = 0.01"), "round-off of times", "1e+16 s")
     yield wrong("too many stable steps", (*EXPLICIT[:2], "Time integration/End time = 1e9", EXPLICIT[2]), "stable steps", "at most 4000000000")
     yield wrong("unstable step", (*EXPLICIT[:2], "Time integration/Time step = 1"), "unstable", "stable step")
     yield wrong("largest step below the smallest", (ADAPTIVE + "Largest step = 1e-3", ADAPTIVE + "Smallest step = 1e-2"), "at most the largest step")
@@ -152,6 +157,8 @@ def exact_rows():
     free = f"{FIXED} ="
     yield wrong("exact solution, two components", (free, f"{exact} = 0; 0"), "2 components")
     yield wrong("exact solution without derivative", (free, f"{exact} = abs(x); 0; 0"), "cannot be differentiated")
+    yield wrong("exact solution, too deep", (free, f"{exact} = {100 * 'sin('}x{100 * ')'}; 0; 0"), "more than 20 deep")
+    yield wrong("exact solution, far too long", (free, f"{exact} = {1000 * 'sin('}x{1000 * ')'}; 0; 0"), "characters)", "cannot be differentiated")
     yield wrong("exact solution, not finite", (free, f"{exact} = 1/x; 0; 0"), "finite")
     yield wrong("exact solution and a load", (free, f"{exact} = x; 0; 0", "Loads/Gravity = 0; 0; -1"), "made from the exact solution")
     yield wrong("exact solution and a support", (f"{exact} = x; 0; 0", f"{FIXED} = x-min"), "made from the exact solution")
@@ -165,6 +172,10 @@ def study_rows():
     yield wrong("study: quantity that is none", (*STUDY[:4], "Convergence study/Quantities = volume: much"), "found 'volume: much'")
     yield wrong("study: degrees twice", (*STUDY[2:], STUDY[0], "Convergence study/Degrees = 1, 1"), "given twice")
     yield wrong("study: refinements decrease", (*STUDY[3:], STUDY[0], "Convergence study/Refinements = 1, 0"), "do not increase")
+    yield wrong("study: too many cells", (*STUDY[:2], *STUDY[3:], "Convergence study/Refinements = 0, 9"), "9 refinements", "at most 3e+08")
+    yield wrong("study: too many cells of the finer run", (*STUDY[:2], STUDY[4], "Convergence study/Further refinements = 3",
+                                                           "Convergence study/Reference = finer run", "Convergence study/Refinements = 0, 6"),
+                "6 refinements and 3 more of the finer run")
     yield wrong("study: steps increase", (*STUDY, "Convergence study/Time steps = 0.01, 0.02"), "do not decrease")
     yield wrong("study: no exact solution", (*STUDY[:3], STUDY[4], "Convergence study/Reference = exact solution"), "Exact solution/Displacement is empty")
     yield wrong("study: modes and an exact solution", (*STUDY[:3], STUDY[4], "Convergence study/Run = modes", "Convergence study/Reference = exact solution"),

@@ -56,6 +56,9 @@ namespace corotet
     compare_with_finer_run(StudyResult &result, const StudyRun &run);
     StudyCase
     finer_case() const;
+    /// Throws InputError if the finest mesh has too many cells.
+    void
+    check_finest(const Discretization &coarsest) const;
     void
     write(const std::vector<StudyResult> &results);
     void
