@@ -154,6 +154,12 @@ TEST(ParameterFile, RefusesDeepNesting)
   EXPECT_EQ(example.refusal("a.xml",
                             repeated("<a>", 100000) + repeated("</a>", 100000)),
             "a.xml: " + reason);
+  // Comments are no levels.
+  EXPECT_EQ(example.refusal("a.xml",
+                            "<?xml version=\"1.0\"?><ParameterHandler>" +
+                              repeated("<!-- a -->", 30) +
+                              "</ParameterHandler>"),
+            "accepted");
   EXPECT_EQ(example.refusal("a.json",
                             repeated("{\"a\":", 100000) + "1" +
                               repeated("}", 100000)),

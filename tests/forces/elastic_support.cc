@@ -209,6 +209,20 @@ TEST_P(ElasticSupportTest, MatricesAgree)
                 1e-13 * size);
 }
 
+// Units are the user's: springs that are 1e-14 times as stiff have a matrix of
+// that size, and all of them hold the body.
+TEST_P(ElasticSupportTest, SizeIsThatOfTheSprings)
+{
+  Block        weak(GetParam(), supports("z-min: 1e-14; 2e-14; 3e-14", ""));
+  Block        stiff(GetParam(), supports("z-min: 1; 2; 3", ""));
+  const auto   weak_matrix  = surface_matrix(weak, 1., 0.);
+  const auto   stiff_matrix = surface_matrix(stiff, 1., 0.);
+  const double size         = stiff_matrix.size();
+  EXPECT_GT(size, 0);
+  EXPECT_NEAR(weak_matrix.size(), 1e-14 * size, 1e-28 * size);
+  EXPECT_EQ(weak_matrix.springs().size(), stiff_matrix.springs().size());
+}
+
 // On a coarser element of the same cells S is P^T S P with the embedding P: the
 // points and their tensors are the same.
 TEST_P(ElasticSupportTest, CoarserLevels)

@@ -217,6 +217,8 @@ TEST_P(ElasticityTest, DegenerateCellsAreCounted)
   const ElasticState state =
     body.elasticity.state(body.system.equation().displacement());
   EXPECT_EQ(state.degenerate_cells, 5u);
+  // Neither side is inside out.
+  EXPECT_EQ(state.inverted_cells, 0u);
 }
 
 // The sweep of explicit dynamics does what its parts do one after another, to

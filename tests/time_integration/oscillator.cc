@@ -312,7 +312,10 @@ TEST(Oscillator, SpectralRadiusAtInfinity)
 TEST(Oscillator, LoadStepping)
 {
   LoadStepping integrator;
-  Oscillator   system;
+  // Time is no more than a parameter.
+  EXPECT_FALSE(integrator.is_dynamic());
+  EXPECT_EQ(integrator.order(), 0u);
+  Oscillator system;
   system.p    = 5;
   State state = initial_state(system, 0., 1.);
   integrator.step(system, {0.25, 0.25, 0.5}, state);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What integrators keep from one step to the next, and the balance at the end
+// of a step, on a scalar oscillator m a + c v + k u = p sin(w t).
+
+#include <corotet/base/archive.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "../integrators.h"
+#include "../oscillator.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // A checkpoint in memory.
+  class MemoryArchive : public Archive
+  {
+  public:
+    using Archive::transfer;
+
+    bool
+    is_reading() const override
+    {
+      return reading;
+    }
+
+    void
+    transfer(const std::string &name, std::string &text) override
+    {
+      if (reading)
+        text = texts.at(section + name);
+      else
+        texts[section + name] = text;
+    }
+
+    void
+    transfer(const std::string &name, Vector &vector) override
+    {
+      if (reading)
+        vector = vectors.at(section + name);
+      else
+        vectors[section + name] = vector;
+    }
+
+    bool                               reading = false;
+    std::map<std::string, std::string> texts;
+    std::map<std::string, Vector>      vectors;
+  };
+
+  // Steps first ... end - 1, which are unequal.
+  void
+  make_steps(TimeIntegrator    &integrator,
+             Oscillator        &system,
+             State             &state,
+             const unsigned int first,
+             const unsigned int end)
+  {
+    const auto time = [](const unsigned int i) {
+      return 0.1 * i + 0.003 * i * i;
+    };
+    for (unsigned int i = first; i < end; ++i)
+      integrator.step(system,
+                      {time(i), time(i + 1) - time(i), (i + 1.) / end},
+                      state);
+  }
+} // namespace
+
+// Another object that gets what the first one kept goes on to the last bit as
+// that would, whatever it did before: that is a restart.
+TEST(TimeIntegrator, GoesOnWithWhatItKept)
+{
+  for (const std::string &name : integrators_with(is_dynamic))
+    {
+      Oscillator system;
+      system.p                 = 5;
+      State      state         = initial_state(system, 1., 0.5);
+      const auto uninterrupted = make_integrator(name);
+      const auto restarted     = make_integrator(name);
+      uninterrupted->reset();
+      make_steps(*uninterrupted, system, state, 0, 5);
+
+      State other = initial_state(system, -2., 3.);
+      restarted->reset();
+      make_steps(*restarted, system, other, 0, 3);
+      restarted->reset();
+      MemoryArchive archive;
+      uninterrupted->transfer(archive);
+      archive.reading = true;
+      restarted->transfer(archive);
+
+      other = state;
+      make_steps(*uninterrupted, system, state, 5, 9);
+      make_steps(*restarted, system, other, 5, 9);
+      EXPECT_EQ(other.u.local_element(0), state.u.local_element(0)) << name;
+      EXPECT_EQ(other.v.local_element(0), state.v.local_element(0)) << name;
+    }
+}
+
+// With integrators that say so the equation of motion holds at the end of a
+// step, but for round-off, which the formulas for accelerations divide by the
+// square of the step; with others it holds in between, and at the end but for
+// terms of the step's first order.
+TEST(TimeIntegrator, BalanceAtEnd)
+{
+  for (const std::string &name : integrators_with(is_dynamic))
+    {
+      Oscillator system;
+      system.p              = 5;
+      State      state      = initial_state(system, 1., 0.5);
+      const auto integrator = make_integrator(name);
+      integrator->reset();
+      const double dt = 0.05;
+      for (unsigned int i = 0; i < 20; ++i)
+        integrator->step(system, {i * dt, dt, (i + 1) / 20.}, state);
+      const double residual =
+        std::abs(system.m * state.a.local_element(0) +
+                 system.k * state.u.local_element(0) - system.load(20 * dt));
+      if (integrator->balances_at_end())
+        EXPECT_LE(residual, 1e-15 * system.m / (dt * dt) * 10) << name;
+      else
+        EXPECT_GE(residual, 1e-3) << name;
+    }
+}
