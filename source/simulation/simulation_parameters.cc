@@ -93,10 +93,8 @@ namespace corotet
       prm.add_parameter("Displacement",
                         initial_displacement,
                         "At the start time [m]: 'x; y; z', expressions in x, "
-                        "y, z, t. On boundaries with a prescribed displacement "
-                        "it must be that; it may crush cells, but turn none "
-                        "inside out. In statics it is the first guess of "
-                        "Newton's method.");
+                        "y, z, t. It must agree with supports, and turn no "
+                        "cell inside out. Statics: the first guess.");
       prm.add_parameter("Velocity",
                         initial_velocity,
                         "At the start time [m/s]: 'x; y; z', expressions in x, "
