@@ -157,8 +157,8 @@ def exact_rows():
     free = f"{FIXED} ="
     yield wrong("exact solution, two components", (free, f"{exact} = 0; 0"), "2 components")
     yield wrong("exact solution without derivative", (free, f"{exact} = abs(x); 0; 0"), "cannot be differentiated")
-    yield wrong("exact solution, too deep", (free, f"{exact} = {100 * 'sin('}x{100 * ')'}; 0; 0"), "more than 20 deep")
-    yield wrong("exact solution, far too long", (free, f"{exact} = {1000 * 'sin('}x{1000 * ')'}; 0; 0"), "characters)", "cannot be differentiated")
+    yield wrong("exact solution, too deep", (free, f"{exact} = {101 * 'sin('}x{101 * ')'}; 0; 0"), "found parentheses 101 deep", "allowed are 100")
+    yield wrong("exact solution, far too long", (free, f"{exact} = {99 * 'sin('}x{99 * ')'}; 0; 0"), "characters)", "is no formula")
     yield wrong("exact solution, not finite", (free, f"{exact} = 1/x; 0; 0"), "finite")
     yield wrong("exact solution and a load", (free, f"{exact} = x; 0; 0", "Loads/Gravity = 0; 0; -1"), "made from the exact solution")
     yield wrong("exact solution and a support", (f"{exact} = x; 0; 0", f"{FIXED} = x-min"), "made from the exact solution")
