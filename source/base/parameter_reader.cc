@@ -117,6 +117,35 @@ namespace corotet
       Statements statements;
 
     private:
+      // What stands behind "set" in @p line.
+      void
+      assign(const std::string &line,
+             const std::string &assignment,
+             const unsigned int number,
+             const std::string &place)
+      {
+        const std::size_t equals = assignment.find('=');
+        const std::string name =
+          dealii::Utilities::trim(assignment.substr(0, equals));
+        if (equals == std::string::npos || name.empty())
+          refuse_statement(
+            place,
+            fmt::format("\"{}\" is not of the form \"set Entry = "
+                        "value\"",
+                        shortened(line)));
+        const std::string path = path_of(name);
+        const auto [first, is_new] =
+          lines_of_entries.back().emplace(path, number);
+        if (!is_new)
+          refuse_second(place,
+                        path,
+                        fmt::format(", first in line {}", first->second));
+        add_statement(statements,
+                      {path,
+                       dealii::Utilities::trim(assignment.substr(equals + 1)),
+                       place});
+      }
+
       void
       statement(std::string        line,
                 const std::string &file,
@@ -153,29 +182,7 @@ namespace corotet
             sections.pop_back();
           }
         else if (const auto assignment = behind_keyword(line, "set"))
-          {
-            const std::size_t equals = assignment->find('=');
-            const std::string name =
-              dealii::Utilities::trim(assignment->substr(0, equals));
-            if (equals == std::string::npos || name.empty())
-              refuse_statement(
-                place,
-                fmt::format("\"{}\" is not of the form \"set Entry = "
-                            "value\"",
-                            shortened(line)));
-            const std::string path = path_of(name);
-            const auto [first, is_new] =
-              lines_of_entries.back().emplace(path, number);
-            if (!is_new)
-              refuse_second(place,
-                            path,
-                            fmt::format(", first in line {}", first->second));
-            add_statement(statements,
-                          {path,
-                           dealii::Utilities::trim(
-                             assignment->substr(equals + 1)),
-                           place});
-          }
+          assign(line, *assignment, number, place);
         else if (const auto included = behind_keyword(line, "include"))
           {
             if (include_depth == max_include_depth)
