@@ -199,6 +199,38 @@ namespace corotet
         "{} of {} runs of the study have failed", n_failed, cases.size()));
   }
 
+  std::optional<StudyResult>
+  ConvergenceStudy::kept_result(const std::string &path,
+                                const Json        &problem,
+                                const StudyCase   &study_case)
+  {
+    const Json kept = Json::parse(read_file(path, comm), nullptr, false);
+    if (!kept.is_object() || !kept.contains("result") ||
+        kept.value("problem", Json()) != problem)
+      return {};
+    try
+      {
+        StudyResult result = result_from_json(study_case, kept.at("result"));
+        if (result.quantities.size() != quantities.size())
+          return {};
+        if (kept.contains("finer_quantities"))
+          for (unsigned int i = 0; i < quantities.size(); ++i)
+            if (!quantities[i].reference &&
+                kept.at("finer_quantities").at(i).is_number())
+              quantities[i].reference =
+                kept.at("finer_quantities").at(i).get<double>();
+        return result;
+      }
+    catch (const Json::exception &)
+      {}
+    catch (const std::logic_error &)
+      {
+        // A text that is no number.
+      }
+    log.warning(path + ": the result is damaged; the run is made again");
+    return {};
+  }
+
   StudyResult
   ConvergenceStudy::result_of(const StudyCase &study_case)
   {
@@ -216,20 +248,8 @@ namespace corotet
                              name_of(study_references, parameters.reference);
     problem["ranks"]     = dealii::Utilities::MPI::n_mpi_processes(comm);
 
-    const Json kept =
-      Json::parse(read_file(path + ".json", comm), nullptr, false);
-    if (kept.is_object() && kept.contains("result") &&
-        kept.value("problem", Json()) == problem)
-      {
-        StudyResult result = result_from_json(study_case, kept.at("result"));
-        if (kept.contains("finer_quantities"))
-          for (unsigned int i = 0; i < quantities.size(); ++i)
-            if (!quantities[i].reference &&
-                kept.at("finer_quantities").at(i).is_number())
-              quantities[i].reference =
-                kept.at("finer_quantities").at(i).get<double>();
-        return result;
-      }
+    if (const auto kept = kept_result(path + ".json", problem, study_case))
+      return *kept;
 
     StudyResult result = run->compute(path, command.restart, false);
     Json        file{{"problem", problem}};

@@ -96,6 +96,23 @@ class Studies(ProgramTest):
         self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2")
         self.assertNotEqual(float(self.rows()[0]["L2_error"]), 0.125)
 
+    def test_damaged_result(self):
+        """A kept result that is none is named, and the run is made again."""
+        self.study(EXACT, "--set", "Convergence study/Refinements = 0")
+        undisturbed = [float(row["L2_error"]) for row in self.rows()]
+        kept = self.folder / "out" / "rows" / "degree_1_refinements_0.json"
+        whole = kept.read_text(encoding="utf-8")
+        for key, value in (("errors", []), ("cells", "many"), ("quantities", ["much"]), ("wall_times", 1)):
+            result = json.loads(whole)
+            result["result"][key] = value
+            kept.write_text(json.dumps(result), encoding="utf-8")
+            run = self.study(EXACT, "--restart", "--set", "Convergence study/Refinements = 0")
+            self.assertIn("rows/degree_1_refinements_0.json: the result is damaged; the run is made again", run.stdout, key)
+            for row, error in zip(self.rows(), undisturbed, strict=True):
+                # To round-off: memory may be aligned otherwise.
+                self.assertAlmostEqual(float(row["L2_error"]) / error, 1, delta=1e-12)
+            self.assertEqual(json.loads(kept.read_text(encoding="utf-8"))["result"].keys(), result["result"].keys())
+
     def test_restart_within_a_run(self):
         """The run that is under way goes on from its checkpoint; results are those of a study that nobody has disturbed."""
         moving = {"Time integration/Type": "backward Euler", "Time integration/Time step": "0.25", "Exact solution/Displacement": "",

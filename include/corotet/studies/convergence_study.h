@@ -10,6 +10,7 @@
 #include <corotet/studies/study_run.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,12 @@ namespace corotet
     run(const std::string &directory);
 
   private:
+    /// What is kept in the file @p path, if that is of the same problem. Warns
+    /// of one that is damaged.
+    std::optional<StudyResult>
+    kept_result(const std::string            &path,
+                const nlohmann::ordered_json &problem,
+                const StudyCase              &study_case);
     /// From its file, or by running it.
     StudyResult
     result_of(const StudyCase &study_case);
