@@ -16,6 +16,7 @@ import collections
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import sys
@@ -24,6 +25,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 
 from checkpoints import KINDS, Checkpoints, Run, rows_without_time
+from support import read_history
 
 
 def kill_many(test, n):
@@ -88,29 +90,27 @@ def damage_many(test, n):
 
 
 def stop_many(test, n):
-    """Sends SIGTERM to runs at random moments: of some kinds, on 1 and 2 ranks."""
-    longest, stopped = 0, 0
+    """Sends SIGTERM to a rank of long runs of all kinds on 1 and 2 ranks, at random moments after their first checkpoint."""
+    longest = 0
     for number in range(n):
-        kind = random.choice(list(KINDS))
-        run = Run(test.folder / f"stop_{number}", kind, random.choice((1, 2)))
+        kind = list(KINDS)[number % len(KINDS)]
+        long = {"Time integration/static/Load steps": "100000"} if kind == "static" else {"Time integration/End time": "1e4"}
+        run = Run(test.folder / f"stop_{number}", kind, 1 + number // len(KINDS) % 2, long)
         process = run.start()
-        time.sleep(random.uniform(0.3, 1.5))
-        ranks = run.processes()
+        while process.poll() is None and not list((run.output / "checkpoint").glob("*.json")):
+            time.sleep(0.01)
+        time.sleep(random.uniform(0, 0.5))
         start = time.monotonic()
-        for pid in ranks[-1:]:
-            try:
-                os.kill(pid, signal.SIGTERM)
-            except ProcessLookupError:
-                pass
+        os.kill(run.processes()[-1], signal.SIGTERM)
         _, errors = process.communicate(timeout=60)
-        if ranks and process.returncode == 4:
-            stopped += 1
-            longest = max(longest, time.monotonic() - start)
-        elif process.returncode not in (0, 128 + signal.SIGTERM, -signal.SIGTERM):
-            test.fail(f"{kind}: status {process.returncode}: {errors}")
-        test.assertEqual(run.finish("--restart", "--set", "Output/Overwrite = true")[0], 0, kind)
+        longest = max(longest, time.monotonic() - start)
+        test.assertEqual(process.returncode, 4, f"{kind}: {errors}")
+        # The last row is that of the state which is saved.
+        step = re.search(r"stopped: step (\d+) .*SIGTERM; the run is saved", errors).group(1)
+        test.assertTrue(list((run.output / "checkpoint").glob(f"*_{int(step):06}.json")), f"{kind}: {errors}")
+        test.assertLessEqual(int(read_history(run.output)[-1]["step"]), int(step))
         shutil.rmtree(run.folder)
-    print(f"{stopped} of {n} runs stopped by SIGTERM before their end: at most {longest:.2f} s")
+    print(f"{n} runs stopped by SIGTERM, all saved: at most {longest:.2f} s")
 
 
 def main():
