@@ -165,6 +165,24 @@ TEST(CheckMesh, DuplicateNodes)
     }
 }
 
+// The same with a gap: what counts is its width over the length of edges.
+TEST(CheckMesh, GapsInBodiesOfAnySize)
+{
+  for (const double size : {1e-9, 1., 1e9})
+    for (const double gap : {1e-7, 1e-9})
+      {
+        SerialMesh mesh = two_cells();
+        mesh.vertices.insert(mesh.vertices.end(),
+                             {{0, 0, -gap}, {1, 0, -gap}, {0, 1, -gap}});
+        mesh.cells[1].vertices = {{5, 7, 6, 4}};
+        for (dealii::Point<3> &p : mesh.vertices)
+          p *= size;
+        EXPECT_EQ(message(mesh).find("duplicate nodes") != std::string::npos,
+                  gap < 1e-8)
+          << size << ": " << message(mesh);
+      }
+}
+
 // Below the interface the edge from (1,0,0) to (0,1,0) is cut in two.
 TEST(CheckMesh, HangingNodeOnAnEdge)
 {
