@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -81,11 +82,87 @@ namespace corotet
 
 
 
+    bool
+    is_digit(const char c)
+    {
+      return std::isdigit(static_cast<unsigned char>(c)) != 0;
+    }
+
+
+
+    bool
+    is_number(const GiNaC::ex &part)
+    {
+      if (!GiNaC::is_a<GiNaC::symbol>(part))
+        return false;
+      const std::string name = GiNaC::ex_to<GiNaC::symbol>(part).get_name();
+      return is_digit(name[0]) || name[0] == '.';
+    }
+
+
+
+    // The value of @p part, if it is made of a few short numbers by +, - , *
+    // and / alone: powers of numbers may be of any size.
+    std::optional<GiNaC::ex>
+    short_constant(const GiNaC::ex &part, unsigned int &n_left)
+    {
+      if (n_left == 0)
+        return {};
+      --n_left;
+      if (GiNaC::is_a<GiNaC::numeric>(part))
+        return part;
+      if (is_number(part))
+        {
+          constexpr std::size_t most = 6;
+          const std::string name = GiNaC::ex_to<GiNaC::symbol>(part).get_name();
+          if (name.size() > most ||
+              name.find_first_of("eE") != std::string::npos)
+            return {};
+          return GiNaC::numeric(name.c_str());
+        }
+      if (GiNaC::is_a<GiNaC::power>(part) && part.op(1).is_equal(-1))
+        {
+          const auto value = short_constant(part.op(0), n_left);
+          if (!value || value->is_zero())
+            return {};
+          return 1 / *value;
+        }
+      const bool is_sum = GiNaC::is_a<GiNaC::add>(part);
+      if (!is_sum && !GiNaC::is_a<GiNaC::mul>(part))
+        return {};
+      GiNaC::ex result = is_sum ? 0 : 1;
+      for (std::size_t i = 0; i < part.nops(); ++i)
+        if (const auto value = short_constant(part.op(i), n_left))
+          result = is_sum ? result + *value : result * *value;
+        else
+          return {};
+      return result;
+    }
+
+
+
+    // Exponents as the numbers that they are: then the derivative of x^2 is 2*x
+    // and not x^2*2/x, which is none at zero.
+    struct ExponentsAsNumbers : public GiNaC::map_function
+    {
+      GiNaC::ex
+      operator()(const GiNaC::ex &formula) override
+      {
+        const GiNaC::ex mapped = formula.map(*this);
+        if (!GiNaC::is_a<GiNaC::power>(mapped))
+          return mapped;
+        unsigned int n_left   = 20;
+        const auto   exponent = short_constant(mapped.op(1), n_left);
+        return exponent ? GiNaC::pow(mapped.op(0), *exponent) : mapped;
+      }
+    };
+
+
+
     /**
      * A formula as GiNaC is to read it: numbers are symbols, which are named
      * by their text. GiNaC computes with numbers at once and exactly, so
-     * 9^9^9^9 would fill any machine. Only exponents of one or two digits are
-     * left numbers, so that the derivative of x^2 is 2*x and not x^2*2/x.
+     * 9^9^9^9 would fill any machine.
      */
     class SymbolicFormula
     {
@@ -106,17 +183,12 @@ namespace corotet
       GiNaC::ex
       read() const
       {
-        GiNaC::parser parser(table, true);
-        return parser(text);
+        GiNaC::parser      parser(table, true);
+        ExponentsAsNumbers with_exponents;
+        return with_exponents(parser(text));
       }
 
     private:
-      static bool
-      is_digit(const char c)
-      {
-        return std::isdigit(static_cast<unsigned char>(c)) != 0;
-      }
-
       static bool
       is_letter(const char c)
       {
@@ -160,36 +232,14 @@ namespace corotet
         if (result.ec != std::errc())
           throw std::runtime_error("it has a number that is none, or is too "
                                    "large or too small");
-        const std::size_t end    = begin + (result.ptr - first);
-        const std::string number = formula.substr(begin, end - begin);
-        if (is_small_exponent(begin, end))
-          text += number;
-        else
-          {
-            const std::string name     = fmt::format("number_{}", table.size());
-            const auto [place, is_new] = numbers.emplace(number, name);
-            if (is_new)
-              table[name] = GiNaC::symbol(number);
-            text += place->second;
-          }
+        const std::size_t end      = begin + (result.ptr - first);
+        const std::string number   = formula.substr(begin, end - begin);
+        const std::string name     = fmt::format("number_{}", table.size());
+        const auto [place, is_new] = numbers.emplace(number, name);
+        if (is_new)
+          table[name] = GiNaC::symbol(number);
+        text += place->second;
         return end;
-      }
-
-      // Whether a number stands right behind ^ or ^-, or is the last argument
-      // of pow, and nothing makes another number of it.
-      bool
-      is_small_exponent(const std::size_t begin, const std::size_t end) const
-      {
-        std::size_t before = text.find_last_not_of(" \t");
-        if (before != std::string::npos && before > 0 && text[before] == '-')
-          before = text.find_last_not_of(" \t", before - 1);
-        if (before == std::string::npos || end - begin > 4 ||
-            formula.find_first_of("eE", begin) < end)
-          return false;
-        const std::size_t next = formula.find_first_not_of(" \t", end);
-        const char after = next == std::string::npos ? ' ' : formula[next];
-        return (text[before] == '^' && after != '^') ||
-               (text[before] == ',' && after == ')');
       }
 
       const std::string                 &formula;

@@ -128,6 +128,31 @@ TEST(Differentiation, NumbersStayAsTheyAre)
             0.);
 }
 
+// Exponents that are constants are numbers, however they are written:
+// derivatives of powers above one are zero where the base is.
+TEST(Differentiation, PowersOfZero)
+{
+  for (const auto &[formula, exponent] :
+       {std::pair("x^2", 2.),
+        std::pair("x^(2)", 2.),
+        std::pair("x^( 1 + 1 )", 2.),
+        std::pair("x^(-1+3)", 2.),
+        std::pair("x^(3/2)", 1.5),
+        std::pair("x^1.50", 1.5),
+        std::pair("pow(x, 3/2)", 1.5),
+        std::pair("pow(x, (5 - 2)/(4*0.5))", 1.5)})
+    {
+      EXPECT_NEAR(derivative(formula, {"x"}),
+                  exponent * std::pow(p[0], exponent - 1),
+                  round_off)
+        << formula;
+      EXPECT_EQ(Expression(differentiate(formula, {"x"}, ""), 1, "Entry")
+                  .value({0, 1, 1}, t, 0),
+                0.)
+        << formula;
+    }
+}
+
 TEST(Differentiation, RefusesTooMuch)
 {
   const auto nested = [](const std::string &start, const unsigned int n) {
