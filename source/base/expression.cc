@@ -152,11 +152,11 @@ namespace corotet
     }
   } // namespace
 
-  // The compiled components and the variables that they read.
   namespace
   {
+    // Of any expression of this process, on this rank.
     std::optional<NotFinite> first_not_finite;
-  }
+  } // namespace
 
   std::optional<NotFinite>
   take_not_finite(const MPI_Comm comm)
@@ -176,6 +176,7 @@ namespace corotet
     return NotFinite{texts.first, texts.second};
   }
 
+  // The compiled components and the variables that they read.
   struct Expression::Formulas
   {
     Formulas(const unsigned int    n_components,

@@ -50,6 +50,15 @@ namespace corotet
     return pairs;
   }
 
+  void
+  refuse_second_boundary(const std::string &entry, const std::string &name)
+  {
+    throw InputError(entry,
+                     fmt::format("found boundary '{}' twice; allowed: each "
+                                 "boundary once",
+                                 name));
+  }
+
   std::optional<dealii::Point<3>>
   point_of(const std::string &text)
   {

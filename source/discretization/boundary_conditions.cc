@@ -99,10 +99,7 @@ namespace corotet
         const unsigned int boundary = names.id(name, entry);
         for (const SurfaceLoad &other : tractions)
           if (other.boundary == boundary)
-            throw InputError(entry,
-                             fmt::format("found boundary '{}' twice; allowed: "
-                                         "each boundary once",
-                                         names.name(boundary)));
+            refuse_second_boundary(entry, names.name(boundary));
         tractions.push_back({boundary, Expression(value, 3, entry, tables)});
         const auto components = split_outside_brackets(value, ';');
         for (unsigned int a = 0; a < 3; ++a)

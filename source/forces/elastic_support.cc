@@ -195,12 +195,9 @@ namespace corotet
       std::set<unsigned int> known;
       for (const auto &[boundary, value] : named_values(text, entry))
         {
-          if (!known.insert(names.id(boundary, entry)).second)
-            throw InputError(entry,
-                             fmt::format("found boundary '{}' twice; allowed: "
-                                         "each boundary once",
-                                         names.name(
-                                           names.id(boundary, entry))));
+          if (const unsigned int id = names.id(boundary, entry);
+              !known.insert(id).second)
+            refuse_second_boundary(entry, names.name(id));
           SurfaceCoefficient coefficient(
             context, boundary, value, direction, entry);
           if (!coefficient.is_zero())

@@ -134,9 +134,7 @@ namespace corotet
     void
     check_place(const fs::path &directory)
     {
-      fs::path place = fs::absolute(directory);
-      while (!fs::exists(place) && place.has_relative_path())
-        place = place.parent_path();
+      const fs::path place = existing_place(directory);
       if (!fs::is_directory(place))
         throw InputError(directory_entry,
                          "the output directory '" +
@@ -206,5 +204,14 @@ namespace corotet
       for (const fs::path &file : old)
         fs::remove(file);
     });
+  }
+
+  fs::path
+  existing_place(const fs::path &directory)
+  {
+    fs::path place = fs::absolute(directory);
+    while (!fs::exists(place) && place.has_relative_path())
+      place = place.parent_path();
+    return place;
   }
 } // namespace corotet

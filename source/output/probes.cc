@@ -78,6 +78,7 @@ namespace corotet
                             mpi::max(upper[c], discretization.communicator()));
       return text;
     }
+
     // To the nearest one [m]. Collective.
     double
     distance_to_nodes(const Point<3> &x, const Discretization &discretization)

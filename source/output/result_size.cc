@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/mpi.h>
+#include <corotet/output/output_directory.h>
 #include <corotet/output/result_size.h>
 
 #include <fmt/format.h>
@@ -28,35 +29,25 @@ namespace corotet
       return {n_all, std::min(n_intended, n_all)};
     }
 
+    // Of so many rows and states at least [byte].
     double
-    free_space(const std::string &directory)
+    size_of_records(const OutputParameters &parameters,
+                    const Discretization   &discretization,
+                    const double            n_rows,
+                    const double            n_states)
     {
-      namespace fs   = std::filesystem;
-      fs::path place = fs::absolute(directory);
-      while (!fs::exists(place) && place.has_relative_path())
-        place = place.parent_path();
-      return static_cast<double>(fs::space(place).available);
+      // Numbers of 64 bits: displacement and velocity, and three of each cell;
+      // with stress at nodes, two tensors there. Those of a row are text, of 12
+      // characters or more where they are not zero.
+      const double of_node =
+        8 * (6 + (parameters.has_stress_at_nodes() ? 12 : 0));
+      const double of_cell = 8 * 3;
+      const double of_row  = 12 * 20;
+      return n_rows * of_row +
+             n_states * (of_node * discretization.n_global_nodes() +
+                         of_cell * discretization.n_global_cells());
     }
   } // namespace
-
-  double
-  estimated_size(const OutputParameters &parameters,
-                 const Discretization   &discretization,
-                 const double            n_steps,
-                 const double            duration)
-  {
-    // Numbers of 64 bits: displacement and velocity, and three of each cell;
-    // with stress at nodes, two tensors there. Those of a row are text, of 12
-    // characters or more where they are not zero.
-    const double of_node =
-      8 * (6 + (parameters.has_stress_at_nodes() ? 12 : 0));
-    const double of_cell = 8 * 3;
-    const double of_row  = 12 * 20;
-    const auto [rows, states] =
-      numbers_of_records(parameters, n_steps, duration);
-    return rows * of_row + states * (of_node * discretization.n_global_nodes() +
-                                     of_cell * discretization.n_global_cells());
-  }
 
   void
   warn_of_size(const OutputParameters &parameters,
@@ -68,14 +59,16 @@ namespace corotet
   {
     constexpr double gigabyte = 1e9;
     constexpr double many     = 100 * gigabyte;
-    const double     size =
-      estimated_size(parameters, discretization, n_steps, duration);
-    const double free = from_root(discretization.communicator(),
-                                  [&] { return free_space(directory); });
-    if (size <= std::min(many, free))
-      return;
     const auto [rows, states] =
       numbers_of_records(parameters, n_steps, duration);
+    const double size =
+      size_of_records(parameters, discretization, rows, states);
+    const double free = from_root(discretization.communicator(), [&] {
+      return static_cast<double>(
+        std::filesystem::space(existing_place(directory)).available);
+    });
+    if (size <= std::min(many, free))
+      return;
     log.warning(fmt::format(
       "Output: results will have some {:.3g} GB, and the disk has {:.3g} GB "
       "left: {:.3g} rows of history.csv and {:.3g} states of solution.vtkhdf; "

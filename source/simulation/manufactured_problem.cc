@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/forces/body_force.h>
 #include <corotet/forces/traction.h>
@@ -74,10 +75,7 @@ namespace corotet
           const std::string  entry = "Exact solution/Displacement boundary";
           const unsigned int id    = boundaries.id(name, entry);
           if (!ids.insert(id).second)
-            throw InputError(entry,
-                             fmt::format("found boundary '{}' twice; allowed: "
-                                         "each boundary once",
-                                         boundaries.name(id)));
+            refuse_second_boundary(entry, boundaries.name(id));
         }
     return ids;
   }

@@ -36,6 +36,17 @@ class CommandLine(ProgramTest):
             self.assertIn(f"{case}: valid", run.stdout)
         self.assertEqual(list(self.folder.iterdir()), [], "--validate must not leave anything behind")
 
+    def test_warning_of_large_results(self):
+        # Rows of 12 characters for each of 20 columns, at least.
+        for steps, size in ((1e3, None), (1e9, "240"), (2e9, "480")):
+            run = self.run_program(ROOT / "parameters" / "cantilever.prm", "--validate", "--set", "Time integration/End time = 1",
+                                   "--set", f"Time integration/Time step = {1 / steps!r}")
+            if size:
+                self.assertRegex(run.stdout, f"warning: Output: results will have some {size} GB, and the disk has .* GB left: {steps:.3g} rows "
+                                 .replace("+", r"\+"))
+            else:
+                self.assertNotIn("results will have", run.stdout)
+
     def test_quiet(self):
         run = self.run_program(ROOT / "parameters" / "gravity_linear.prm", "--quiet", "--output", "results")
         self.assertEqual(run.stdout, "")

@@ -31,6 +31,11 @@ namespace corotet
     const std::string &entry,
     const std::string &allowed = "'boundary: value, boundary: value'");
 
+  /// Throws the InputError, blamed on @p entry, about a list that has the
+  /// boundary @p name twice.
+  [[noreturn]] void
+  refuse_second_boundary(const std::string &entry, const std::string &name);
+
   /// The point whose coordinates @p text is, "x y z"; none if it is anything
   /// but three finite numbers.
   std::optional<dealii::Point<3>>

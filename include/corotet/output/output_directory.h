@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 
+#include <filesystem>
 #include <string>
 
 namespace corotet
@@ -33,6 +34,11 @@ namespace corotet
   check_output_directory(const std::string &directory,
                          const bool         overwrite,
                          const MPI_Comm     comm);
+
+  /// @p directory, or if there is none the innermost folder (or what else)
+  /// that it would be made in. On this rank.
+  std::filesystem::path
+  existing_place(const std::filesystem::path &directory);
 } // namespace corotet
 
 #endif

@@ -13,18 +13,9 @@
 namespace corotet
 {
   /**
-   * Bytes that the results of a run of so many steps [-] and so many seconds
-   * will have at least: rows of the history and states of the time series.
-   */
-  double
-  estimated_size(const OutputParameters &parameters,
-                 const Discretization   &discretization,
-                 const double            n_steps,
-                 const double            duration);
-
-  /**
-   * Warns if results will be larger than the room on their disk, or than 100
-   * GB. Collective.
+   * Warns if the results of a run of so many steps [-] and @p duration seconds,
+   * rows of the history and states of the time series, will be larger than the
+   * room on the disk of @p directory, or than 100 GB. Collective.
    */
   void
   warn_of_size(const OutputParameters &parameters,
