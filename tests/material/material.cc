@@ -73,7 +73,7 @@ TEST(Material, TangentIsDerivativeOfStress)
 
 namespace
 {
-  const MeshNames two_regions("region", {{1, "steel"}, {7, "rubber"}});
+  const MeshNames two_regions("region", {{{1, "steel"}, {7, "rubber"}}, {}});
 
   std::string
   material_refusal(const std::string &entry, const std::string &value)

@@ -24,7 +24,7 @@ namespace
       x = map(x);
     std::set<std::string> result;
     for (const unsigned int id : faceted_boundaries(mesh))
-      result.insert(id == no_boundary ? "none" : mesh.boundary_names.at(id));
+      result.insert(id == no_boundary ? "none" : mesh.boundaries.names.at(id));
     return result;
   }
 
@@ -78,6 +78,25 @@ TEST(Facets, OfPolyhedra)
       << angle;
 }
 
+// Three narrow sides, one that has vertices inside, and three narrow ones: no
+// four narrow sides follow each other.
+TEST(Facets, OfSidesThatAWideOneSeparates)
+{
+  const double corners[] = {0, 1, 2, 3, 5, 6, 7, 8};
+  EXPECT_EQ(curved(box("8, 1, 1", "8, 2, 2"),
+                   [&](const Point<3> &x) {
+                     const auto *next =
+                       std::upper_bound(corners, corners + 7, x[0] + 1e-10);
+                     const double begin = *(next - 1);
+                     return bent({next - corners - 1 +
+                                    (x[0] - begin) / (*next - begin),
+                                  x[1],
+                                  x[2]},
+                                 20);
+                   }),
+            none);
+}
+
 // A remark names the boundaries, and says what to do; once.
 TEST(Facets, Remark)
 {
@@ -85,7 +104,7 @@ TEST(Facets, Remark)
   remark_facets(mesh, {});
   EXPECT_TRUE(mesh.remarks.empty());
   std::set<unsigned int> boundaries{no_boundary};
-  for (const auto &[id, name] : mesh.boundary_names)
+  for (const auto &[id, name] : mesh.boundaries.names)
     if (name == "z-min")
       boundaries.insert(id);
   remark_facets(mesh, boundaries);

@@ -127,7 +127,7 @@ namespace test_output
               cell.region = 2 * i < nx ? 7 : 8;
               mesh.cells.push_back(cell);
             }
-    mesh.region_names = {{7, "left"}, {8, "right"}};
+    mesh.regions.names = {{7, "left"}, {8, "right"}};
     return mesh;
   }
 

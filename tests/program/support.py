@@ -58,10 +58,20 @@ def parameter_text(entries):
     return "\n".join(lines) + "\n"
 
 
+@functools.cache
+def sessions():
+    """A folder for what launchers keep while they run."""
+    return tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+
+
 def launcher(ranks):
-    """The words before a program that start it on so many ranks."""
+    """The words before a program that start it on so many ranks, once."""
+    if ranks == 1:
+        return []
+    # What mpirun leaves behind when it is killed must not meet a later one with the same process id.
+    session = tempfile.mkdtemp(dir=sessions().name)
     # The last word is a number of ranks.
-    return [] if ranks == 1 else [*shlex.split(os.environ["COROTET_MPIRUN"])[:-1], str(ranks)]
+    return ["env", f"TMPDIR={session}", *shlex.split(os.environ["COROTET_MPIRUN"])[:-1], str(ranks)]
 
 
 @functools.cache

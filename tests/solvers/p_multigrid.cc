@@ -46,7 +46,7 @@ namespace
           x += mesh.vertices[v][0] / 4;
         cell.region = x < 5 ? 1 : 2;
       }
-    mesh.region_names = {{1, "left"}, {2, "right"}};
+    mesh.regions.names = {{1, "left"}, {2, "right"}};
     return mesh;
   }
 
