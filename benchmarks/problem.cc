@@ -82,7 +82,7 @@ namespace corotet::benchmarks
           x += mesh.vertices[vertex][0] / 4;
         cell.region = x > end / 2;
       }
-    mesh.region_names = {{0, "clamped"}, {1, "free"}};
+    mesh.regions.names = {{0, "clamped"}, {1, "free"}};
     return mesh;
   }
 

@@ -96,51 +96,69 @@ namespace corotet
     entry = section + "Traction";
     for (const auto &[name, value] : named_values(parameters.traction, entry))
       {
-        const unsigned int boundary = names.id(name, entry);
-        for (const SurfaceLoad &other : tractions)
-          if (other.boundary == boundary)
-            refuse_second_boundary(entry, names.name(boundary));
-        tractions.push_back({boundary, Expression(value, 3, entry, tables)});
+        add(tractions, name, Expression(value, 3, entry, tables), entry);
         const auto components = split_outside_brackets(value, ';');
         for (unsigned int a = 0; a < 3; ++a)
           if (!Expression(components[a], 1, entry, tables).is_zero())
-            claim({boundary}, a, entry);
+            claim(find(name, entry), a, entry);
       }
 
     entry = section + "Pressure";
     for (const auto &[name, value] : named_values(parameters.pressure, entry))
       {
-        const unsigned int boundary = names.id(name, entry);
-        pressures.push_back({boundary, Expression(value, 1, entry, tables)});
+        add(pressures, name, Expression(value, 1, entry, tables), entry);
         for (unsigned int a = 0; a < 3; ++a)
-          claim({boundary}, a, entry);
+          claim(find(name, entry), a, entry);
       }
   }
 
   std::string
-  BoundaryConditions::name(const std::vector<unsigned int> &boundaries) const
+  BoundaryConditions::name(
+    const std::set<std::vector<unsigned int>> &boundaries) const
   {
     std::vector<std::string> words;
-    for (const unsigned int boundary : boundaries)
+    for (const std::vector<unsigned int> &boundary : boundaries)
       words.push_back(names.name(boundary));
     return join(words, " & ");
   }
 
-  std::vector<unsigned int>
+  std::set<std::vector<unsigned int>>
   BoundaryConditions::find(const std::string &text,
                            const std::string &entry) const
   {
-    std::set<unsigned int> boundaries;
+    std::set<std::vector<unsigned int>> boundaries;
     for (const std::string &name : split_outside_brackets(text, '&'))
-      boundaries.insert(names.id(dealii::Utilities::trim(name), entry));
-    return {boundaries.begin(), boundaries.end()};
+      boundaries.insert(names.ids(dealii::Utilities::trim(name), entry));
+    return boundaries;
   }
 
   void
-  BoundaryConditions::claim(const std::vector<unsigned int> &boundaries,
-                            const unsigned int               component,
-                            const std::string               &entry)
+  BoundaryConditions::add(std::vector<SurfaceLoad> &loads,
+                          const std::string        &name,
+                          const Expression         &value,
+                          const std::string        &entry) const
   {
+    for (const unsigned int boundary : names.ids(name, entry))
+      {
+        for (const SurfaceLoad &other : loads)
+          if (other.boundary == boundary)
+            refuse_second_boundary(entry, names.name(boundary));
+        loads.push_back({boundary, value});
+      }
+  }
+
+  void
+  BoundaryConditions::claim(
+    const std::set<std::vector<unsigned int>> &boundaries,
+    const unsigned int                         component,
+    const std::string                         &entry)
+  {
+    if (boundaries.size() == 1 && boundaries.begin()->size() > 1)
+      {
+        for (const unsigned int id : *boundaries.begin())
+          claim({{id}}, component, entry);
+        return;
+      }
     std::string &owner = claims[boundaries][component];
     if (!owner.empty())
       throw InputError(

@@ -66,14 +66,16 @@ namespace corotet
     std::vector<unsigned char> is_common(discretization.n_local_nodes(), 1);
     Vector                     marks;
     discretization.initialize_vector(marks);
-    for (const unsigned int boundary : condition.boundaries)
+    for (const std::vector<unsigned int> &boundary : condition.boundaries)
       {
         // A node may lie on a boundary with none of the owned cells that touch
         // it having a face there: mark through the vector, whose exchange
         // brings the news from the rank that has the face.
         marks = 0;
         for (const BoundaryFace &face : discretization.boundary_faces())
-          if (face.boundary == boundary)
+          if (std::binary_search(boundary.begin(),
+                                 boundary.end(),
+                                 face.boundary))
             for (const unsigned int i : reference.face_nodes[face.face])
               marks.local_element(3 * discretization.cell_nodes(face.cell)[i]) =
                 1;

@@ -20,12 +20,12 @@ namespace corotet
   using dealii::Tensor;
 
   SurfaceCoefficient::SurfaceCoefficient(const ForceContext &context,
-                                         const std::string  &boundary,
+                                         const unsigned int  boundary,
                                          const std::string  &text,
                                          const Direction     direction,
                                          const std::string  &entry)
     : discretization(context.discretization)
-    , boundary(discretization.mesh().boundaries().id(boundary, entry))
+    , boundary(boundary)
     , value(text, direction == Direction::axes ? 3 : 1, entry, context.tables)
     , direction(direction)
     , entry(entry)
@@ -194,15 +194,15 @@ namespace corotet
       const MeshNames       &names = context.discretization.mesh().boundaries();
       std::set<unsigned int> known;
       for (const auto &[boundary, value] : named_values(text, entry))
-        {
-          if (const unsigned int id = names.id(boundary, entry);
-              !known.insert(id).second)
-            refuse_second_boundary(entry, names.name(id));
-          SurfaceCoefficient coefficient(
-            context, boundary, value, direction, entry);
-          if (!coefficient.is_zero())
-            add(std::move(coefficient));
-        }
+        for (const unsigned int id : names.ids(boundary, entry))
+          {
+            if (!known.insert(id).second)
+              refuse_second_boundary(entry, names.name(id));
+            SurfaceCoefficient coefficient(
+              context, id, value, direction, entry);
+            if (!coefficient.is_zero())
+              add(std::move(coefficient));
+          }
     };
     const auto add_springs = [&](SurfaceCoefficient &&stiffness) {
       terms.add(std::make_unique<ElasticSupport>(std::move(stiffness)));

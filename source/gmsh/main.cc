@@ -11,7 +11,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <new>
 #include <string>
 
@@ -39,7 +38,7 @@ int
 main(const int argc, char **argv)
 {
   using namespace corotet;
-  if (argc != 8)
+  if (argc != 9)
     {
       std::fputs("corotet-gmsh is started by corotet, which reads meshes "
                  "through it.\n",
@@ -47,15 +46,15 @@ main(const int argc, char **argv)
       return 1;
     }
   GmshRequest request;
-  request.path = argv[1];
-  request.is_geometry =
-    std::filesystem::path(request.path).extension() != ".msh";
+  request.path                   = argv[1];
   request.element_size           = std::atof(argv[2]);
   request.degree                 = std::atoi(argv[3]);
   request.n_refinements          = std::atoi(argv[4]);
   request.max_n_cells            = std::atof(argv[5]);
   const std::string   folder     = argv[6];
   const std::uint64_t max_memory = std::strtoull(argv[7], nullptr, 10);
+  request.format                 = argv[8];
+  request.is_geometry            = request.format != "msh";
 
   // Whatever gmsh prints must not be taken for the result.
   const int result = dup(STDOUT_FILENO);

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "shapes.h"
+
 namespace corotet::gmsh_program
 {
   namespace
@@ -119,7 +121,6 @@ namespace corotet::gmsh_program
     void
     generate(const double element_size)
     {
-      // After the file, which may set them too.
       gmsh::option::setNumber("Mesh.ElementOrder", 1);
       if (element_size > 0)
         {
@@ -149,10 +150,15 @@ namespace corotet::gmsh_program
   GmshModel
   make_model(const GmshRequest &request)
   {
-    gmsh::open(request.path);
-    GmshModel model;
+    GmshModel  model;
+    const bool has_shapes = request.is_geometry && request.format != "geo";
+    if (has_shapes)
+      model.groups = read_shapes(request);
+    else
+      gmsh::open(request.path);
     if (request.is_geometry)
       {
+        // After the file, which may set the size, too.
         generate(request.element_size);
         model.is_too_large = n_cells() > request.max_n_cells;
         if (!model.is_too_large)
@@ -168,9 +174,10 @@ namespace corotet::gmsh_program
     if (model.is_too_large)
       return model;
 
-    model.groups = groups(3);
-    for (GmshModel::Group &group : groups(2))
-      model.groups.push_back(group);
+    if (!has_shapes)
+      for (const int dimension : {3, 2})
+        for (const GmshModel::Group &group : groups(dimension))
+          model.groups.push_back(group);
     model.volumes = elements(3, tetrahedra);
     // Triangles with 3, 6 and 10 nodes.
     model.surfaces        = elements(2, std::vector<int>{2, 9, 21});

@@ -51,12 +51,12 @@ namespace corotet
       for (const auto &[region, number] : named_values(
              text, entry, "a number for all regions, or 'region: number, ...'"))
         {
-          const unsigned int id    = regions.id(region, entry);
-          const double       value = parse_number(number, entry);
-          if (!values.emplace(id, value).second)
-            throw InputError(entry,
-                             fmt::format("region '{}' has two values",
-                                         regions.name(id)));
+          const double value = parse_number(number, entry);
+          for (const unsigned int id : regions.ids(region, entry))
+            if (!values.emplace(id, value).second)
+              throw InputError(entry,
+                               fmt::format("region '{}' has two values",
+                                           regions.name(id)));
         }
       for (const auto &[id, name] : regions.all())
         if (values.count(id) == 0)

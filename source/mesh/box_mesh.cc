@@ -116,13 +116,13 @@ namespace corotet
     // deal.II numbers the octants.
     for (SerialMesh::Cell &cell : mesh.cells)
       cell.region = 0;
-    mesh.region_names   = {{0, "body"}};
-    mesh.boundary_names = {{0, "x-min"},
-                           {1, "x-max"},
-                           {2, "y-min"},
-                           {3, "y-max"},
-                           {4, "z-min"},
-                           {5, "z-max"}};
+    mesh.regions.names    = {{0, "body"}};
+    mesh.boundaries.names = {{0, "x-min"},
+                             {1, "x-max"},
+                             {2, "y-min"},
+                             {3, "y-max"},
+                             {4, "z-min"},
+                             {5, "z-max"}};
     return mesh;
   }
 } // namespace corotet

@@ -29,10 +29,8 @@ namespace corotet
     std::string
     boundary_name(const SerialMesh &mesh, const unsigned int id)
     {
-      const auto name = mesh.boundary_names.find(id);
-      return name == mesh.boundary_names.end() || name->second.empty() ?
-               std::to_string(id) :
-               "'" + name->second + "'";
+      const std::string name = MeshNames("boundary", mesh.boundaries).name(id);
+      return name == std::to_string(id) ? name : "'" + name + "'";
     }
 
 

@@ -185,19 +185,16 @@ namespace corotet
   {
     if (boundaries.empty())
       return;
+    const MeshNames          known("boundary", mesh.boundaries);
     std::vector<std::string> names;
     for (const unsigned int id : boundaries)
-      if (const auto name = mesh.boundary_names.find(id); id == no_boundary)
-        names.emplace_back("surfaces without a name");
-      else if (name == mesh.boundary_names.end() || name->second.empty())
-        names.push_back(std::to_string(id));
-      else
-        names.push_back(name->second);
+      names.push_back(id == no_boundary ? "surfaces without a name" :
+                                          known.name(id));
     mesh.remarks.push_back(
       "warning for elements of degree 2 and 3: cells are straight along curved "
       "surfaces (" +
       join(names) +
-      "), stress there is no better than with degree 1; set Mesh/gmsh/Geometry "
-      "degree to that of the elements, or give a .msh of curved cells");
+      "), stress there is no better than with degree 1; set Geometry degree "
+      "of the mesh to that of the elements, or give a mesh of curved cells");
   }
 } // namespace corotet

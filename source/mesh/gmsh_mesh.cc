@@ -2,93 +2,66 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/base/text.h>
-#include <corotet/mesh/check_gmsh_file.h>
-#include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/facets.h>
 #include <corotet/mesh/gmsh_elements.h>
 #include <corotet/mesh/gmsh_mesh.h>
-#include <corotet/mesh/gmsh_process.h>
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <set>
 #include <unordered_map>
 
 namespace corotet
 {
   namespace
   {
-    void
-    check_file(const std::string &path)
-    {
-      std::error_code error;
-      const bool      is_file = std::filesystem::is_regular_file(path, error);
-      if (error && error != std::errc::no_such_file_or_directory)
-        throw InputError("Mesh/gmsh/File",
-                         shortened(path) + ": " + error.message());
-      if (!is_file)
-        throw InputError("Mesh/gmsh/File",
-                         "there is no mesh file: found '" + shortened(path) +
-                           "'");
-      const std::string extension =
-        std::filesystem::path(path).extension().string();
-      if (extension == ".msh")
-        check_msh(path);
-      else if (extension == ".geo")
-        check_geo(path);
-      else
-        throw InputError("Mesh/gmsh/File",
-                         "the kind of mesh file is unknown: found '" +
-                           shortened(path) + "'; allowed are .msh and .geo");
-    }
-
-
-
-    // Physical groups of one dimension: names by id, and the id of each
-    // geometric entity that belongs to a group.
+    // Physical groups of one dimension: the id of each geometric entity that
+    // belongs to some, and what the groups mean by these ids.
     struct PhysicalGroups
     {
-      std::map<unsigned int, std::string> names;
-      std::map<int, unsigned int>         of_entity;
+      NamedSets                   named;
+      std::map<int, unsigned int> of_entity;
     };
 
 
 
+    // An entity of one group has the group's id, and one of several has an id
+    // that it shares with the entities of the same groups.
     PhysicalGroups
-    physical_groups(const GmshModel   &model,
-                    const std::string &path,
-                    const int          dimension)
+    physical_groups(const GmshModel &model, const int dimension)
     {
-      const std::string kind = dimension == 3 ? "volume" : "surface";
-      PhysicalGroups    groups;
+      std::map<unsigned int, std::string>            names;
+      std::map<int, std::set<unsigned int>>          groups_of_entity;
+      std::map<std::set<unsigned int>, unsigned int> ids;
       for (const GmshModel::Group &group : model.groups)
+        if (group.dimension == dimension)
+          {
+            names[group.id]                            = group.name;
+            ids[{static_cast<unsigned int>(group.id)}] = group.id;
+            for (const int entity : group.entities)
+              groups_of_entity[entity].insert(group.id);
+          }
+      PhysicalGroups result;
+      unsigned int   next = names.empty() ? 0 : names.rbegin()->first + 1;
+      std::map<unsigned int, std::set<unsigned int>> meaning;
+      for (const auto &[entity, groups] : groups_of_entity)
         {
-          if (group.dimension != dimension)
-            continue;
-          groups.names[group.id] = group.name;
-          for (const int entity : group.entities)
-            {
-              const auto [place, is_new] =
-                groups.of_entity.emplace(entity, group.id);
-              if (!is_new)
-                throw InputError(
-                  "",
-                  fmt::format("{}: {} {} belongs to two physical groups: found "
-                              "'{}' (id {}) and '{}' (id {}); one is allowed "
-                              "(a file of version 2.2 needs an elementary tag "
-                              "of its own for each group)",
-                              path,
-                              kind,
-                              entity,
-                              groups.names[place->second],
-                              place->second,
-                              group.name,
-                              group.id));
-            }
+          const auto [id, is_new] = ids.emplace(groups, next);
+          next += is_new;
+          result.of_entity[entity] = id->second;
+          for (const unsigned int group : groups)
+            meaning[group].insert(id->second);
         }
-      return groups;
+      for (const auto &[group, name] : names)
+        if (const std::set<unsigned int> &of_group = meaning[group];
+            of_group.size() > 1 ||
+            (of_group.size() == 1 && *of_group.begin() != group))
+          result.named.sets[name.empty() ? std::to_string(group) : name].assign(
+            of_group.begin(), of_group.end());
+        else
+          result.named.names[group] = name;
+      return result;
     }
 
 
@@ -146,12 +119,14 @@ namespace corotet
     {
       const std::size_t n          = kind.order.size();
       std::size_t       n_left_out = 0;
-      mesh.geometry_degree         = kind.degree;
+      const bool        has_groups =
+        !groups.named.names.empty() || !groups.named.sets.empty();
+      mesh.geometry_degree = kind.degree;
       for (const GmshModel::Elements &elements : model.volumes)
         {
           const std::vector<std::uint64_t> &tags = elements.nodes;
           const auto group = groups.of_entity.find(elements.entity);
-          if (group == groups.of_entity.end() && !groups.names.empty())
+          if (group == groups.of_entity.end() && has_groups)
             {
               n_left_out += tags.size() / n;
               continue;
@@ -219,13 +194,13 @@ namespace corotet
   {
     const gmsh_elements::Tetrahedra kind =
       gmsh_elements::tetrahedra(model, path);
-    const PhysicalGroups volumes  = physical_groups(model, path, 3);
-    const PhysicalGroups surfaces = physical_groups(model, path, 2);
+    const PhysicalGroups volumes  = physical_groups(model, 3);
+    const PhysicalGroups surfaces = physical_groups(model, 2);
 
     SerialMesh mesh;
-    mesh.origin         = path;
-    mesh.region_names   = volumes.names;
-    mesh.boundary_names = surfaces.names;
+    mesh.origin     = path;
+    mesh.regions    = volumes.named;
+    mesh.boundaries = surfaces.named;
     UsedNodes nodes(model);
     read_cells(mesh, model, nodes, kind, volumes);
     read_faces(mesh, model, nodes, surfaces);
@@ -239,84 +214,6 @@ namespace corotet
       else
         curved.insert(group->second);
     remark_facets(mesh, has_geometry ? curved : faceted_boundaries(mesh));
-    return mesh;
-  }
-
-
-
-  void
-  GmshMesh::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter("File",
-                      file,
-                      "A gmsh mesh (.msh, version 2.2 or 4.1, ASCII or binary) "
-                      "or geometry (.geo), relative to the folder of this "
-                      "file.",
-                      dealii::Patterns::FileName());
-    prm.add_parameter("Element size",
-                      element_size,
-                      "Target length of edges for a .geo [m, before scaling]; "
-                      "0 leaves it to the file. A .msh needs 0.",
-                      dealii::Patterns::Double(0));
-    prm.add_parameter(
-      "Geometry degree",
-      geometry_degree,
-      "Degree of the cells' maps for a .geo [-]: 1 for straight "
-      "cells, 2 or 3 for curved ones along curved surfaces. A "
-      ".msh has that of its cells, and needs 1 here. Elements "
-      "of a lower degree interpolate the geometry.",
-      dealii::Patterns::Integer(1, 3));
-    prm.add_parameter("Time limit",
-                      time_limit,
-                      "What gmsh may take to read or to mesh the file [s].",
-                      dealii::Patterns::Double(1, 1e9));
-  }
-
-
-
-  SerialMesh
-  GmshMesh::create(const std::string &folder,
-                   const unsigned int n_refinements) const
-  {
-    if (file.empty())
-      throw InputError("Mesh/gmsh/File",
-                       "no mesh file: found an empty name; give the name of a "
-                       ".msh or .geo file");
-    const std::string path =
-      (std::filesystem::path(folder) / file).lexically_normal().string();
-    check_file(path);
-    const bool is_geometry = std::filesystem::path(path).extension() == ".geo";
-    if (element_size > 0 && !is_geometry)
-      throw InputError("Mesh/gmsh/Element size",
-                       fmt::format("only a .geo can be given an element size: "
-                                   "found {} for '{}'; 0 is allowed",
-                                   element_size,
-                                   path));
-    if (geometry_degree > 1 && !is_geometry)
-      throw InputError("Mesh/gmsh/Geometry degree",
-                       fmt::format("a .msh has the degree of its cells: found "
-                                   "{} for '{}'; 1 is allowed",
-                                   geometry_degree,
-                                   path));
-
-    const GmshModel model =
-      run_gmsh({path,
-                is_geometry,
-                element_size,
-                geometry_degree,
-                is_geometry ? n_refinements : 0,
-                largest_number_of_cells(is_geometry ? n_refinements : 0),
-                time_limit});
-    if (model.is_too_large)
-      {
-        std::size_t n_cells = 0;
-        for (const GmshModel::ElementType &type : model.volume_types)
-          n_cells += type.n_elements;
-        check_number_of_cells(n_cells, n_refinements);
-      }
-    SerialMesh mesh = mesh_of_model(model, path, is_geometry);
-    if (is_geometry)
-      mesh.n_refinements = n_refinements;
     return mesh;
   }
 } // namespace corotet

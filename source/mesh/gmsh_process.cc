@@ -50,16 +50,14 @@ namespace corotet
 
 
     [[noreturn]] void
-    refuse_end(const std::string &path,
-               const ProgramEnd  &end,
-               const double       time_limit)
+    refuse_end(const GmshRequest &request, const ProgramEnd &end)
     {
       std::string what;
       if (end.has_exceeded)
-        throw InputError("Mesh/gmsh/Time limit",
+        throw InputError(request.time_limit_entry,
                          fmt::format("{}: gmsh has not come to an end in {} s",
-                                     path,
-                                     time_limit));
+                                     request.path,
+                                     request.time_limit));
       if (end.signal == SIGINT || end.signal == SIGTERM)
         what = "has been interrupted";
       else if (end.signal != 0)
@@ -68,7 +66,7 @@ namespace corotet
       else
         what = fmt::format("has ended with status {} before it had a mesh",
                            end.status);
-      throw InputError("", fmt::format("{}: gmsh {}", path, what));
+      throw InputError("", fmt::format("{}: gmsh {}", request.path, what));
     }
 
 
@@ -176,12 +174,13 @@ namespace corotet
        std::to_string(request.degree),
        std::to_string(request.n_refinements),
        fmt::format("{}", request.max_n_cells),
-       request.is_geometry ? folder : request.path,
-       std::to_string(memory_limit(request.path, request.is_geometry))},
+       request.format == "geo" ? folder : request.path,
+       std::to_string(memory_limit(request.path, request.is_geometry)),
+       request.format},
       request.time_limit);
     if (end.has_exceeded || end.signal != 0 || end.status != 0 ||
         end.output.empty())
-      refuse_end(request.path, end, request.time_limit);
+      refuse_end(request, end);
     const GmshModel model = model_of_bytes(end.output, request.path);
     if (!model.error.empty())
       throw InputError("", message_of_gmsh(request.path, model.error));

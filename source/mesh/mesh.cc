@@ -23,8 +23,6 @@ namespace corotet
 {
   namespace
   {
-    using Names = std::map<unsigned int, std::string>;
-
     SerialMesh
     create_on_root(const MeshParameters &parameters,
                    const std::string    &folder,
@@ -68,41 +66,30 @@ namespace corotet
 
 
 
-    // Names of the ids that occur in the mesh.
-    Names
-    names_in_use(const Names &names, const std::vector<unsigned int> &ids)
-    {
-      Names in_use;
-      for (const unsigned int id : ids)
-        if (const auto name = names.find(id); name != names.end())
-          in_use.insert(*name);
-        else
-          in_use.emplace(id, "");
-      return in_use;
-    }
-
-
-
-    Names
+    NamedSets
     regions_of(const SerialMesh &mesh)
     {
       std::vector<unsigned int> ids;
       ids.reserve(mesh.cells.size());
       for (const SerialMesh::Cell &cell : mesh.cells)
         ids.push_back(cell.region);
-      return names_in_use(mesh.region_names, ids);
+      NamedSets regions = mesh.regions;
+      regions.restrict_to(ids);
+      return regions;
     }
 
 
 
-    Names
+    NamedSets
     boundaries_of(const SerialMesh &mesh)
     {
       std::vector<unsigned int> ids;
       ids.reserve(mesh.faces.size());
       for (const SerialMesh::Face &face : mesh.faces)
         ids.push_back(face.boundary);
-      return names_in_use(mesh.boundary_names, ids);
+      NamedSets boundaries = mesh.boundaries;
+      boundaries.restrict_to(ids);
+      return boundaries;
     }
 
 
@@ -110,9 +97,7 @@ namespace corotet
     std::string
     list(const MeshNames &names)
     {
-      std::vector<std::string> words;
-      for (const auto &[id, name] : names.all())
-        words.push_back(names.name(id));
+      const std::vector<std::string> words = names.known();
       return words.empty() ? "none" : join(words);
     }
 
@@ -204,7 +189,7 @@ namespace corotet
     , region_names("region", {})
     , boundary_names("boundary", {})
   {
-    Names regions, boundaries;
+    NamedSets regions, boundaries;
     on_root(comm, [&] {
       check_mesh(mesh, element_degree);
       const unsigned int n_left = n_refinements - mesh.n_refinements;
@@ -228,9 +213,13 @@ namespace corotet
       boundaries = boundaries_of(mesh);
     });
 
-    using dealii::Utilities::MPI::broadcast;
-    region_names   = MeshNames("region", broadcast(comm, regions, 0));
-    boundary_names = MeshNames("boundary", broadcast(comm, boundaries, 0));
+    const auto broadcast = [](const MPI_Comm comm, const NamedSets &named) {
+      using dealii::Utilities::MPI::broadcast;
+      return NamedSets{broadcast(comm, named.names, 0),
+                       broadcast(comm, named.sets, 0)};
+    };
+    region_names   = MeshNames("region", broadcast(comm, regions));
+    boundary_names = MeshNames("boundary", broadcast(comm, boundaries));
     log.line("  regions: " + list(region_names) +
              "; boundaries: " + list(boundary_names));
     distribute(mesh, tria);

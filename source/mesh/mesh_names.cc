@@ -3,14 +3,107 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
-#include <corotet/mesh/mesh.h>
+#include <corotet/mesh/mesh_names.h>
+
+#include <algorithm>
+#include <set>
 
 namespace corotet
 {
-  MeshNames::MeshNames(const std::string                         &kind,
-                       const std::map<unsigned int, std::string> &names)
+  namespace
+  {
+    bool
+    contains(const std::vector<unsigned int> &ids, const unsigned int id)
+    {
+      return std::binary_search(ids.begin(), ids.end(), id);
+    }
+  } // namespace
+
+
+
+  std::vector<unsigned int>
+  NamedSets::ids(const std::string &name) const
+  {
+    if (const auto found = sets.find(name); found != sets.end())
+      return found->second;
+    for (const auto &[id, own] : names)
+      if (!name.empty() && own == name)
+        return {id};
+    return {};
+  }
+
+
+
+  void
+  NamedSets::add(const std::string                 &name,
+                 const std::vector<std::size_t>    &members,
+                 const std::vector<unsigned int *> &id_of_member)
+  {
+    std::map<unsigned int, std::size_t> n_with, n_in_set;
+    unsigned int                        next = 0;
+    for (const unsigned int *id : id_of_member)
+      ++n_with[*id];
+    for (const std::size_t member : members)
+      ++n_in_set[*id_of_member[member]];
+    for (const auto &[id, n] : n_with)
+      next = std::max(next, id + 1);
+    for (const auto &[id, own] : names)
+      next = std::max(next, id + 1);
+
+    const std::vector<unsigned int>      before = ids(name);
+    std::set<unsigned int>               meant(before.begin(), before.end());
+    std::map<unsigned int, unsigned int> part_of;
+    for (const auto &[id, n] : n_in_set)
+      {
+        if (n == n_with[id] || meant.count(id) > 0)
+          {
+            meant.insert(id);
+            continue;
+          }
+        const unsigned int part = next++;
+        part_of[id]             = part;
+        meant.insert(part);
+        for (auto &[other, ids] : sets)
+          if (contains(ids, id))
+            ids.push_back(part);
+        if (const auto own = names.find(id);
+            own != names.end() && !own->second.empty())
+          {
+            sets[own->second] = {id, part};
+            own->second.clear();
+          }
+      }
+    for (const std::size_t member : members)
+      if (const auto part = part_of.find(*id_of_member[member]);
+          part != part_of.end())
+        *id_of_member[member] = part->second;
+    for (auto &[id, own] : names)
+      if (own == name)
+        own.clear();
+    sets[name].assign(meant.begin(), meant.end());
+  }
+
+
+
+  void
+  NamedSets::restrict_to(const std::vector<unsigned int> &used)
+  {
+    const std::set<unsigned int> kept(used.begin(), used.end());
+    std::erase_if(names,
+                  [&](const auto &own) { return kept.count(own.first) == 0; });
+    for (auto &[name, ids] : sets)
+      std::erase_if(ids,
+                    [&](const unsigned int id) { return kept.count(id) == 0; });
+    std::erase_if(sets, [](const auto &set) { return set.second.empty(); });
+    for (const unsigned int id : kept)
+      names.emplace(id, "");
+  }
+
+
+
+  MeshNames::MeshNames(const std::string &kind, const NamedSets &named)
     : kind(kind)
-    , names(names)
+    , named(named)
   {}
 
 
@@ -18,33 +111,71 @@ namespace corotet
   std::string
   MeshNames::name(const unsigned int id) const
   {
-    const auto found = names.find(id);
-    return found == names.end() || found->second.empty() ? std::to_string(id) :
-                                                           found->second;
+    const auto found = named.names.find(id);
+    if (found != named.names.end() && !found->second.empty())
+      return found->second;
+    std::vector<std::string> words;
+    for (const auto &[name, ids] : named.sets)
+      if (contains(ids, id))
+        words.push_back(name);
+    return words.empty() ? std::to_string(id) : join(words, " & ");
   }
 
 
 
-  unsigned int
-  MeshNames::id(const std::string &name_or_id, const std::string &entry) const
+  std::string
+  MeshNames::name(const std::vector<unsigned int> &ids) const
   {
-    for (const auto &[id, name] : names)
-      if (!name.empty() && name == name_or_id)
-        return id;
-    for (const auto &[id, name] : names)
-      if (std::to_string(id) == name_or_id)
-        return id;
+    for (const auto &[name, of_name] : named.sets)
+      if (of_name == ids)
+        return name;
+    std::vector<std::string> words;
+    for (const unsigned int id : ids)
+      words.push_back(name(id));
+    return join(words);
+  }
 
-    std::vector<std::string> known;
-    for (const auto &[id, name] : names)
-      known.push_back(this->name(id));
+
+
+  std::vector<std::string>
+  MeshNames::known() const
+  {
+    std::vector<std::string> result;
+    for (const auto &[id, own] : named.names)
+      {
+        const bool is_in_union = std::any_of(named.sets.begin(),
+                                             named.sets.end(),
+                                             [id = id](const auto &set) {
+                                               return contains(set.second, id);
+                                             });
+        if (!own.empty() || !is_in_union)
+          result.push_back(name(id));
+      }
+    for (const auto &[name, ids] : named.sets)
+      result.push_back(name);
+    return result;
+  }
+
+
+
+  std::vector<unsigned int>
+  MeshNames::ids(const std::string &name_or_id, const std::string &entry) const
+  {
+    if (const std::vector<unsigned int> found = named.ids(name_or_id);
+        !found.empty())
+      return found;
+    for (const auto &[id, own] : named.names)
+      if (std::to_string(id) == name_or_id)
+        return {id};
+
+    const std::vector<std::string> names = known();
     const std::string plural  = kind == "boundary" ? "boundaries" : kind + "s";
-    const std::string similar = nearest(name_or_id, known);
+    const std::string similar = nearest(name_or_id, names);
     throw InputError(entry,
                      "no such " + kind + ": found '" + shortened(name_or_id) +
                        "'; the mesh has " +
-                       (known.empty() ? "no " + plural :
-                                        "the " + plural + ": " + join(known)) +
+                       (names.empty() ? "no " + plural :
+                                        "the " + plural + ": " + join(names)) +
                        (similar.empty() ? "" :
                                           "; did you mean '" + similar + "'?"));
   }

@@ -47,6 +47,30 @@ namespace corotet
 
 
 
+  CellShape
+  cell_shape(const std::array<dealii::Point<3>, 4> &p)
+  {
+    const auto   areas   = area_vectors(p);
+    CellShape    shape   = {signed_volume(p), {}, 0};
+    double       surface = 0, longest_edge = 0;
+    unsigned int n = 0;
+    for (unsigned int i = 0; i < 4; ++i)
+      {
+        surface += areas[i].norm();
+        for (unsigned int j = 0; j < i; ++j)
+          {
+            longest_edge = std::max(longest_edge, p[i].distance(p[j]));
+            shape.dihedral_cosines[n++] =
+              -(areas[i] * areas[j]) / (areas[i].norm() * areas[j].norm());
+          }
+      }
+    const double inradius = 3 * shape.volume / surface;
+    shape.aspect_ratio    = longest_edge / (2 * std::sqrt(6.) * inradius);
+    return shape;
+  }
+
+
+
   MeshQuality
   mesh_quality(const SerialMesh &mesh)
   {
@@ -54,28 +78,12 @@ namespace corotet
     double      largest_cosine = -1;
     for (const SerialMesh::Cell &cell : mesh.cells)
       {
-        const auto   p      = cell_vertices(mesh, cell);
-        const auto   areas  = area_vectors(p);
-        const double volume = signed_volume(p);
-        quality.volume += volume;
-
-        double surface = 0, longest_edge = 0;
-        for (unsigned int i = 0; i < 4; ++i)
-          {
-            surface += areas[i].norm();
-            for (unsigned int j = 0; j < i; ++j)
-              {
-                longest_edge = std::max(longest_edge, p[i].distance(p[j]));
-                largest_cosine =
-                  std::max(largest_cosine,
-                           -(areas[i] * areas[j]) /
-                             (areas[i].norm() * areas[j].norm()));
-              }
-          }
-        const double inradius = 3 * volume / surface;
+        const CellShape shape = cell_shape(cell_vertices(mesh, cell));
+        quality.volume += shape.volume;
+        for (const double cosine : shape.dihedral_cosines)
+          largest_cosine = std::max(largest_cosine, cosine);
         quality.worst_aspect_ratio =
-          std::max(quality.worst_aspect_ratio,
-                   longest_edge / (2 * std::sqrt(6.) * inradius));
+          std::max(quality.worst_aspect_ratio, shape.aspect_ratio);
       }
     quality.volume += volume_by_curvature(mesh);
     quality.smallest_dihedral_angle =

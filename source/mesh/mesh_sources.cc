@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/mesh/box_mesh.h>
+#include <corotet/mesh/file_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/mesh_sources.h>
 
@@ -10,7 +11,9 @@ namespace corotet
   std::vector<Candidate<MeshSource>>
   mesh_sources()
   {
-    return with_added<MeshSource>({candidate<MeshSource, BoxMesh>("box"),
-                                   candidate<MeshSource, GmshMesh>("gmsh")});
+    return with_added<MeshSource>(
+      {candidate<MeshSource, BoxMesh>("box"),
+       candidate<MeshSource, FileMesh>("file", "file"),
+       candidate<MeshSource, GmshMesh>("gmsh")});
   }
 } // namespace corotet

@@ -36,6 +36,8 @@ namespace corotet
       {"Checkpoint/",
        "Convergence study/",
        "Linear solver/",
+       "Mesh/file/File",
+       "Mesh/file/Time limit",
        "Mesh/gmsh/File",
        "Mesh/gmsh/Time limit",
        "Modes/",

@@ -46,8 +46,7 @@ namespace corotet
         return;
       const std::string &argument = leftover.front();
       if (!argument.starts_with('-'))
-        fail(fmt::format("unexpected argument \"{}\"; one parameter file is "
-                         "allowed",
+        fail(fmt::format("unexpected argument \"{}\"; one file is allowed",
                          shortened(argument)));
 
       std::vector<std::string> options;
@@ -80,6 +79,74 @@ namespace corotet
       command_line.parameter_file = style;
       style                       = styles.front();
     }
+
+    // Those of a run; returns --print-parameters.
+    const CLI::Option *
+    add_run_options(CLI::App &app, CommandLine &command_line)
+    {
+      app.allow_extras();
+      app.set_help_flag("--help", "Print this and exit");
+      app.set_version_flag("--version",
+                           version_message(),
+                           "Print versions, exit");
+      app.add_option("FILE",
+                     command_line.parameter_file,
+                     "The parameter file: .prm, .json or .xml");
+      // Without the last setting the option would take the file behind it, too.
+      app
+        .add_option("--set",
+                    command_line.overrides,
+                    "Override an entry: \"Section/Subsection/Entry = value\" "
+                    "(repeatable)")
+        ->type_name("TEXT")
+        ->allow_extra_args(false);
+      app.add_option("--output",
+                     command_line.output_directory,
+                     "Override the output directory");
+      app.add_flag("--validate",
+                   command_line.validate,
+                   "Read and check everything, the mesh included, run nothing");
+      CLI::Option *const print =
+        app
+          .add_option(
+            "--print-parameters",
+            command_line.print_parameters,
+            "List every entry: default, allowed values, units, meaning")
+          ->expected(0, 1)
+          ->type_name("[prm|json|markdown]");
+      app.add_flag(
+        "--restart",
+        command_line.restart,
+        "Go on from the newest good checkpoint in the output directory, or "
+        "with a convergence study that was stopped: its finished runs are kept");
+      app.add_flag("--quiet",
+                   command_line.quiet,
+                   "Show nothing on the terminal but errors");
+      return print;
+    }
+
+    const CLI::App *
+    add_mesh_command(CLI::App &app, MeshCommand &mesh)
+    {
+      CLI::App *const command =
+        app.add_subcommand("mesh",
+                           "Read or make a mesh, check it, and describe it: "
+                           "shapes of cells, names with volumes and areas");
+      command->allow_extras();
+      command->set_help_flag("--help", "Print this and exit");
+      command->add_option("FILE", mesh.file, "A mesh or a geometry");
+      command
+        ->add_option("--size",
+                     mesh.element_size,
+                     "Target length of edges, for a geometry")
+        ->check(CLI::PositiveNumber);
+      command
+        ->add_option("--degree",
+                     mesh.geometry_degree,
+                     "Of the cells' maps, for a geometry")
+        ->check(CLI::Range(1, 3));
+      return command;
+    }
   } // namespace
 
   CommandLine
@@ -89,43 +156,10 @@ namespace corotet
     CLI::App    app("Dynamic deformation of elastic solids on tetrahedra of "
                     "degree 1, 2 and 3.",
                  "corotet");
-    app.allow_extras();
-    app.set_help_flag("--help", "Print this and exit");
-    app.set_version_flag("--version",
-                         version_message(),
-                         "Print versions, exit");
-    app.add_option("FILE",
-                   command_line.parameter_file,
-                   "The parameter file: .prm, .json or .xml");
-    // Without the last setting the option would take the file behind it, too.
-    app
-      .add_option("--set",
-                  command_line.overrides,
-                  "Override an entry: \"Section/Subsection/Entry = value\" "
-                  "(repeatable)")
-      ->type_name("TEXT")
-      ->allow_extra_args(false);
-    app.add_option("--output",
-                   command_line.output_directory,
-                   "Override the output directory");
-    app.add_flag("--validate",
-                 command_line.validate,
-                 "Read and check everything, the mesh included, run nothing");
-    CLI::Option *const print =
-      app
-        .add_option("--print-parameters",
-                    command_line.print_parameters,
-                    "List every entry: default, allowed values, units, meaning")
-        ->expected(0, 1)
-        ->type_name("[prm|json|markdown]");
-    app.add_flag(
-      "--restart",
-      command_line.restart,
-      "Go on from the newest good checkpoint in the output directory, or "
-      "with a convergence study that was stopped: its finished runs are kept");
-    app.add_flag("--quiet",
-                 command_line.quiet,
-                 "Show nothing on the terminal but errors");
+    const CLI::Option *const print = add_run_options(app, command_line);
+
+    MeshCommand           mesh;
+    const CLI::App *const mesh_app = add_mesh_command(app, mesh);
 
     try
       {
@@ -146,6 +180,14 @@ namespace corotet
     if (command_line.message)
       return command_line;
 
+    if (mesh_app->parsed())
+      {
+        refuse_leftover(*mesh_app);
+        if (mesh.file.empty())
+          fail("a mesh or a geometry is needed: corotet mesh [OPTIONS] FILE");
+        command_line.mesh = mesh;
+        return command_line;
+      }
     refuse_leftover(app);
     if (print->count() > 0)
       {

@@ -72,10 +72,10 @@ namespace corotet
     else if (text != "none")
       for (const std::string &name : split_outside_brackets(text, ','))
         {
-          const std::string  entry = "Exact solution/Displacement boundary";
-          const unsigned int id    = boundaries.id(name, entry);
-          if (!ids.insert(id).second)
-            refuse_second_boundary(entry, boundaries.name(id));
+          const std::string entry = "Exact solution/Displacement boundary";
+          for (const unsigned int id : boundaries.ids(name, entry))
+            if (!ids.insert(id).second)
+              refuse_second_boundary(entry, boundaries.name(id));
         }
     return ids;
   }

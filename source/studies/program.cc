@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/mpi.h>
+#include <corotet/mesh/mesh_report.h>
 #include <corotet/studies/program.h>
 #include <corotet/studies/run_command.h>
 
@@ -19,6 +20,13 @@ namespace corotet
       CommandLine command = parse_command_line(argc, argv);
       if (command.message)
         return on_root(MPI_COMM_WORLD, [&] { std::cout << *command.message; });
+      if (command.mesh)
+        return on_root(MPI_COMM_WORLD, [&] {
+          const MeshCommand &asked = *command.mesh;
+          std::cout << describe_mesh(asked.file,
+                                     asked.element_size,
+                                     asked.geometry_degree);
+        });
       if (command.output_directory)
         command.overrides.push_back("Output/Directory = " +
                                     *command.output_directory);

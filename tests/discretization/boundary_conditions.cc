@@ -15,7 +15,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  const MeshNames names("boundary", {{0, "left"}, {1, "right"}, {2, "top"}});
+  const MeshNames names("boundary",
+                        {{{0, "left"}, {1, "right"}, {2, "top"}}, {}});
 
   std::string
   condition_refusal(
@@ -77,6 +78,39 @@ TEST(BoundaryConditions, DifferentComponentsMayDiffer)
             "nothing was refused");
 }
 
+// A name of several boundaries is a condition on each of them.
+TEST(BoundaryConditions, NamesOfSeveralBoundaries)
+{
+  const MeshNames             several("boundary",
+                                      {{{0, "left"}, {1, "right"}, {2, "top"}},
+                                       {{"sides", {0, 1}}}});
+  BoundaryConditionParameters parameters;
+  parameters.fixed    = "sides & top";
+  parameters.pressure = "sides: 3";
+  const BoundaryConditions conditions(parameters, several);
+  ASSERT_EQ(conditions.pressures.size(), 2u);
+  EXPECT_EQ(conditions.pressures[0].boundary, 0u);
+  EXPECT_EQ(conditions.pressures[1].boundary, 1u);
+  ASSERT_EQ(conditions.displacements.size(), 1u);
+  EXPECT_EQ(conditions.name(conditions.displacements[0].boundaries),
+            "sides & top");
+  const auto message = [&](const std::string &fixed,
+                           const std::string &pressure) {
+    parameters.fixed    = fixed;
+    parameters.pressure = pressure;
+    return refusal([&] { BoundaryConditions failing(parameters, several); });
+  };
+  EXPECT_EQ(message("sides, left", ""),
+            "Boundary conditions/Fixed: component x of boundary 'left' has two "
+            "conditions: found 'Fixed' and 'Fixed', allowed is one");
+  EXPECT_EQ(message("right", "sides: 1"),
+            "Boundary conditions/Pressure: component x of boundary 'right' has "
+            "two conditions: found 'Fixed' and 'Pressure', allowed is one");
+  EXPECT_EQ(message("", "sides: 1, right: 2"),
+            "Boundary conditions/Pressure: found boundary 'right' twice; "
+            "allowed: each boundary once");
+}
+
 // Edges and corners are the nodes on all boundaries that are named, whatever
 // rank has the faces: of 2 x 2 x 2 cuboids of degree p, an edge has 2 p + 1.
 TEST(PrescribedMotion, EdgesAndCorners)
@@ -104,6 +138,15 @@ TEST(PrescribedMotion, EdgesAndCorners)
         }
       dealii::Utilities::MPI::sum(n_found, MPI_COMM_WORLD, n_found);
       EXPECT_EQ(n_found, (std::vector<unsigned int>{1, 1, 1, 2 * degree + 1}));
+
+      // Other ranks know the same of their copies.
+      Vector marks;
+      body.discretization.initialize_vector(marks);
+      for (const unsigned int i : body.motion.unknowns())
+        marks.local_element(i) = 1;
+      marks.update_ghost_values();
+      for (unsigned int i = 0; i < 3 * body.discretization.n_local_nodes(); ++i)
+        EXPECT_EQ(body.motion.is_prescribed()[i], marks.local_element(i));
     }
 }
 

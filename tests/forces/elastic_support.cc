@@ -187,6 +187,8 @@ TEST_P(ElasticSupportTest, MatricesAgree)
   body.motion.set_zero(u);
   u.zero_out_ghost_values();
   A.vmult(f, u);
+  // Left as it came: without values of ghosts.
+  EXPECT_FALSE(u.has_ghost_elements());
   A.matrix().vmult(g, u);
   EXPECT_LT(largest_difference(f, g), 1e-13 * f.linfty_norm());
 

@@ -5,6 +5,7 @@
 // the bytes that it hands back: whatever the file did to that process.
 
 #include <corotet/base/log.h>
+#include <corotet/mesh/abaqus_file.h>
 #include <corotet/mesh/check_gmsh_file.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
@@ -17,6 +18,23 @@
 
 namespace fuzz
 {
+  namespace
+  {
+    void
+    use(const corotet::SerialMesh &mesh,
+        const unsigned int         n_refinements,
+        const unsigned int         degree)
+    {
+      if (mesh.cells.size() > 20)
+        return;
+      is_accepted([&] {
+        corotet::Log        log(MPI_COMM_SELF, true);
+        const corotet::Mesh whole(
+          mesh, n_refinements, 1., MPI_COMM_SELF, log, degree);
+      });
+    }
+  } // namespace
+
   void
   read_mesh_file(const std::string &input)
   {
@@ -54,12 +72,17 @@ namespace fuzz
             first % 2 == 1);
         }))
       return;
-    if (mesh.cells.size() > 20)
-      return;
-    is_accepted([&] {
-      corotet::Log        log(MPI_COMM_SELF, true);
-      const corotet::Mesh whole(
-        mesh, first / 2 % 2, 1., MPI_COMM_SELF, log, 1 + first / 4 % 3);
-    });
+    use(mesh, first / 2 % 2, 1 + first / 4 % 3);
+  }
+
+  void
+  read_abaqus_input(const std::string &input)
+  {
+    const std::string   path = write("part.inp", input);
+    corotet::SerialMesh mesh;
+    if (is_accepted([&] {
+          mesh = corotet::serial_mesh(corotet::read_abaqus_file(path));
+        }))
+      use(mesh, 0, 2);
   }
 } // namespace fuzz

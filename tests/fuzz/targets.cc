@@ -20,6 +20,7 @@ namespace fuzz
   targets()
   {
     static const std::map<std::string, Target> all{
+      {"abaqus_files", read_abaqus_input},
       {"checkpoints", read_checkpoint},
       {"expressions", read_expression},
       {"geometries", read_geometry},

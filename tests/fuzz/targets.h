@@ -34,6 +34,8 @@ namespace fuzz
   initialize();
 
   void
+  read_abaqus_input(const std::string &input);
+  void
   read_checkpoint(const std::string &input);
   void
   read_expression(const std::string &input);

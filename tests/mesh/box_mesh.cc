@@ -46,7 +46,7 @@ TEST(BoxMesh, VolumeAndSides)
   EXPECT_EQ(mesh.vertices.size(), 6u * 3 * 4);
   EXPECT_EQ(mesh.faces.size(), 4u * (5 * 2 + 5 * 3 + 2 * 3));
   EXPECT_NEAR(region_volumes(mesh).at(0), 0.25, 1e-13);
-  EXPECT_EQ(mesh.region_names,
+  EXPECT_EQ(mesh.regions.names,
             (std::map<unsigned int, std::string>{{0, "body"}}));
 
   const std::map<std::string, double> expected = {{"x-min", 0.125},
@@ -58,7 +58,7 @@ TEST(BoxMesh, VolumeAndSides)
   const auto                          areas    = boundary_areas(mesh);
   ASSERT_EQ(areas.size(), 6u);
   for (const auto &[id, area] : areas)
-    EXPECT_NEAR(area, expected.at(mesh.boundary_names.at(id)), 1e-13);
+    EXPECT_NEAR(area, expected.at(mesh.boundaries.names.at(id)), 1e-13);
 
   // Each side is where its name says, exactly: corners are not computed.
   const double place[6] = {-1, 1, 2, 2.5, 0.5, 0.75};

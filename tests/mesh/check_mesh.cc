@@ -26,8 +26,8 @@ namespace
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
     mesh.cells    = {{{{0, 1, 2, 3}}, 0}, {{{0, 2, 1, 4}}, 1}};
     mesh.faces    = {{{{3, 1, 2}}, 7}};
-    mesh.boundary_names = {{7, "top"}};
-    mesh.origin         = "x.msh";
+    mesh.boundaries.names = {{7, "top"}};
+    mesh.origin           = "x.msh";
     return mesh;
   }
 

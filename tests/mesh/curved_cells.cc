@@ -114,7 +114,7 @@ TEST(CurvedCells, AllFormats)
                         mesh_quality(expected).volume,
                         1e-13);
             check_mesh(mesh);
-            EXPECT_EQ(mesh.boundary_names, expected.boundary_names);
+            EXPECT_EQ(mesh.boundaries.names, expected.boundaries.names);
             EXPECT_NEAR(boundary_areas(mesh).at(4),
                         boundary_areas(expected).at(4),
                         1e-13);
@@ -233,7 +233,7 @@ TEST(CurvedCells, Refusals)
             file + ": tetrahedra of several degrees: found 'Tetrahedron 4', "
                    "'Tetrahedron 10'; one of these is allowed");
   EXPECT_EQ(refusal([&] { read_gmsh(file, "", "0", "2"); }),
-            "Mesh/gmsh/Geometry degree: a .msh has the degree of its cells: "
+            "Mesh/gmsh/Geometry degree: a mesh has the degree of its cells: "
             "found 2 for '" +
               file + "'; 1 is allowed");
 }

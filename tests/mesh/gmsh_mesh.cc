@@ -54,8 +54,8 @@ Mesh.MeshSizeMax = 0.4;
   expect_bricks(SerialMesh mesh)
   {
     check_mesh(mesh);
-    EXPECT_EQ(mesh.region_names, (Names{{4, "small"}, {17, ""}}));
-    EXPECT_EQ(mesh.boundary_names,
+    EXPECT_EQ(mesh.regions.names, (Names{{4, "small"}, {17, ""}}));
+    EXPECT_EQ(mesh.boundaries.names,
               (Names{{4, "left"}, {8, "middle"}, {30, ""}}));
     // Plane sides: exact up to the round-off of some hundred terms.
     EXPECT_NEAR(region_volumes(mesh).at(4), 1, 1e-13);
@@ -139,8 +139,8 @@ TEST(GmshMesh, NoPhysicalGroups)
                                                       "Box(1) = {0, 0, 0, 1, 2, 3};\n"));
   check_mesh(mesh);
   EXPECT_NEAR(region_volumes(mesh).at(0), 6, 1e-12);
-  EXPECT_TRUE(mesh.region_names.empty());
-  EXPECT_TRUE(mesh.boundary_names.empty());
+  EXPECT_TRUE(mesh.regions.names.empty());
+  EXPECT_TRUE(mesh.boundaries.names.empty());
   EXPECT_TRUE(mesh.faces.empty());
 }
 
@@ -179,13 +179,14 @@ TEST(GmshMesh, FileNames)
   const TemporaryFolder folder;
   EXPECT_EQ(message(""),
             "Mesh/gmsh/File: no mesh file: found an empty name; give the name "
-            "of a .msh or .geo file");
+            "of a .msh or .geo file, say");
   EXPECT_EQ(refusal([] { read_gmsh("../c.msh", "/nowhere/b"); }),
             "Mesh/gmsh/File: there is no mesh file: found '/nowhere/c.msh'");
   const std::string file = folder.write("x.stl", "");
   EXPECT_EQ(message(file),
             "Mesh/gmsh/File: the kind of mesh file is unknown: found '" + file +
-              "'; allowed are .msh and .geo");
+              "'; allowed are .msh, .geo, .stp, .step, .igs, .iges, .brep, "
+              ".inp");
 }
 
 // A mesh has its size; asking for another one must not be ignored silently.
@@ -194,8 +195,8 @@ TEST(GmshMesh, ElementSizeOfAMesh)
   EXPECT_EQ(refusal([] {
               read_gmsh("bracket.msh", COROTET_SOURCE_DIR "/meshes", "0.01");
             }),
-            "Mesh/gmsh/Element size: only a .geo can be given an element size: "
-            "found 0.01 for '" COROTET_SOURCE_DIR
+            "Mesh/gmsh/Element size: only a geometry can be given an element "
+            "size: found 0.01 for the mesh '" COROTET_SOURCE_DIR
             "/meshes/bracket.msh'; 0 is allowed");
 }
 
@@ -302,16 +303,24 @@ TEST(GmshMesh, UngluedBodies)
             std::string::npos);
 }
 
-TEST(GmshMesh, SurfaceOfTwoPhysicalGroups)
+// What belongs to several groups is found by each of their names.
+TEST(GmshMesh, GroupsThatOverlap)
 {
   const TemporaryFolder folder;
   const std::string     file =
     folder.write("two_groups.geo",
-                 "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+                 "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 2, 3};\n"
                  "Physical Surface(\"a\", 3) = {1};\n"
-                 "Physical Surface(\"b\", 5) = {1, 2};\n");
-  EXPECT_EQ(message(file),
-            file + ": surface 1 belongs to two physical groups: found 'a' (id "
-                   "3) and 'b' (id 5); one is allowed (a file of version 2.2 "
-                   "needs an elementary tag of its own for each group)");
+                 "Physical Surface(\"b\", 5) = {1, 3};\n"
+                 "Physical Surface(7) = {3, 5, 6};\n"
+                 "Physical Volume(\"body\", 2) = {1};\n"
+                 "Physical Volume(\"steel\", 4) = {1};\n");
+  SerialMesh mesh = read_gmsh(file);
+  check_mesh(mesh);
+  EXPECT_NEAR(area(mesh, "a"), 6, 1e-13);
+  EXPECT_NEAR(area(mesh, "b"), 9, 1e-13);
+  EXPECT_NEAR(area(mesh, "7"), 7, 1e-13);
+  const MeshNames regions("region", mesh.regions);
+  EXPECT_EQ(regions.ids("body", ""), regions.ids("steel", ""));
+  EXPECT_EQ(regions.name(mesh.cells[0].region), "body & steel");
 }

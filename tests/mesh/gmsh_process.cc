@@ -130,7 +130,7 @@ TEST(GmshProcess, HarmlessGeometry)
                  box_geometry + "// SystemCall \"x\";\nPrint.Background = 0;\n"
                                 "Printf(\"2 > 1\");\nIf (2 > 1)\nEndIf\n"
                                 "Include \"part.geo\";\n"));
-  EXPECT_EQ(mesh.region_names.at(3), "Exit");
+  EXPECT_EQ(mesh.regions.names.at(3), "Exit");
   EXPECT_NEAR(mesh_quality(mesh).volume, 6, 1e-12);
 }
 

@@ -143,7 +143,7 @@ TEST(Mesh, RegionsAndUnnamedSurface)
         x += mesh.vertices[v][0] / 4;
       cell.region = x < 1 ? 5 : 6;
     }
-  mesh.region_names      = {{5, "left"}, {8, "not in the mesh"}};
+  mesh.regions.names     = {{5, "left"}, {8, "not in the mesh"}};
   const Mesh distributed = make_mesh(mesh, 1);
   EXPECT_NEAR(volume(distributed, 5), 0.5, 1e-13);
   EXPECT_NEAR(volume(distributed, 6), 0.5, 1e-13);
@@ -272,22 +272,24 @@ TEST(Mesh, FewerCellsThanRanks)
 // Names first, then ids; and what an unknown one is answered.
 TEST(MeshNames, Lookup)
 {
+  using Ids = std::vector<unsigned int>;
   const MeshNames names("boundary",
-                        {{0, "x-min"}, {1, "x-max"}, {4, ""}, {6, "5"}});
-  EXPECT_EQ(names.id("x-max", ""), 1u);
-  EXPECT_EQ(names.id("0", ""), 0u);
-  EXPECT_EQ(names.id("4", ""), 4u);
-  EXPECT_EQ(names.id("5", ""), 6u);
+                        {{{0, "x-min"}, {1, "x-max"}, {4, ""}, {6, "5"}}, {}});
+  EXPECT_EQ(names.ids("x-max", ""), Ids{1});
+  EXPECT_EQ(names.ids("0", ""), Ids{0});
+  EXPECT_EQ(names.ids("4", ""), Ids{4});
+  EXPECT_EQ(names.ids("5", ""), Ids{6});
   EXPECT_EQ(names.name(1), "x-max");
   EXPECT_EQ(names.name(4), "4");
 
-  EXPECT_EQ(refusal([&] { names.id("x-mx", "Loads/Boundary"); }),
+  EXPECT_EQ(refusal([&] { names.ids("x-mx", "Loads/Boundary"); }),
             "Loads/Boundary: no such boundary: found 'x-mx'; the mesh has the "
             "boundaries: x-min, x-max, 4, 5; did you mean 'x-max'?");
-  EXPECT_EQ(refusal([&] { names.id("elsewhere", "Loads/Boundary"); }),
+  EXPECT_EQ(refusal([&] { names.ids("elsewhere", "Loads/Boundary"); }),
             "Loads/Boundary: no such boundary: found 'elsewhere'; the mesh has "
             "the boundaries: x-min, x-max, 4, 5");
-  EXPECT_EQ(refusal([] { MeshNames("region", {}).id("a", "Material/Region"); }),
+  EXPECT_EQ(refusal(
+              [] { MeshNames("region", {}).ids("a", "Material/Region"); }),
             "Material/Region: no such region: found 'a'; the mesh has no "
             "regions");
 }
@@ -331,4 +333,44 @@ TEST(Mesh, FromASourceOfAnotherProgram)
   Log        log(comm, true);
   const Mesh mesh(parameters, "", comm, log);
   EXPECT_NEAR(volume(mesh, 0), 2 * 0.5 * 3, 1e-13);
+}
+
+// Sets that overlap: each member has one id, and every name means what it
+// meant before others came.
+TEST(NamedSets, Overlap)
+{
+  using Ids = std::vector<unsigned int>;
+  std::vector<unsigned int>   ids{0, 0, 0, 1, 1, 2};
+  std::vector<unsigned int *> places;
+  for (unsigned int &id : ids)
+    places.push_back(&id);
+  NamedSets  named{{{0, "left"}, {1, ""}, {2, "right"}}, {}};
+  const auto members = [&](const std::string &name) {
+    const Ids                of_name = MeshNames("region", named).ids(name, "");
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if (std::find(of_name.begin(), of_name.end(), ids[i]) != of_name.end())
+        result.push_back(i);
+    return result;
+  };
+  using Members = std::vector<std::size_t>;
+  named.add("top", {1, 3}, places);
+  named.add("all", {0, 1, 2, 3, 4, 5}, places);
+  named.add("last", {5}, places);
+  named.add("top", {2}, places);
+  EXPECT_EQ(members("left"), (Members{0, 1, 2}));
+  EXPECT_EQ(members("right"), (Members{5}));
+  EXPECT_EQ(members("top"), (Members{1, 2, 3}));
+  EXPECT_EQ(members("all"), (Members{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(members("last"), (Members{5}));
+
+  const MeshNames names("region", named);
+  EXPECT_EQ(names.name(ids[1]), "all & left & top");
+  EXPECT_EQ(names.name(names.ids("top", "")), "top");
+  EXPECT_EQ(names.known(),
+            (std::vector<std::string>{"right", "all", "last", "left", "top"}));
+
+  named.restrict_to({ids[0], ids[4]});
+  EXPECT_EQ(MeshNames("region", named).known(),
+            (std::vector<std::string>{"all", "left"}));
 }

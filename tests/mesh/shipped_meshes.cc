@@ -58,11 +58,11 @@ TEST_P(ShippedMesh, LoadsAndPassesTheChecks)
       check_mesh(mesh);
       // Of round surfaces on straight cells, by the geometry or by facets.
       EXPECT_EQ(mesh.remarks.size(), GetParam().tolerance > 1e-9 ? 1u : 0u);
-      EXPECT_EQ(mesh.region_names, GetParam().regions);
+      EXPECT_EQ(mesh.regions.names, GetParam().regions);
 
       std::set<std::string> found;
       for (const auto &[id, area] : boundary_areas(mesh))
-        found.insert(mesh.boundary_names.at(id));
+        found.insert(mesh.boundaries.names.at(id));
       EXPECT_EQ(found, GetParam().boundaries);
 
       const MeshQuality quality = mesh_quality(mesh);

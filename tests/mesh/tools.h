@@ -50,6 +50,19 @@ namespace corotet::tests
     return areas;
   }
 
+  /// The sum of the values of all ids that a name means.
+  inline double
+  value_of(const std::string                    &name,
+           const std::string                    &kind,
+           const NamedSets                      &named,
+           const std::map<unsigned int, double> &values)
+  {
+    double sum = 0;
+    for (const unsigned int id : MeshNames(kind, named).ids(name, ""))
+      sum += values.at(id);
+    return sum;
+  }
+
   /// Volume of each region.
   inline std::map<unsigned int, double>
   region_volumes(const SerialMesh &mesh)
@@ -58,6 +71,20 @@ namespace corotet::tests
     for (const SerialMesh::Cell &cell : mesh.cells)
       volumes[cell.region] += signed_volume(cell_vertices(mesh, cell));
     return volumes;
+  }
+
+  /// Sum of the areas of the faces that a name means.
+  inline double
+  area(const SerialMesh &mesh, const std::string &name)
+  {
+    return value_of(name, "boundary", mesh.boundaries, boundary_areas(mesh));
+  }
+
+  /// Volume of the cells that a name means.
+  inline double
+  volume(const SerialMesh &mesh, const std::string &name)
+  {
+    return value_of(name, "region", mesh.regions, region_volumes(mesh));
   }
 } // namespace corotet::tests
 

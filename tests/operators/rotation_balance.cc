@@ -31,8 +31,8 @@ namespace
                      Point<3>(0.2, 0.3, 1.2)};
     for (Point<3> &x : mesh.vertices)
       x = centre + h * (x - centre);
-    mesh.cells        = {{{{0, 1, 2, 3}}, 0}};
-    mesh.region_names = {{0, "body"}};
+    mesh.cells         = {{{{0, 1, 2, 3}}, 0}};
+    mesh.regions.names = {{0, "body"}};
     return mesh;
   }
 

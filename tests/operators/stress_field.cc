@@ -50,7 +50,7 @@ namespace
           x += mesh.vertices[v][0] / 4;
         cell.region = x < 1 ? 1 : 2;
       }
-    mesh.region_names = {{1, "stiff"}, {2, "soft"}};
+    mesh.regions.names = {{1, "stiff"}, {2, "soft"}};
     return mesh;
   }
 

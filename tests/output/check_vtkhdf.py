@@ -7,7 +7,7 @@
 
 For every step:
 - cells are Lagrange tetrahedra (type 71) of one degree, of positive volume, and all finite data of cells and points are there;
-- every node is at its parametric place, as VTK's own cell tells it, to 1e-6 of the cell's size; if parameters.prm asks for curved
+- every node is at its parametric place, as VTK's own cell tells it, to 1e-6 of the cell's size; if log.txt tells of curved
   cells, those with an edge on the surface may be curved, but have each node nearer to its place than to that of any other; nodes are
   shared: no two are at the same place; the mesh is the same in all steps;
 - the displacement that VTK's shape functions give at each probe is that of history.csv to 1e-12 relative;
@@ -80,11 +80,11 @@ def probes_of(directory):
 
 
 def is_curved(directory):
-    path = os.path.join(directory, "parameters.prm")
+    path = os.path.join(directory, "log.txt")
     if not os.path.exists(path):
         return False
     with open(path) as file:
-        return re.search(r"^\s*set Geometry degree\s*= [23]", file.read(), re.MULTILINE) is not None
+        return re.search(r"^\s*[1-9]\d* curved cells of degree", file.read(), re.MULTILINE) is not None
 
 
 class Mesh:

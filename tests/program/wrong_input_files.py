@@ -50,7 +50,6 @@ def mesh_rows():
             ("pyramid", mesh([(7, 1, 1, 1, 2, 3, 4, 5)]), "cells other than tetrahedra", "'Pyramid 5'"),
             ("triangle beside the body", mesh([GOOD, (2, 2, 1, 1, 2, 5)]), "which is no face of a cell"),
             ("face of two boundaries", mesh([GOOD, (2, 2, 1, 1, 2, 3), (2, 3, 2, 1, 2, 3)], groups=((2, 2, "a"), (2, 3, "b"))), "boundaries 'a' and 'b'"),
-            ("volume of two groups", mesh([GOOD, (4, 2, 1, 2, 4, 3, 5)], groups=((3, 1, "a"), (3, 2, "b"))), "two physical groups"),
             ("empty file", "", "must start with"), ("text", "tetrahedra, please\n", "must start with"),
             ("bytes", bytes(range(256)) * 20, "must start with"), ("unknown version", mesh([GOOD], version="7.3"), "x.msh"),
             ("cut off", GOOD_MESH[:GOOD_MESH.index("$EndElements") - 8], "$EndElements"), ("no elements", GOOD_MESH.split("$Elements")[0], "$Elements"),
@@ -69,12 +68,23 @@ def mesh_rows():
     yield mesh_row("mesh that is not there", None, "there is no mesh file: found 'x.msh'", place=at_file)
     yield mesh_row("mesh with a long name", None, "File name too long", "(304 characters)", file=300 * "x" + ".msh", place=at_file)
     yield mesh_row("mesh in a file", None, "case.prm/x.msh: Not a directory", file="case.prm/x.msh", place=at_file)
-    yield mesh_row("mesh of another kind", "solid\n", "allowed are .msh and .geo", file="x.stl", place=at_file)
+    yield mesh_row("mesh of another kind", "solid\n", "allowed are .msh, .geo, ", file="x.stl", place=at_file)
     yield mesh_row("mesh that is a folder", None, "there is no mesh file", file=".", place=at_file)
     yield mesh_row("mesh without name", None, "found an empty name", file="", place=at_file)
-    yield mesh_row("element size of a mesh", GOOD_MESH, "only a .geo", settings=("Mesh/gmsh/Element size = 1",), place=option + "Element size: ")
-    yield mesh_row("degree of a mesh", GOOD_MESH, "a .msh has the degree of its cells", settings=("Mesh/gmsh/Geometry degree = 2",),
+    yield mesh_row("element size of a mesh", GOOD_MESH, "only a geometry", settings=("Mesh/gmsh/Element size = 1",), place=option + "Element size: ")
+    yield mesh_row("degree of a mesh", GOOD_MESH, "a mesh has the degree of its cells", settings=("Mesh/gmsh/Geometry degree = 2",),
                    place=option + "Geometry degree: ")
+    nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n"
+    for name, content, line, *parts in (
+            ("no tetrahedra", nodes, "", "the mesh has no tetrahedra"), ("no number", "*NODE\n1,0,x,0\n", "2: ", "found 'x'"),
+            ("hexahedra", nodes + "*ELEMENT,TYPE=C3D8\n1,1,2,3,4,1,2,3,4\n", "", "1 of the type 'C3D8'"),
+            ("unknown node", nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,3,5\n", "7: ", "there is no node 5"),
+            ("cut off", nodes + "*ELEMENT,TYPE=C3D4\n1,1,2,\n", "6: ", "too few nodes: found 2; needed are 4"),
+            ("reads outside", "*INCLUDE, INPUT=/etc/passwd\n", "1: ", "outside of the folder"),
+            ("includes itself", "*INCLUDE, INPUT=x.inp\n", "1: ", "include each other"),
+            ("inverted", nodes + "*ELEMENT,TYPE=C3D4\n1,1,3,2,4\n", "", "cell")):
+        yield mesh_row(f"Abaqus: {name}", content, *parts, file="x.inp", place=f"x.inp:{line}" if line else "x.inp: ")
+    yield mesh_row("STEP of nothing", "ISO-10303-21;\nHEADER;\n", "gmsh", file="x.step", place="x.step: ")
     # A body of two parts, one of which nothing holds.
     apart = mesh([GOOD, (4, 2, 2, 5, 6, 7, 8), (2, 3, 1, 1, 2, 3)], (*NODES[:4], (5, 0, 0), (6, 0, 0), (5, 1, 0), (5, 0, 1)),
                  groups=((3, 1, "held"), (3, 2, "loose"), (2, 3, "base")))
@@ -168,7 +178,7 @@ def command_line_rows():
             ("override with a comment", ("--set", "Output/Directory = a#b"), "--set: ", "has a #"),
             ("override in the entry", ("--set", "Type/Type = modes"), "--set: ", "is an entry"),
             ("unknown option", ("--validat",), "command line: ", 'did you mean "--validate"?'), ("option without value", ("--set",), "command line: ", "--set"),
-            ("unknown short option", ("-x",), "command line: ", '"-x"'), ("two files", ("case.prm",), "command line: ", "one parameter file"),
+            ("unknown short option", ("-x",), "command line: ", '"-x"'), ("two files", ("case.prm",), "command line: ", "one file"),
             ("control characters", ("--\x1b[2J",), "command line: ", "\\x1b[2J"))):
         yield Row(f"command line: {name}", list(parts[1:]), parts[0], ["case.prm", "--quiet", "--output", "results", "--validate", *arguments], {"case.prm": text})
     yield Row("command line: no file", ["a parameter file is needed"], "command line: ", ["--validate"], {})

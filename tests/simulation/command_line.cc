@@ -140,8 +140,34 @@ TEST(CommandLine, RefusesUnknownOptions)
 TEST(CommandLine, RefusesASecondFile)
 {
   EXPECT_EQ(command_line_refusal({"a.prm", "b.prm"}),
-            "command line: unexpected argument \"b.prm\"; one parameter file "
-            "is allowed");
+            "command line: unexpected argument \"b.prm\"; one file is "
+            "allowed");
+}
+
+TEST(CommandLine, Mesh)
+{
+  EXPECT_FALSE(parse({"a.prm"}).mesh);
+  const CommandLine c =
+    parse({"mesh", "part.step", "--size", "0.5", "--degree", "2"});
+  ASSERT_TRUE(c.mesh);
+  EXPECT_EQ(c.mesh->file, "part.step");
+  EXPECT_EQ(c.mesh->element_size, 0.5);
+  EXPECT_EQ(c.mesh->geometry_degree, 2u);
+  EXPECT_NE(parse({"mesh", "--help"}).message.value_or("").find("--degree"),
+            std::string::npos);
+  EXPECT_EQ(command_line_refusal({"mesh"}),
+            "command line: a mesh or a geometry is needed: corotet mesh "
+            "[OPTIONS] FILE");
+  EXPECT_EQ(command_line_refusal({"mesh", "a.stp", "--sise", "2"}),
+            "command line: unknown option \"--sise\"; did you mean "
+            "\"--size\"?");
+  EXPECT_EQ(command_line_refusal({"mesh", "a.stp", "b.stp"}),
+            "command line: unexpected argument \"b.stp\"; one file is "
+            "allowed");
+  for (const char *const wrong : {"0", "4", "two"})
+    EXPECT_EQ(command_line_refusal({"mesh", "a.stp", "--degree", wrong})
+                .rfind("command line: --degree", 0),
+              0);
 }
 
 TEST(CommandLine, RefusesAnUnknownStyle)

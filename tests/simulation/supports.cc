@@ -62,9 +62,9 @@ namespace
         face.boundary += other;
         mesh.faces.push_back(face);
       }
-    mesh.region_names[other] = "second";
-    for (const auto &[id, name] : one.boundary_names)
-      mesh.boundary_names[id + other] = "second " + name;
+    mesh.regions.names[other] = "second";
+    for (const auto &[id, name] : one.boundaries.names)
+      mesh.boundaries.names[id + other] = "second " + name;
     return mesh;
   }
 

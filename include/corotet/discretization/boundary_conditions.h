@@ -10,7 +10,9 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,10 +42,11 @@ namespace corotet
   {
   public:
     /// Displacement in m, by component, of the nodes that all of these
-    /// boundaries have in common; a component without value is free.
+    /// boundaries have in common, each the union of some ids; a component
+    /// without value is free.
     struct Displacement
     {
-      std::vector<unsigned int>                boundaries;
+      std::set<std::vector<unsigned int>>      boundaries;
       std::array<std::optional<Expression>, 3> components;
       /// The parameter that sets it.
       std::string entry;
@@ -69,21 +72,30 @@ namespace corotet
 
     /// "name", or "name & name" for what boundaries have in common.
     std::string
-    name(const std::vector<unsigned int> &boundaries) const;
+    name(const std::set<std::vector<unsigned int>> &boundaries) const;
 
   private:
     /// What "name & name" means, each boundary once.
-    std::vector<unsigned int>
+    std::set<std::vector<unsigned int>>
     find(const std::string &text, const std::string &entry) const;
 
+    /// Adds a load on each of the boundaries that a name means.
     void
-    claim(const std::vector<unsigned int> &boundaries,
-          const unsigned int               component,
-          const std::string               &entry);
+    add(std::vector<SurfaceLoad> &loads,
+        const std::string        &name,
+        const Expression         &value,
+        const std::string        &entry) const;
+
+    void
+    claim(const std::set<std::vector<unsigned int>> &boundaries,
+          const unsigned int                         component,
+          const std::string                         &entry);
 
     const MeshNames &names;
-    /// Entry that sets the condition of [boundaries][component].
-    std::map<std::vector<unsigned int>, std::array<std::string, 3>> claims;
+    /// Entry that sets the condition of [boundaries][component]: of one
+    /// boundary, by its ids one by one.
+    std::map<std::set<std::vector<unsigned int>>, std::array<std::string, 3>>
+      claims;
   };
 } // namespace corotet
 

@@ -31,7 +31,7 @@ namespace corotet
     /// Throws InputError, also if the values at the start are negative or not
     /// finite. Collective.
     SurfaceCoefficient(const ForceContext &context,
-                       const std::string  &boundary,
+                       const unsigned int  boundary,
                        const std::string  &text,
                        const Direction     direction,
                        const std::string  &entry);

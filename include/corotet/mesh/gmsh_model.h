@@ -18,6 +18,8 @@ namespace corotet
   struct GmshRequest
   {
     std::string path;
+    /// By its name in mesh_formats().
+    std::string format;
     /// Cells are made of a geometry; a mesh has them.
     bool is_geometry = false;
     /// Of the edges; 0 leaves it to the file.
@@ -26,8 +28,9 @@ namespace corotet
     unsigned int n_refinements = 0;
     /// Before the refinements; with more, none are made.
     double max_n_cells = 0;
-    /// Of gmsh [s].
-    double time_limit = 0;
+    /// Of gmsh [s], and the parameter that sets it.
+    double      time_limit = 0;
+    std::string time_limit_entry;
   };
 
   /**

@@ -6,12 +6,12 @@
 
 #include <corotet/base/log.h>
 #include <corotet/base/selectable.h>
+#include <corotet/mesh/mesh_names.h>
 #include <corotet/mesh/mesh_source.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
 
-#include <map>
 #include <string>
 
 namespace corotet
@@ -30,42 +30,6 @@ namespace corotet
     Selectable<MeshSource> source;
     unsigned int           n_refinements = 0;
     double                 scale         = 1;
-  };
-
-  /**
-   * Ids by name, and names by id, of the regions or of the boundaries of a
-   * mesh.
-   */
-  class MeshNames
-  {
-  public:
-    /// @p kind is "region" or "boundary"; @p names holds every id that the mesh
-    /// has (an empty name: known by its id).
-    MeshNames(const std::string                         &kind,
-              const std::map<unsigned int, std::string> &names);
-
-    /**
-     * The id that @p name_or_id means. Throws InputError blamed on the
-     * parameter @p entry ("Section/Entry"), with the names that there are and
-     * the nearest one.
-     */
-    unsigned int
-    id(const std::string &name_or_id, const std::string &entry) const;
-
-    /// The name of @p id, or the id itself as text if it has none.
-    std::string
-    name(const unsigned int id) const;
-
-    /// All of them, by id.
-    const std::map<unsigned int, std::string> &
-    all() const
-    {
-      return names;
-    }
-
-  private:
-    std::string                         kind;
-    std::map<unsigned int, std::string> names;
   };
 
   /**

@@ -24,12 +24,26 @@ namespace corotet
     double worst_aspect_ratio = 1;
   };
 
+  /// The same of one cell.
+  struct CellShape
+  {
+    /// In m^3, negative if it is inverted.
+    double volume;
+    /// Cosines of the angles between two faces.
+    std::array<double, 6> dihedral_cosines;
+    double                aspect_ratio;
+  };
+
   /**
    * Volume of the tetrahedron with these vertices in m^3, negative if p3 sees
    * the triangle p0 p1 p2 clockwise.
    */
   double
   signed_volume(const std::array<dealii::Point<3>, 4> &p);
+
+  /// Of the tetrahedron with these vertices, whose volume is positive.
+  CellShape
+  cell_shape(const std::array<dealii::Point<3>, 4> &p);
 
   /// The vertices of a cell of @p mesh.
   std::array<dealii::Point<3>, 4>

@@ -4,11 +4,12 @@
 #ifndef corotet_mesh_serial_mesh_h
 #define corotet_mesh_serial_mesh_h
 
+#include <corotet/mesh/mesh_names.h>
+
 #include <deal.II/base/point.h>
 
 #include <array>
 #include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -57,10 +58,10 @@ namespace corotet
     /// How often the source has refined the mesh by itself.
     unsigned int n_refinements = 0;
 
-    /// Names by id. A region or boundary that the source gives no name is known
-    /// by its id only.
-    std::map<unsigned int, std::string> region_names;
-    std::map<unsigned int, std::string> boundary_names;
+    /// What regions and boundaries are called. Those that the source gives no
+    /// name are known by their ids only.
+    NamedSets regions;
+    NamedSets boundaries;
 
     /// What an error in the mesh is blamed on: a file name, or empty for a
     /// generated mesh.

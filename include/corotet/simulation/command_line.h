@@ -11,6 +11,16 @@
 namespace corotet
 {
   /**
+   * What "corotet mesh FILE" asks for: to read, check and describe a mesh.
+   */
+  struct MeshCommand
+  {
+    std::string  file;
+    double       element_size    = 0;
+    unsigned int geometry_degree = 1;
+  };
+
+  /**
    * What the command line asks for.
    */
   struct CommandLine
@@ -32,6 +42,8 @@ namespace corotet
     /// List all parameters in this style ("prm", "json" or "markdown") and do
     /// nothing else.
     std::optional<std::string> print_parameters;
+    /// Describe a mesh, and do nothing else.
+    std::optional<MeshCommand> mesh;
     /// The answer to --help or --version: print it and do nothing else.
     std::optional<std::string> message;
   };

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_file_mesh_h
+#define corotet_mesh_file_mesh_h
+
+#include <corotet/mesh/mesh_source.h>
+
+namespace corotet
+{
+  /**
+   * A mesh from a file of any format in mesh_format.h, which is known by the
+   * file's content: a mesh, which is taken as it is, or a geometry, which gmsh
+   * (https://gmsh.info) meshes in a process of its own (source/gmsh).
+   *
+   * Named volumes of a file become regions and named surfaces boundaries. Cells
+   * are tetrahedra of degree 1, 2 or 3; those whose nodes are off the straight
+   * position become curved cells. Other cells are refused.
+   */
+  class FileMesh : public MeshSource
+  {
+  public:
+    /// @p name: that of the subsection with its parameters.
+    explicit FileMesh(const std::string &name);
+
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override;
+
+    SerialMesh
+    create(const std::string &folder,
+           const unsigned int n_refinements = 0) const override;
+
+  private:
+    std::string  section;
+    std::string  file;
+    double       element_size    = 0;
+    unsigned int geometry_degree = 1;
+    double       time_limit      = 3600;
+  };
+} // namespace corotet
+
+#endif

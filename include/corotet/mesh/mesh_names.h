@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_mesh_names_h
+#define corotet_mesh_mesh_names_h
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * What a mesh calls its regions or its boundaries. Each cell has one region
+   * and each face of the surface one boundary, which are known by ids. A name
+   * means one id, or several: so sets may overlap.
+   */
+  struct NamedSets
+  {
+    /// By id; ids that are not here, or have an empty name, have no name of
+    /// their own.
+    std::map<unsigned int, std::string> names;
+    /// Names that mean several ids (ascending), or one that has others, too.
+    std::map<std::string, std::vector<unsigned int>> sets;
+
+    /// The ids that @p name means; none if nothing has this name.
+    std::vector<unsigned int>
+    ids(const std::string &name) const;
+
+    /**
+     * Makes @p name mean the members whose places in @p id_of_member, which has
+     * the ids of all cells or faces, are @p members: an id that others have,
+     * too, is split. What names meant before they mean still. A name that there
+     * is gets the members in addition.
+     */
+    void
+    add(const std::string                 &name,
+        const std::vector<std::size_t>    &members,
+        const std::vector<unsigned int *> &id_of_member);
+
+    /// Forgets ids that are not in @p used, and sets that are empty then;
+    /// used ids without a name are known by their number.
+    void
+    restrict_to(const std::vector<unsigned int> &used);
+  };
+
+  /**
+   * Ids by name, and names by id, of the regions or of the boundaries of a
+   * mesh.
+   */
+  class MeshNames
+  {
+  public:
+    /// @p kind is "region" or "boundary"; @p named holds every id that the mesh
+    /// has (an empty name: known by its id).
+    MeshNames(const std::string &kind, const NamedSets &named);
+
+    /**
+     * The ids that @p name_or_id means, ascending. Throws InputError blamed on
+     * the parameter @p entry ("Section/Entry"), with the names that there are
+     * and the nearest one.
+     */
+    std::vector<unsigned int>
+    ids(const std::string &name_or_id, const std::string &entry) const;
+
+    /// The name of @p id; "a & b" for what several have in common; or the id
+    /// itself as text if it is in none.
+    std::string
+    name(const unsigned int id) const;
+
+    /// Of what ids() has given.
+    std::string
+    name(const std::vector<unsigned int> &ids) const;
+
+    /// All names, and ids without one: what ids() takes.
+    std::vector<std::string>
+    known() const;
+
+    /// All ids, with their own names.
+    const std::map<unsigned int, std::string> &
+    all() const
+    {
+      return named.names;
+    }
+
+  private:
+    std::string kind;
+    NamedSets   named;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include "shapes.h"
+
+#include <gmsh.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace corotet::gmsh_program
+{
+  namespace
+  {
+    using Entity = std::pair<int, int>;
+
+
+
+    // What the file calls a shape, "Assembly/Part/Solid": the last part of it.
+    // Empty if it has no name.
+    std::string
+    name_of(const Entity &entity)
+    {
+      std::string name;
+      gmsh::model::getEntityName(entity.first, entity.second, name);
+      while (!name.empty() && (name.back() == '/' || name.back() == ' '))
+        name.pop_back();
+      return name.substr(name.find_last_of('/') + 1);
+    }
+
+
+    // The colour that the file gives a shape, as "colour-ff8000", a word
+    // that parameter files can have; empty if it gives none.
+    std::string
+    colour_of(const Entity &entity)
+    {
+      int r = 0, g = 0, b = 0, opacity = 0;
+      gmsh::model::getColor(entity.first, entity.second, r, g, b, opacity);
+      if (opacity == 0)
+        return "";
+      char text[] = "colour-rrggbb";
+      std::snprintf(
+        text, sizeof(text), "colour-%02x%02x%02x", r & 255, g & 255, b & 255);
+      return text;
+    }
+
+
+
+    // Entities that have a colour, if it tells some from others.
+    std::map<Entity, std::string>
+    colours(const int dimension)
+    {
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dimension);
+      std::map<Entity, std::string> result;
+      std::set<std::string>         different;
+      for (const Entity &entity : entities)
+        {
+          const std::string colour = colour_of(entity);
+          different.insert(colour);
+          if (!colour.empty())
+            result[entity] = colour;
+        }
+      return different.size() > 1 ? result : std::map<Entity, std::string>();
+    }
+
+
+
+    // Names of solids or, without one, their colours.
+    std::map<Entity, std::string>
+    names_of_solids(const gmsh::vectorpair &solids)
+    {
+      std::map<Entity, std::string> names = colours(3);
+      for (const Entity &solid : solids)
+        if (const std::string name = name_of(solid); !name.empty())
+          names[solid] = name;
+      return names;
+    }
+
+
+
+    gmsh::vectorpair
+    import_solids(const GmshRequest &request)
+    {
+      gmsh::vectorpair shapes, solids;
+      for (const double sew : {0., 1.})
+        {
+          gmsh::clear();
+          // Surfaces that close are sewn to solids, if there are no solids.
+          gmsh::option::setNumber("Geometry.OCCImportLabels", 1);
+          gmsh::option::setNumber("Geometry.OCCSewFaces", sew);
+          gmsh::option::setNumber("Geometry.OCCMakeSolids", sew);
+          gmsh::model::occ::importShapes(request.path,
+                                         shapes,
+                                         true,
+                                         request.format);
+          gmsh::model::occ::synchronize();
+          gmsh::model::getEntities(solids, 3);
+          if (!solids.empty())
+            return solids;
+        }
+      gmsh::vectorpair surfaces;
+      gmsh::model::getEntities(surfaces, 2);
+      throw std::runtime_error("the geometry has no solid: found " +
+                               std::to_string(surfaces.size()) +
+                               " surfaces, which do not close; needed are "
+                               "solids");
+    }
+
+
+
+    // Lets solids share their faces. Names go from what was cut to its parts.
+    void
+    glue(const gmsh::vectorpair &solids, std::map<Entity, std::string> &names)
+    {
+      gmsh::vectorpair              all;
+      std::vector<gmsh::vectorpair> parts;
+      gmsh::model::occ::fragment(solids, {}, all, parts);
+      gmsh::model::occ::synchronize();
+      std::map<Entity, std::string> names_of_parts;
+      for (std::size_t i = 0; i < solids.size(); ++i)
+        if (const auto name = names.find(solids[i]); name != names.end())
+          for (const Entity &part : parts[i])
+            names_of_parts.emplace(part, name->second);
+      names = names_of_parts;
+    }
+
+
+
+    bool
+    is_between_solids(const Entity &surface)
+    {
+      std::vector<int> solids, curves;
+      gmsh::model::getAdjacencies(2, surface.second, solids, curves);
+      return solids.size() > 1;
+    }
+
+
+
+    // Each with those of the same name. Surfaces between solids have a group if
+    // the file has a name for them.
+    void
+    add_groups(std::vector<GmshModel::Group>       &groups,
+               const int                            dimension,
+               const std::string                   &kind,
+               const std::map<Entity, std::string> &names)
+    {
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dimension);
+      std::map<std::string, std::size_t> known;
+      for (const Entity &entity : entities)
+        {
+          const auto found = names.find(entity);
+          if (dimension == 2 && found == names.end() &&
+              is_between_solids(entity))
+            continue;
+          const std::string name =
+            found == names.end() ? kind + ' ' + std::to_string(entity.second) :
+                                   found->second;
+          const auto [place, is_new] = known.emplace(name, groups.size());
+          if (is_new)
+            groups.push_back({dimension, entity.second, name, {}});
+          groups[place->second].entities.push_back(entity.second);
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<GmshModel::Group>
+  read_shapes(const GmshRequest &request)
+  {
+    const gmsh::vectorpair        solids = import_solids(request);
+    std::map<Entity, std::string> names  = names_of_solids(solids);
+    if (solids.size() > 1)
+      glue(solids, names);
+    std::vector<GmshModel::Group> groups;
+    add_groups(groups, 3, "solid", names);
+    // Surfaces may be others now. They have colours, but no names of their own.
+    add_groups(groups, 2, "surface", colours(2));
+
+    // Cells that are small where the surface is bent, and nowhere large.
+    double x[6];
+    gmsh::model::getBoundingBox(-1, -1, x[0], x[1], x[2], x[3], x[4], x[5]);
+    const double diagonal = std::hypot(x[3] - x[0], x[4] - x[1], x[5] - x[2]);
+    gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", diagonal / 20);
+    gmsh::option::setNumber("Mesh.MeshSizeMin", diagonal / 2000);
+    return groups;
+  }
+} // namespace corotet::gmsh_program

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_source_mesh_abaqus_lines_h
+#define corotet_source_mesh_abaqus_lines_h
+
+#include <corotet/base/exceptions.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace corotet::abaqus
+{
+  /// Where a line is.
+  struct Place
+  {
+    std::string path;
+    unsigned    line = 0;
+
+    /// Throws an InputError about the line.
+    [[noreturn]] void
+    refuse(const std::string &message) const;
+  };
+
+  /// A keyword, "*ELEMENT, TYPE=C3D4, ELSET=Body": in capitals, without the
+  /// asterisk; its parameters, with names in capitals and values as they are.
+  struct Keyword
+  {
+    Place                              place;
+    std::string                        name;
+    std::map<std::string, std::string> parameters;
+
+    bool
+    has(const std::string &parameter) const
+    {
+      return parameters.count(parameter) > 0;
+    }
+
+    /// Empty if it is not there.
+    std::string
+    value(const std::string &parameter) const;
+
+    /// Throws an InputError if it is not there, or empty.
+    std::string
+    needed(const std::string &parameter) const;
+  };
+
+  std::string
+  upper_case(const std::string_view text);
+
+  /// Without blanks around it, and without quotes.
+  std::string
+  trimmed(const std::string_view text);
+
+  Keyword
+  parse_keyword(const std::string &line, const Place &place);
+
+  /// The fields of a line, between commas; an empty one after the last comma is
+  /// none.
+  std::vector<std::string>
+  fields(const std::string &line);
+
+  /// A whole number; none if @p text is anything else.
+  std::optional<std::int64_t>
+  whole_number(const std::string &text);
+
+  /// A positive whole number. Throws an InputError.
+  std::int64_t
+  tag(const std::string &text, const Place &place);
+
+  /// A finite number, also with Fortran's exponent D. Throws an InputError.
+  double
+  number(const std::string &text, const Place &place);
+} // namespace corotet::abaqus
+
+#endif

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The sets and surfaces of files of Abaqus.
+
+#include <corotet/base/text.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "abaqus_reader.h"
+
+namespace corotet::abaqus
+{
+  namespace
+  {
+    // "first, last, increment". Numbers that there are not are passed over, as
+    // CalculiX does.
+    std::vector<std::uint32_t>
+    generated(const std::vector<std::string>                        &words,
+              const std::unordered_map<std::int64_t, std::uint32_t> &known,
+              const Place                                           &place)
+    {
+      if (words.size() < 2 || words.size() > 3)
+        place.refuse(
+          fmt::format("GENERATE needs first, last and increment: found "
+                      "{} fields",
+                      words.size()));
+      const std::int64_t first = tag(words[0], place),
+                         last  = tag(words[1], place),
+                         increment =
+                           words.size() > 2 ? tag(words[2], place) : 1;
+      if (last < first)
+        place.refuse(
+          fmt::format("found the last number, {}, before the first one, "
+                      "{}",
+                      last,
+                      first));
+      std::vector<std::pair<std::int64_t, std::uint32_t>> found;
+      for (const auto &[number, index] : known)
+        if (number >= first && number <= last &&
+            (number - first) % increment == 0)
+          found.emplace_back(number, index);
+      std::sort(found.begin(), found.end());
+      std::vector<std::uint32_t> members;
+      for (const auto &[number, index] : found)
+        members.push_back(index);
+      return members;
+    }
+  } // namespace
+
+
+
+  const Scope &
+  Reader::scope_of_members(const Place &place)
+  {
+    const std::string name = upper_case(keyword.value("INSTANCE"));
+    if (name.empty())
+      return current_scope();
+    for (const Scope &scope : scopes)
+      if (upper_case(scope.name) == name)
+        return scope;
+    place.refuse("there is no instance '" +
+                 shortened(keyword.value("INSTANCE")) + "'");
+  }
+
+
+
+  std::vector<std::uint32_t> &
+  Reader::target_of_set()
+  {
+    const std::string name = keyword.needed(keyword.name);
+    if (keyword.has("INTERNAL"))
+      current_scope().internal_names.insert(upper_case(name));
+    return keyword.name == "ELSET" ? current_scope().element_sets[name] :
+                                     current_scope().node_sets[name];
+  }
+
+
+
+  void
+  Reader::add_to_set(const std::vector<std::string> &words, const Place &place)
+  {
+    const bool        of_elements = keyword.name == "ELSET";
+    const Scope      &from        = scope_of_members(place);
+    const auto       &known       = of_elements ? from.elements : from.nodes;
+    const auto       &sets = of_elements ? from.element_sets : from.node_sets;
+    const std::string what = of_elements ? "element" : "node";
+    std::vector<std::uint32_t> members;
+    if (keyword.has("GENERATE"))
+      {
+        members = generated(words, known, place);
+        spend(members.size(), place);
+      }
+    else
+      for (const std::string &word : words)
+        if (const auto number = whole_number(word))
+          {
+            const auto found = known.find(*number);
+            if (found == known.end())
+              place.refuse(fmt::format("there is no {} {}", what, *number));
+            members.push_back(found->second);
+          }
+        else if (const auto *set = sets.find(word))
+          {
+            spend(set->size(), place);
+            members.insert(members.end(), set->begin(), set->end());
+          }
+        else if (!word.empty())
+          place.refuse(fmt::format("there is no {} and no set of {}s "
+                                   "'{}' before this line",
+                                   what,
+                                   what,
+                                   shortened(word)));
+    std::vector<std::uint32_t> &target = target_of_set();
+    target.insert(target.end(), members.begin(), members.end());
+  }
+
+
+
+  void
+  Reader::begin_surface()
+  {
+    const std::string name = keyword.needed("NAME");
+    const std::string type = upper_case(keyword.value("TYPE"));
+    if (!type.empty() && type != "ELEMENT" && type != "NODE")
+      keyword.place.refuse("found a surface of the type '" + shortened(type) +
+                           "'; allowed are ELEMENT and NODE");
+    if (type == "NODE")
+      current_scope().node_sets[name];
+    else
+      current_scope().surfaces[name];
+  }
+
+
+
+  void
+  Reader::add_to_surface(const std::vector<std::string> &words,
+                         const Place                    &place)
+  {
+    if (words.empty())
+      return;
+    const std::string name   = keyword.needed("NAME");
+    const auto [scope, what] = scope_and_name(words[0], place);
+    const Scope &from        = *scope;
+    const auto   number      = whole_number(what);
+    if (upper_case(keyword.value("TYPE")) == "NODE")
+      {
+        const auto *set     = from.node_sets.find(what);
+        auto        members = set ? *set : std::vector<std::uint32_t>();
+        spend(members.size(), place);
+        if (number)
+          members.push_back(node_of(*number, from, place));
+        else if (!set)
+          place.refuse("there is no node and no set of nodes '" +
+                       shortened(words[0]) + "' before this line");
+        auto &target = current_scope().node_sets[name];
+        target.insert(target.end(), members.begin(), members.end());
+        return;
+      }
+    std::vector<std::uint32_t> members;
+    if (const auto *set = from.element_sets.find(what))
+      {
+        spend(set->size(), place);
+        members = *set;
+      }
+    else if (const auto found = from.elements.find(number.value_or(-1));
+             found != from.elements.end())
+      members.push_back(found->second);
+    else
+      place.refuse("there is no element and no set of elements '" +
+                   shortened(words[0]) + "' before this line");
+    const std::string face = words.size() > 1 ? upper_case(words[1]) : "";
+    unsigned char     number_of_face = 0;
+    if (face.size() == 2 && face[0] == 'S' && face[1] >= '1' && face[1] <= '4')
+      number_of_face = face[1] - '0';
+    else if (!face.empty() && face != "SPOS" && face != "SNEG")
+      place.refuse("found the face '" + shortened(words[1]) +
+                   "'; allowed are S1, S2, S3 and S4");
+    auto &target = current_scope().surfaces[name];
+    for (const std::uint32_t element : members)
+      target.push_back({element, number_of_face});
+  }
+
+
+
+  std::pair<const Scope *, std::string>
+  Reader::scope_and_name(const std::string &word, const Place &place)
+  {
+    if (keyword.has("INSTANCE"))
+      return {&scope_of_members(place), word};
+    const std::string key = upper_case(word);
+    for (const Scope &scope : scopes)
+      if (const std::string start = upper_case(scope.name) + ".";
+          !scope.name.empty() && key.compare(0, start.size(), start) == 0)
+        return {&scope, word.substr(start.size())};
+    return {&current_scope(), word};
+  }
+
+
+
+  void
+  Reader::spend(const std::size_t n, const Place &place)
+  {
+    if (n > n_left)
+      place.refuse("copies and sets of sets have more members than there is "
+                   "room for; is the file damaged?");
+    n_left -= n;
+  }
+} // namespace corotet::abaqus

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Input files of Abaqus and CalculiX: what is read of them, and how those that
+// cannot be used are refused.
+
+#include <corotet/base/text.h>
+#include <corotet/mesh/abaqus_file.h>
+#include <corotet/mesh/check_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "mesh/tools.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  using Known = std::vector<std::string>;
+
+  class AbaqusFile : public testing::Test
+  {
+  protected:
+    SerialMesh
+    read(const std::string &text, const std::string &name = "part.inp") const
+    {
+      return serial_mesh(read_abaqus_file(folder.write(name, text)));
+    }
+
+    // Without the folder.
+    std::string
+    message(const std::string &text) const
+    {
+      const std::string found = refusal([&] { read(text); });
+      const std::size_t file  = found.find("part.inp");
+      return file == std::string::npos ? found : found.substr(file);
+    }
+
+    TemporaryFolder folder;
+  };
+
+  // Two tetrahedra that share a face, with sparse numbers.
+  const std::string nodes = "*Node\n"
+                            "  10, 0., 0., 0.\n"
+                            " 20, 1.D0, 0, 0\n"
+                            "30,0,+1e0,0\n"
+                            "40, 0, 0, 1.\n"
+                            "** a comment\n"
+                            "50, 1, 1, 1\n";
+  const std::string cells = "*ELEMENT, type=C3D4, ELSET=Body\n"
+                            "7, 10, 20, 30, 40\n"
+                            "9, 20, 30, 40, 50\n";
+
+  Known
+  known_regions(const SerialMesh &mesh)
+  {
+    return MeshNames("region", mesh.regions).known();
+  }
+} // namespace
+
+// Sets by every way there is; they overlap.
+TEST_F(AbaqusFile, SetsAndSurfaces)
+{
+  SerialMesh mesh = read("*HEADING\nA body, of two cells\n" + nodes + cells +
+                         "*elset, elset=\"Second One\"\n 9,\n"
+                         "*ELSET, ELSET=both, GENERATE\n 1, 100, 2\n"
+                         "*ELSET, ELSET=again\n SECOND ONE, 7\n"
+                         "*NSET, NSET=Floor, GENERATE\n10, 30, 10\n"
+                         "*NSET,\nNSET=part of it\n FLOOR, 50\n"
+                         "*NSET, NSET=two\n10, 50\n"
+                         "*SURFACE, NAME=side\n 7, S2\n 7, S4\n"
+                         "*SURFACE, NAME=outside, TYPE=ELEMENT\n Body,\n"
+                         "*SURFACE, NAME=nodes, TYPE=NODE\n 10,\n20,\n Floor\n"
+                         "*MATERIAL, NAME=steel\n*ELASTIC\n 2e11, 0.3\n");
+  check_mesh(mesh);
+  ASSERT_EQ(mesh.cells.size(), 2u);
+  EXPECT_EQ(mesh.vertices.size(), 5u);
+  EXPECT_EQ(known_regions(mesh),
+            (Known{"Body", "Second One", "again", "both"}));
+  // Determinants over six: 1 and 2.
+  EXPECT_NEAR(volume(mesh, "Body"), 0.5, 1e-15);
+  EXPECT_NEAR(volume(mesh, "Second One"), 1 / 3., 1e-15);
+  EXPECT_NEAR(volume(mesh, "both"), 0.5, 1e-15);
+  EXPECT_NEAR(volume(mesh, "again"), 0.5, 1e-15);
+
+  // Right triangles with legs of 1, and three of the other cell with edges of
+  // sqrt(2).
+  EXPECT_NEAR(area(mesh, "Floor"), 0.5, 1e-15);
+  EXPECT_NEAR(area(mesh, "nodes"), 0.5, 1e-15);
+  EXPECT_NEAR(area(mesh, "part of it"), 0.5 + std::sqrt(0.75), 1e-15);
+  EXPECT_NEAR(area(mesh, "side"), 1, 1e-15);
+  EXPECT_NEAR(area(mesh, "outside"), 1.5 + 1.5 * std::sqrt(3.), 1e-15);
+  const std::string remarks = join(mesh.remarks, "\n");
+  EXPECT_NE(remarks.find("2 nodes of the set 'two' are on no face"),
+            std::string::npos)
+    << remarks;
+  EXPECT_NE(remarks.find("*ELASTIC, *MATERIAL"), std::string::npos);
+}
+
+// Triangles and lines give their names; a file of ten nodes has curved cells
+// where its edges are bent, and its lines go on after a comma.
+TEST_F(AbaqusFile, CurvedCellsAndTriangles)
+{
+  const std::string text =
+    "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,.5,0,-0.05\n6,.5,.5,0\n"
+    "7,0,.5,0\n8,0,0,.5\n9,.5,0,.5\n10,0,.5,.5\n"
+    "*ELEMENT, TYPE=C3D10M, ELSET=all\n1, 1, 2, 3, 4, 5,\n 6, 7, 8,\n9, 10\n"
+    "*ELEMENT, TYPE=CPS6, ELSET=bottom\n2, 1, 2, 3, 5, 6, 7\n"
+    "*ELEMENT, TYPE=T3D3, ELSET=edge\n3, 1, 5, 2\n";
+  const SerialMesh mesh = read(text);
+  ASSERT_EQ(mesh.geometry_degree, 2u);
+  ASSERT_EQ(mesh.curved_nodes.size(), 10u);
+  EXPECT_EQ(mesh.curved_nodes[4], dealii::Point<3>(.5, 0, -0.05));
+  EXPECT_EQ(mesh.curved_nodes[9], dealii::Point<3>(0, .5, .5));
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_NEAR(area(mesh, "bottom"), 0.5, 1e-15);
+  EXPECT_NE(mesh.remarks.at(0).find("3 nodes of the set 'edge'"),
+            std::string::npos);
+}
+
+// Instances are moved and turned copies; sets of the assembly look into them.
+TEST_F(AbaqusFile, PartsAndInstances)
+{
+  const SerialMesh mesh =
+    read("*PART, NAME=block\n" + nodes + cells +
+         "*NSET, NSET=foot\n10, 20, 30\n*END PART\n"
+         "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one, PART=BLOCK\n*END INSTANCE\n"
+         "*INSTANCE, NAME=two, PART=block\n10., 0, 0\n10, 0, 0, 10, 0, 1, 90\n"
+         "*END INSTANCE\n"
+         "*NSET, NSET=held, INSTANCE=two\nfoot\n"
+         "*ELSET, ELSET=first, INSTANCE=one\n7\n"
+         "*SURFACE, NAME=face\ntwo.body, S2\n"
+         "*ELSET, ELSET=_f, INTERNAL, INSTANCE=one\n9\n"
+         "*SURFACE, NAME=other\n_f, S2\n"
+         "*END ASSEMBLY\n");
+  ASSERT_EQ(mesh.cells.size(), 4u);
+  EXPECT_EQ(known_regions(mesh), (Known{"first", "one.Body", "two.Body"}));
+  EXPECT_NEAR(volume(mesh, "first"), 1 / 6., 1e-15);
+  EXPECT_NEAR(volume(mesh, "two.Body"), 0.5, 1e-14);
+  EXPECT_NEAR(area(mesh, "held"), 0.5, 1e-14);
+  EXPECT_NEAR(area(mesh, "one.foot"), 0.5, 1e-15);
+  EXPECT_NEAR(area(mesh, "face"), std::sqrt(0.75) + 0.5, 1e-14);
+  EXPECT_NEAR(area(mesh, "other"), std::sqrt(0.75), 1e-14);
+  EXPECT_NEAR(area(mesh, "two.foot"), 0.5, 1e-14);
+  // (1, 0, 0) goes to (10, 1, 0).
+  EXPECT_LT(mesh.vertices[6].distance(dealii::Point<3>(10, 1, 0)), 1e-14);
+}
+
+TEST_F(AbaqusFile, IncludedFiles)
+{
+  folder.write("nodes.txt", nodes);
+  EXPECT_EQ(read("*INCLUDE, INPUT=nodes.txt\n" + cells).cells.size(), 2u);
+  folder.write("sub/data.txt", "10,0,0,0\n20,1,0,0\n30,0,1,0\n40,0,0,1\n");
+  EXPECT_EQ(read("*NODE, INPUT=sub/data.txt\n50,1,1,1\n" + cells).cells.size(),
+            2u);
+  EXPECT_EQ(message("*INCLUDE, INPUT=part.inp\n"),
+            "part.inp:1: found files that include each other 20 levels deep; "
+            "do they include themselves?");
+  EXPECT_EQ(message("*INCLUDE, INPUT=../other.inp\n"),
+            "part.inp:1: found the file '../other.inp' outside of the folder "
+            "of the first one; allowed are files in it or below it");
+  EXPECT_EQ(message("*INCLUDE, INPUT=none.inp\n"),
+            "part.inp:1: there is no such file: found 'none.inp'");
+}
+
+// Each wrong line by its number, and what is no tetrahedron with its count.
+TEST_F(AbaqusFile, Refusals)
+{
+  const std::pair<std::string, std::string> cases[] = {
+    {"1, 2\n",
+     ":1: found '1, 2' before the first keyword; needed is one like "
+     "*NODE"},
+    {nodes, ": the mesh has no tetrahedra"},
+    {nodes + cells +
+       "*ELEMENT, TYPE=C3D8\n1,10,20,30,40,50,\n10,20,30\n"
+       "*ELEMENT, TYPE=S4\n2,10,20,30,40\n3,10,20,30,40\n",
+     ": cells other than tetrahedra: found 1 of the type 'C3D8', 2 of the type "
+     "'S4'; allowed are C3D4 and C3D10 with their variants, and triangles and "
+     "lines, which give their names to faces and nodes"},
+    {"*NODE\n1, 0, x, 0\n", ":2: found 'x'; allowed is a finite number"},
+    {"*NODE\n1, 0, 1e999, 0\n",
+     ":2: found '1e999'; allowed is a finite number"},
+    {"*NODE\n1.5, 0, 0, 0\n",
+     ":2: found '1.5'; allowed is a positive whole number"},
+    {"*NODE\n1, 0, 0, 0\n1, 0, 0, 1\n",
+     ":3: node 1 is there already, at another place"},
+    {"*NODE, SYSTEM=C\n",
+     ":1: found the coordinate system 'C'; allowed is R, rectangular"},
+    {"*ELEMENT\n",
+     ":1: *ELEMENT has no name: found no value of TYPE; needed is 'TYPE=...'"},
+    {nodes + "*ELEMENT, TYPE=C3D4\n1, 10, 20, 30\n",
+     ":9: an element of the type 'C3D4' has 4 nodes: found 3"},
+    {nodes + "*ELEMENT, TYPE=C3D4\n1, 10, 20, 30,\n",
+     ":8: the last element of this *ELEMENT has too few nodes: found 3; needed "
+     "are 4"},
+    {nodes + "*ELEMENT, TYPE=C3D4\n1, 10, 20, 30, 41\n",
+     ":9: there is no node 41"},
+    {nodes + cells + "7, 10, 20, 30, 40\n", ":11: element 7 is there already"},
+    {nodes + cells + "*NSET, NSET=a\n12\n", ":12: there is no node 12"},
+    {nodes + cells + "*ELSET, ELSET=a\nbodi\n",
+     ":12: there is no element and no set of elements 'bodi' before this line"},
+    {nodes + cells + "*SURFACE, NAME=a\nbody, S5\n",
+     ":12: found the face 'S5'; allowed are S1, S2, S3 and S4"},
+    {nodes + cells + "*SURFACE, NAME=a, TYPE=CUTTING SURFACE\n",
+     ":11: found a surface of the type 'CUTTING SURFACE'; allowed are ELEMENT "
+     "and NODE"},
+    {nodes + cells + "*NSET, NSET=a, GENERATE\n5, 3\n",
+     ":12: found the last number, 3, before the first one, 5"},
+    {"*NGEN\n1, 2\n",
+     ":1: found *NGEN, which is not supported; allowed are nodes and elements "
+     "that are written out"},
+    {"*PART, NAME=a\n", ":1: found *PART without *END PART"},
+    {"*INSTANCE, NAME=a, PART=b\n",
+     ":1: there is no part 'b' before this line"},
+    {"*\n", ":1: found an asterisk without a keyword"},
+    {std::string("*NODE\n1,\0,0\n", 12),
+     ":2: found a byte of zero: is this a text file?"}};
+  for (const auto &[text, expected] : cases)
+    EXPECT_EQ(message(text), "part.inp" + expected);
+  EXPECT_EQ(message(nodes + cells +
+                    "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,.5,0,0\n"
+                    "6,.5,.5,0\n7,0,.5,0\n8,0,0,.5\n9,.5,0,.5\n11,0,.5,.5\n"
+                    "*ELEMENT, TYPE=C3D10\n1,1,2,3,4,5,6,7,8,9,11\n"),
+            "part.inp: tetrahedra of several degrees: found 2 with 4 nodes and "
+            "1 with 10; one of these is allowed");
+}
+
+// Sets of sets that would double in each line, and files that are included
+// again and again, end before they fill the machine.
+TEST_F(AbaqusFile, Explosions)
+{
+  std::string text = nodes + cells + "*NSET, NSET=a\n10, 20, 30, 40\n";
+  for (unsigned int i = 0; i < 40; ++i)
+    text += "a, a\n";
+  EXPECT_NE(message(text).find("have more members than there is room for"),
+            std::string::npos);
+
+  folder.write("b.inp", "** nothing\n");
+  text.clear();
+  for (unsigned int i = 0; i < 1001; ++i)
+    text += "*INCLUDE, INPUT=b.inp\n";
+  EXPECT_EQ(message(text),
+            "part.inp:1001: found more than 1000 included files");
+}

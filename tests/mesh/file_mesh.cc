@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Files of other programs: they are known by what they contain, whatever they
+// are called, and give the body that they describe.
+
+#include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/file_mesh.h>
+#include <corotet/mesh/mesh_format.h>
+
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include "mesh/tools.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  using Known = std::vector<std::string>;
+
+  SerialMesh
+  read_file(const std::string &file,
+            const std::string &element_size = "0",
+            const std::string &degree       = "1")
+  {
+    FileMesh                 source("file");
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("File", file);
+    prm.set("Element size", element_size);
+    prm.set("Geometry degree", degree);
+    SerialMesh mesh = source.create("");
+    check_mesh(mesh);
+    return mesh;
+  }
+
+  // What gmsh writes of shapes.
+  void
+  write_shapes(const std::string &file, const std::function<void()> &make)
+  {
+    gmsh::initialize(0, nullptr, false, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    make();
+    gmsh::model::occ::synchronize();
+    gmsh::write(file);
+    gmsh::finalize();
+  }
+
+  void
+  move(const std::string &from, const std::string &to)
+  {
+    std::filesystem::rename(from, to);
+  }
+
+  double
+  total(const std::map<unsigned int, double> &values)
+  {
+    double sum = 0;
+    for (const auto &[id, value] : values)
+      sum += value;
+    return sum;
+  }
+} // namespace
+
+// A box of 1 x 2 x 3 by each format of CAD programs: plane sides, so that its
+// volume and area are exact but for the digits that a file has.
+TEST(FileMesh, Solids)
+{
+  const TemporaryFolder folder;
+  for (const std::string extension : {"step", "brep", "iges"})
+    {
+      const std::string file = folder / ("box." + extension);
+      write_shapes(file, [] { gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3); });
+      EXPECT_EQ(mesh_format(file, "").name, extension);
+      const std::string other = folder / ("a part." + extension + ".dat");
+      move(file, other);
+      const SerialMesh mesh = read_file(other);
+      EXPECT_NEAR(total(region_volumes(mesh)), 6, 1e-6) << extension;
+      const auto areas = boundary_areas(mesh);
+      EXPECT_EQ(areas.size(), 6u) << extension;
+      EXPECT_NEAR(total(areas), 22, 1e-6) << extension;
+      EXPECT_EQ(mesh.remarks, Known()) << extension;
+      // Edges are no longer than a twentieth of the diagonal, about.
+      EXPECT_GT(mesh.cells.size(), 1000u) << extension;
+      EXPECT_LT(read_file(other, "1").cells.size(), 200u) << extension;
+    }
+}
+
+// Solids that touch share the faces where they do: each is a region, and there
+// is one body. Surfaces between them are no boundaries.
+TEST(FileMesh, SolidsThatTouch)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder / "two.step";
+  write_shapes(file, [] {
+    gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    gmsh::model::occ::addBox(1, 0.25, 0.25, 1, 0.5, 0.5);
+  });
+  const SerialMesh mesh    = read_file(file, "0.3");
+  const auto       volumes = region_volumes(mesh);
+  ASSERT_EQ(volumes.size(), 2u);
+  EXPECT_NEAR(volumes.begin()->second, 1, 1e-12);
+  EXPECT_NEAR(volumes.rbegin()->second, 0.25, 1e-12);
+  // 6 - 1/4 and 1/4 + 2.
+  EXPECT_NEAR(total(boundary_areas(mesh)), 8, 1e-12);
+  EXPECT_EQ(mesh.remarks, Known());
+}
+
+// The boundary of a ball is met by curved cells as closely as the degree of
+// their maps allows.
+TEST(FileMesh, CurvedCellsOfSolids)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder / "ball.stp";
+  write_shapes(file, [] { gmsh::model::occ::addSphere(0, 0, 0, 1); });
+  double errors[3];
+  for (const unsigned int degree : {1u, 2u, 3u})
+    {
+      const SerialMesh mesh = read_file(file, "0.4", std::to_string(degree));
+      EXPECT_EQ(mesh.geometry_degree, degree);
+      errors[degree - 1] =
+        std::abs(mesh_quality(mesh).volume / (4 * dealii::numbers::PI / 3) - 1);
+    }
+  EXPECT_GT(errors[0], 1e-2);
+  EXPECT_LT(errors[1], 2e-3);
+  EXPECT_LT(errors[2], 2e-4);
+}
+
+// What the file calls solids, and the colour of a surface.
+TEST(FileMesh, NamesAndColours)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder / "named.step";
+  write_shapes(file, [] {
+    gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    gmsh::model::occ::addBox(1, 0, 0, 1, 1, 1);
+  });
+  std::string text    = folder.read("named.step");
+  const auto  replace = [&](const std::string &from, const std::string &to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    for (std::size_t place = 0;
+         (place = text.find(from, place)) != std::string::npos;
+         place += to.size())
+      text.replace(place, from.size(), to);
+  };
+  // Products have names by the program that wrote them.
+  const std::size_t first = text.find("PRODUCT('"),
+                    end   = text.find('\'', first + 9);
+  const std::string whole = text.substr(first + 9, end - first - 9);
+  replace(whole + ".1'", "Rubber pad'");
+  replace(whole + ".2'", "Steel plate'");
+  // The number of an entity, "#17", that is followed by some text.
+  const auto number_before = [&](const std::string &what) {
+    const std::size_t end = text.find(what), begin = text.rfind('#', end);
+    return text.substr(begin, end - begin);
+  };
+  const std::string face = number_before(" = ADVANCED_FACE"),
+                    context =
+                      number_before(" = ( GEOMETRIC_REPRESENTATION_CONTEXT(3)");
+  replace("ENDSEC;\nEND-ISO",
+          "#9001=COLOUR_RGB('',1.,0.5,0.);\n"
+          "#9002=FILL_AREA_STYLE_COLOUR('',#9001);\n"
+          "#9003=FILL_AREA_STYLE('',(#9002));\n"
+          "#9004=SURFACE_STYLE_FILL_AREA(#9003);\n"
+          "#9005=SURFACE_SIDE_STYLE('',(#9004));\n"
+          "#9006=SURFACE_STYLE_USAGE(.BOTH.,#9005);\n"
+          "#9007=PRESENTATION_STYLE_ASSIGNMENT((#9006));\n"
+          "#9008=STYLED_ITEM('',(#9007)," +
+            face +
+            ");\n"
+            "#9009=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',"
+            "(#9008)," +
+            context + ");\nENDSEC;\nEND-ISO");
+  folder.write("named.step", text);
+  const SerialMesh mesh = read_file(file, "0.5");
+  EXPECT_EQ(MeshNames("region", mesh.regions).known(),
+            (Known{"Rubber pad", "Steel plate"}));
+  const MeshNames boundaries("boundary", mesh.boundaries);
+  const auto      ids = boundaries.ids("colour-ff8000", "");
+  ASSERT_EQ(ids.size(), 1u);
+  EXPECT_NEAR(boundary_areas(mesh).at(ids[0]), 1, 1e-12);
+}
+
+// The parts in meshes/ that come from other programs, by the volumes of their
+// design. Curved cells of degree 2 meet circles to 1e-4.
+TEST(FileMesh, ShippedParts)
+{
+  const double     pi   = dealii::numbers::PI;
+  const SerialMesh clip = read_file(COROTET_SOURCE_DIR "/meshes/clip.inp");
+  EXPECT_EQ(clip.geometry_degree, 2u);
+  const double volume = (pi / 2 * (12. * 12. - 10. * 10.) + 2 * 30. * 2.) * 8.;
+  EXPECT_NEAR(mesh_quality(clip).volume, 1e-9 * volume, 1e-13 * volume);
+  EXPECT_EQ(MeshNames("boundary", clip.boundaries).ids("lower-end", "").size(),
+            1u);
+
+  const SerialMesh mount =
+    read_file(COROTET_SOURCE_DIR "/meshes/rubber_mount.step", "8", "2");
+  EXPECT_EQ(MeshNames("region", mount.regions).known(),
+            (Known{"lower plate", "rubber", "upper plate"}));
+  EXPECT_NEAR(mesh_quality(mount).volume,
+              2 * 60. * 60. * 5. + pi * 20. * 20. * 30.,
+              10.);
+  const MeshNames boundaries("boundary", mount.boundaries);
+  for (const std::string colour : {"colour-ff0000", "colour-0000ff"})
+    EXPECT_NEAR(boundary_areas(mount).at(boundaries.ids(colour, "").at(0)),
+                3600.,
+                1e-9);
+}
+
+TEST(FileMesh, AbaqusByContent)
+{
+  const TemporaryFolder folder;
+  const std::string     file =
+    folder.write("mesh.txt",
+                 "** a comment\n\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n"
+                 "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n");
+  EXPECT_NEAR(mesh_quality(read_file(file)).volume, 1 / 6., 1e-15);
+  EXPECT_EQ(refusal([&] { read_file(file, "1"); }),
+            "Mesh/file/Element size: only a geometry can be given an element "
+            "size: found 1 for the mesh '" +
+              file + "'; 0 is allowed");
+}
+
+TEST(FileMesh, Refusals)
+{
+  const TemporaryFolder folder;
+  const std::string     text = folder.write("notes.txt", "Some text.\n");
+  EXPECT_EQ(refusal([&] { read_file(text); }),
+            "Mesh/file/File: the kind of mesh file is unknown: found '" + text +
+              "'; allowed are .msh, .geo, .stp, .step, .igs, .iges, .brep, "
+              ".inp");
+  // A file of another kind than its name says.
+  const std::string step =
+    folder.write("part.step", "ISO-10303-21;\nHEADER;\n");
+  const std::string message = refusal([&] { read_file(step); });
+  EXPECT_EQ(message.compare(0, step.size() + 7, step + ": gmsh:"), 0)
+    << message;
+
+  const std::string open = folder / "open.step";
+  write_shapes(open, [] {
+    gmsh::model::occ::addRectangle(0, 0, 0, 1, 1);
+    gmsh::model::occ::addRectangle(0, 0, 1, 1, 1);
+  });
+  EXPECT_EQ(refusal([&] { read_file(open); }),
+            open + ": gmsh: the geometry has no solid: found 2 surfaces, which "
+                   "do not close; needed are solids");
+}
