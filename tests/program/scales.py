@@ -8,7 +8,7 @@ micrometres or kilometres, nor on how stiff and heavy the body is, in statics, d
 import math
 import unittest
 
-from support import ProgramTest, parameter_text, read_history, read_modes
+from support import ProgramTest, parameter_text, read_history, read_modes, read_summary
 
 # Factors of lengths, of Young's modulus (here 1 Pa) and of the density (here 1 kg/m^3).
 SYSTEMS = {
@@ -77,7 +77,7 @@ def steps(units, kind, step, end):
 
 def statics(units):
     # Bent by half its length.
-    return {**beam(units, "6, 1, 1", 2), "Time integration/Type": "static", "Time integration/static/Load steps": 3, "Time integration/End time": repr(units.time),
+    return {**beam(units, "6, 1, 1", 2), "Time integration/Type": "static", "Time integration/static/Load steps": 6, "Time integration/End time": repr(units.time),
             "Boundary conditions/Traction": f"x-max: 0; 0; {2e-3 * units.stiffness!r}"}
 
 
@@ -114,22 +114,25 @@ def free_modes(units):
 class Scales(ProgramTest):
 
     def rows_of(self, problem, name, factors):
-        """The rows in units of the problem itself: text of each column to a number."""
+        """The rows in units of the problem itself: text of each column to a number. And how often a preconditioner was built."""
         units = Units(*factors)
         entries = problem(units)
         (self.folder / "scaled.prm").write_text(parameter_text(entries), encoding="utf-8")
         output = self.folder / name.replace(" ", "_")
         self.run_program("scaled.prm", "--quiet", "--output", output)
         rows = read_modes(output) if "Type" in entries else read_history(output)
-        return [{column: float(value) / units.of_column(column) for column, value in row.items() if units.of_column(column) is not None} for row in rows]
+        numbers = [{column: float(value) / units.of_column(column) for column, value in row.items() if units.of_column(column) is not None} for row in rows]
+        return numbers, read_summary(output).get("preconditioner_builds")
 
     def compare(self, problem, tolerance, rigid=0):
         """@p tolerance: of systems whose round-off differs, relative to the largest figure of that unit. @p rigid: so many first rows are
         rigid modes, whose frequencies are round-off."""
-        expected = self.rows_of(problem, "unit", (1, 1, 1))[rigid:]
+        expected, builds = self.rows_of(problem, "unit", (1, 1, 1))
+        expected = expected[rigid:]
         self.assertGreater(len(expected), 2)
         for name, factors in {**SYSTEMS, **EXACT}.items():
-            found = self.rows_of(problem, name, factors)[rigid:]
+            found, others = self.rows_of(problem, name, factors)
+            found = found[rigid:]
             self.assertEqual(len(found), len(expected), name)
             for column in expected[0]:
                 # Of all columns of this unit: some are sums that vanish.
@@ -138,8 +141,9 @@ class Scales(ProgramTest):
                 # The factors of time are roots, and files have decimal digits.
                 allowed = largest * (1e-15 if name in EXACT else tolerance)
                 if column == "linear_iterations" and name not in EXACT:
-                    # Where a residual is next to its bound, round-off decides whether there is one more.
-                    allowed = 0.01 * largest
+                    # Where a residual is next to its bound, round-off decides whether there is one more; and where one more is one too many,
+                    # a preconditioner is built anew, which saves some of the next.
+                    allowed = (0.01 if others == builds else 0.2) * largest
                 elif column.endswith("iterations"):
                     allowed = 0
                 for one, other in zip(expected, found):
