@@ -139,4 +139,30 @@ namespace corotet
     request.time_limit_entry = section + "Time limit";
     return mesh_by_gmsh(request);
   }
+
+
+
+  SerialMesh
+  read_mesh_file(const std::string &file,
+                 const double       element_size,
+                 const unsigned int geometry_degree)
+  {
+    FileMesh                 source("file");
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("File", file);
+    prm.set("Element size", element_size);
+    prm.set("Geometry degree", static_cast<long int>(geometry_degree));
+    try
+      {
+        SerialMesh mesh = source.create("");
+        check_mesh(mesh);
+        return mesh;
+      }
+    catch (const InputError &error)
+      {
+        // There is no parameter file that could be blamed.
+        throw InputError("", error.what());
+      }
+  }
 } // namespace corotet

@@ -145,6 +145,8 @@ namespace corotet
                      mesh.geometry_degree,
                      "Of the cells' maps, for a geometry")
         ->check(CLI::Range(1, 3));
+      command->add_option("--out", mesh.out, "Write the mesh to this .msh file")
+        ->type_name("FILE");
       return command;
     }
   } // namespace

@@ -2,7 +2,9 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/mpi.h>
+#include <corotet/mesh/file_mesh.h>
 #include <corotet/mesh/mesh_report.h>
+#include <corotet/mesh/msh_file.h>
 #include <corotet/studies/program.h>
 #include <corotet/studies/run_command.h>
 
@@ -23,9 +25,17 @@ namespace corotet
       if (command.mesh)
         return on_root(MPI_COMM_WORLD, [&] {
           const MeshCommand &asked = *command.mesh;
-          std::cout << describe_mesh(asked.file,
-                                     asked.element_size,
-                                     asked.geometry_degree);
+          // Before it is made, which may take long.
+          if (!asked.out.empty())
+            check_msh_target(asked.out, asked.file);
+          const SerialMesh mesh = read_mesh_file(asked.file,
+                                                 asked.element_size,
+                                                 asked.geometry_degree);
+          std::cout << mesh_report(mesh);
+          if (asked.out.empty())
+            return;
+          write_msh_file(asked.out, mesh);
+          std::cout << "written: " << asked.out << '\n';
         });
       if (command.output_directory)
         command.overrides.push_back("Output/Directory = " +

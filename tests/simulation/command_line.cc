@@ -147,12 +147,13 @@ TEST(CommandLine, RefusesASecondFile)
 TEST(CommandLine, Mesh)
 {
   EXPECT_FALSE(parse({"a.prm"}).mesh);
-  const CommandLine c =
-    parse({"mesh", "part.step", "--size", "0.5", "--degree", "2"});
+  const CommandLine c = parse(
+    {"mesh", "part.step", "--size", "0.5", "--degree", "2", "--out", "a.msh"});
   ASSERT_TRUE(c.mesh);
   EXPECT_EQ(c.mesh->file, "part.step");
   EXPECT_EQ(c.mesh->element_size, 0.5);
   EXPECT_EQ(c.mesh->geometry_degree, 2u);
+  EXPECT_EQ(c.mesh->out, "a.msh");
   EXPECT_NE(parse({"mesh", "--help"}).message.value_or("").find("--degree"),
             std::string::npos);
   EXPECT_EQ(command_line_refusal({"mesh"}),

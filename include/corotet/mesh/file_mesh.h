@@ -37,6 +37,15 @@ namespace corotet
     unsigned int geometry_degree = 1;
     double       time_limit      = 3600;
   };
+
+  /**
+   * The mesh in a file, or that is made of it (as FileMesh does, which has the
+   * same parameters), checked. Throws what FileMesh throws.
+   */
+  SerialMesh
+  read_mesh_file(const std::string &file,
+                 const double       element_size,
+                 const unsigned int geometry_degree);
 } // namespace corotet
 
 #endif

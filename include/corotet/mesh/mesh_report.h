@@ -18,15 +18,6 @@ namespace corotet
    */
   std::string
   mesh_report(const SerialMesh &mesh);
-
-  /**
-   * That of the mesh in a file, or that is made of it (as FileMesh does, which
-   * has the same parameters), checked. Throws what FileMesh throws.
-   */
-  std::string
-  describe_mesh(const std::string &file,
-                const double       element_size,
-                const unsigned int geometry_degree);
 } // namespace corotet
 
 #endif

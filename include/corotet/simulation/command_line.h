@@ -18,6 +18,8 @@ namespace corotet
     std::string  file;
     double       element_size    = 0;
     unsigned int geometry_degree = 1;
+    /// The .msh file to write; empty: none.
+    std::string out;
   };
 
   /**

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
+#include <corotet/mesh/msh_file.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "msh_nodes.h"
+
+namespace corotet
+{
+  namespace
+  {
+    using dealii::Point;
+    using Text = std::back_insert_iterator<std::string>;
+
+    // gmsh's numbers of these types.
+    constexpr int triangle_types[]{2, 9, 21}, tetrahedron_types[]{4, 11, 29};
+
+    struct ElementType
+    {
+      int                         dimension;
+      int                         type;
+      const std::vector<MshNode> &nodes;
+    };
+
+    // Corners of the box around what has one id.
+    struct Extent
+    {
+      Point<3> low, high;
+      bool     is_empty = true;
+
+      void
+      add(const Point<3> &x)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            low[d]  = is_empty ? x[d] : std::min(low[d], x[d]);
+            high[d] = is_empty ? x[d] : std::max(high[d], x[d]);
+          }
+        is_empty = false;
+      }
+    };
+
+    // Entities of gmsh of one dimension, by the ids of regions or boundaries,
+    // and their physical groups.
+    struct Entities
+    {
+      std::map<unsigned int, Extent>           extents;
+      std::map<unsigned int, std::vector<int>> groups_of_id;
+      std::map<int, std::string>               names;
+
+      // gmsh's tags are positive.
+      static int
+      tag(const unsigned int id)
+      {
+        return static_cast<int>(id) + 1;
+      }
+
+      // Ids are those of groups, so that those without a name are known by the
+      // same number again. Names of several ids are further groups.
+      void
+      add_groups(const NamedSets &named)
+      {
+        int next =
+          1 + (extents.empty() ? 0 : static_cast<int>(extents.rbegin()->first));
+        const auto add =
+          [&](const std::string &name, const int group, const auto &ids) {
+            // Files have no way to write a quotation mark.
+            names[group] = name;
+            std::replace(names[group].begin(), names[group].end(), '"', '\'');
+            for (const unsigned int id : ids)
+              groups_of_id[id].push_back(group);
+          };
+        // A body in one piece that has no name needs no group.
+        const bool has_names =
+          extents.size() > 1 || !named.sets.empty() ||
+          std::any_of(named.names.begin(),
+                      named.names.end(),
+                      [](const auto &entry) { return !entry.second.empty(); });
+        if (!has_names && extents.begin() != extents.end() &&
+            extents.begin()->first == 0)
+          return;
+        std::set<unsigned int> in_sets;
+        for (const auto &[name, ids] : named.sets)
+          {
+            add(name, next++, ids);
+            in_sets.insert(ids.begin(), ids.end());
+          }
+        for (const auto &[id, extent] : extents)
+          {
+            const auto        found = named.names.find(id);
+            const std::string name =
+              found == named.names.end() ? "" : found->second;
+            if (name.empty() && in_sets.contains(id))
+              continue;
+            add(name, id > 0 ? static_cast<int>(id) : next++, std::array{id});
+          }
+      }
+    };
+
+    void
+    write_names(Text text, const Entities &volumes, const Entities &surfaces)
+    {
+      std::size_t n = 0;
+      std::string lines;
+      for (const auto &[dimension, entities] :
+           {std::pair{2, &surfaces}, std::pair{3, &volumes}})
+        for (const auto &[group, name] : entities->names)
+          if (!name.empty())
+            {
+              ++n;
+              lines += fmt::format("{} {} \"{}\"\n", dimension, group, name);
+            }
+      if (n > 0)
+        fmt::format_to(text,
+                       "$PhysicalNames\n{}\n{}$EndPhysicalNames\n",
+                       n,
+                       lines);
+    }
+
+    void
+    write_entities(Text text, const Entities &volumes, const Entities &surfaces)
+    {
+      fmt::format_to(text,
+                     "$Entities\n0 0 {} {}\n",
+                     surfaces.extents.size(),
+                     volumes.extents.size());
+      for (const Entities *entities : {&surfaces, &volumes})
+        for (const auto &[id, extent] : entities->extents)
+          {
+            fmt::format_to(text, "{}", Entities::tag(id));
+            for (const Point<3> &x : {extent.low, extent.high})
+              fmt::format_to(text, " {} {} {}", x[0], x[1], x[2]);
+            const auto groups = entities->groups_of_id.find(id);
+            if (groups == entities->groups_of_id.end())
+              fmt::format_to(text, " 0");
+            else
+              fmt::format_to(text,
+                             " {} {}",
+                             groups->second.size(),
+                             fmt::join(groups->second, " "));
+            // The entities around it are not told.
+            fmt::format_to(text, " 0\n");
+          }
+      fmt::format_to(text, "$EndEntities\n");
+    }
+
+    void
+    write_nodes(Text text, const MshNodes &nodes, const int entity)
+    {
+      const std::size_t n = nodes.all().size();
+      fmt::format_to(text, "$Nodes\n1 {} 1 {}\n3 {} 0 {}\n", n, n, entity, n);
+      for (std::size_t i = 1; i <= n; ++i)
+        fmt::format_to(text, "{}\n", i);
+      // The shortest digits that give the same number again.
+      for (const Point<3> &x : nodes.all())
+        fmt::format_to(text, "{} {} {}\n", x[0], x[1], x[2]);
+      fmt::format_to(text, "$EndNodes\n");
+    }
+
+    // Elements of one entity after another. @p id_of: of a cell or a face.
+    template <typename Elements, typename Id>
+    void
+    write_blocks(Text               text,
+                 const Elements    &all,
+                 const Id          &id_of,
+                 const ElementType &type,
+                 const MshNodes    &nodes,
+                 std::size_t       &tag)
+    {
+      std::map<unsigned int, std::vector<std::size_t>> by_id;
+      for (std::size_t i = 0; i < all.size(); ++i)
+        by_id[id_of(all[i])].push_back(i);
+      for (const auto &[id, members] : by_id)
+        {
+          fmt::format_to(text,
+                         "{} {} {} {}\n",
+                         type.dimension,
+                         Entities::tag(id),
+                         type.type,
+                         members.size());
+          for (const std::size_t i : members)
+            {
+              fmt::format_to(text, "{}", ++tag);
+              for (const MshNode &node : type.nodes)
+                fmt::format_to(text, " {}", nodes.tag(all[i].vertices, node));
+              fmt::format_to(text, "\n");
+            }
+        }
+    }
+  } // namespace
+
+
+
+  std::string
+  msh_text(const SerialMesh &mesh)
+  {
+    const unsigned int q = mesh.geometry_degree - 1;
+    const MshNodes     nodes(mesh);
+    Entities           volumes, surfaces;
+    for (const SerialMesh::Cell &cell : mesh.cells)
+      for (const unsigned int v : cell.vertices)
+        volumes.extents[cell.region].add(mesh.vertices[v]);
+    for (const SerialMesh::Face &face : mesh.faces)
+      for (const unsigned int v : face.vertices)
+        surfaces.extents[face.boundary].add(mesh.vertices[v]);
+    volumes.add_groups(mesh.regions);
+    surfaces.add_groups(mesh.boundaries);
+
+    std::string result = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    Text        text(result);
+    write_names(text, volumes, surfaces);
+    write_entities(text, volumes, surfaces);
+    write_nodes(text,
+                nodes,
+                Entities::tag(volumes.extents.empty() ?
+                                0 :
+                                volumes.extents.begin()->first));
+    const std::size_t n = mesh.faces.size() + mesh.cells.size();
+    fmt::format_to(text,
+                   "$Elements\n{} {} 1 {}\n",
+                   surfaces.extents.size() + volumes.extents.size(),
+                   n,
+                   n);
+    std::size_t tag = 0;
+    write_blocks(
+      text,
+      mesh.faces,
+      [](const SerialMesh::Face &face) { return face.boundary; },
+      {2, triangle_types[q], triangle_nodes[q]},
+      nodes,
+      tag);
+    write_blocks(
+      text,
+      mesh.cells,
+      [](const SerialMesh::Cell &cell) { return cell.region; },
+      {3, tetrahedron_types[q], tetrahedron_nodes[q]},
+      nodes,
+      tag);
+    fmt::format_to(text, "$EndElements\n");
+    return result;
+  }
+
+
+
+  void
+  check_msh_target(const std::string &path, const std::string &origin)
+  {
+    namespace fs = std::filesystem;
+    if (fs::path(path).extension() != ".msh")
+      throw InputError("",
+                       fmt::format("a mesh is written to a .msh file: found "
+                                   "'{}'",
+                                   shortened(path)));
+    std::error_code error;
+    if (fs::equivalent(path, origin, error))
+      throw InputError("",
+                       fmt::format("'{}' is the file that is read; give "
+                                   "another name",
+                                   shortened(path)));
+    if (fs::exists(path, error))
+      {
+        std::string   word;
+        std::ifstream file(path);
+        file >> word;
+        if (!fs::is_regular_file(path, error) || word != "$MeshFormat")
+          throw InputError("",
+                           fmt::format("'{}' is there, and is no mesh of gmsh, "
+                                       "which would be replaced",
+                                       shortened(path)));
+      }
+  }
+
+  void
+  write_msh_file(const std::string &path, const SerialMesh &mesh)
+  {
+    check_msh_target(path, mesh.origin);
+    write_whole_file(path, msh_text(mesh), "the mesh");
+  }
+} // namespace corotet

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What is written for gmsh, and read again through it, is the same mesh to the
+// last digit: cells, curves, regions, boundaries and their names.
+
+#include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/msh_file.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "../body.h"
+#include "mesh/tools.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  using Coordinates = std::vector<double>;
+  using Names       = std::set<std::string>;
+
+  void
+  append(Coordinates &all, const dealii::Point<3> &x)
+  {
+    all.insert(all.end(), x.begin_raw(), x.end_raw());
+  }
+
+  // All names that mean an id.
+  Names
+  names_of(const std::string &kind,
+           const NamedSets   &named,
+           const unsigned int id)
+  {
+    const MeshNames names(kind, named);
+    Names           result;
+    for (const std::string &name : names.known())
+      {
+        const auto ids = names.ids(name, "");
+        if (std::count(ids.begin(), ids.end(), id) > 0)
+          result.insert(name);
+      }
+    return result;
+  }
+
+  // Vertices and, if it is curved, nodes of each cell; names of its region.
+  std::map<Coordinates, Names>
+  cells_of(const SerialMesh &mesh)
+  {
+    std::map<Coordinates, Names> result;
+    const std::size_t            n = map_points(mesh.geometry_degree).size();
+    for (const SerialMesh::Cell &cell : mesh.cells)
+      {
+        Coordinates x;
+        for (const unsigned int v : cell.vertices)
+          append(x, mesh.vertices[v]);
+        if (cell.curve != SerialMesh::straight)
+          for (std::size_t i = 0; i < n; ++i)
+            append(x, curved_nodes(mesh, cell)[i]);
+        result[x] = names_of("region", mesh.regions, cell.region);
+      }
+    return result;
+  }
+
+  std::map<Coordinates, Names>
+  faces_of(const SerialMesh &mesh)
+  {
+    std::map<Coordinates, Names> result;
+    for (const SerialMesh::Face &face : mesh.faces)
+      {
+        Coordinates x;
+        for (const unsigned int v : face.vertices)
+          append(x, mesh.vertices[v]);
+        result[x] = names_of("boundary", mesh.boundaries, face.boundary);
+      }
+    return result;
+  }
+
+  void
+  expect_the_same_again(const SerialMesh &mesh)
+  {
+    const TemporaryFolder folder;
+    const std::string     file = folder / "again.msh";
+    write_msh_file(file, mesh);
+    const SerialMesh again = read_gmsh(file);
+    EXPECT_EQ(cells_of(again).size(), mesh.cells.size());
+    EXPECT_TRUE(cells_of(again) == cells_of(mesh));
+    EXPECT_EQ(faces_of(again).size(), mesh.faces.size());
+    EXPECT_TRUE(faces_of(again) == faces_of(mesh));
+    EXPECT_EQ(again.vertices.size(), mesh.vertices.size());
+  }
+
+  SerialMesh
+  from_geometry(const std::string &geometry, const std::string &degree)
+  {
+    const TemporaryFolder folder;
+    const std::string     file = folder / "body.geo";
+    std::ofstream(file) << "SetFactory(\"OpenCASCADE\");\n" << geometry;
+    SerialMesh mesh = read_gmsh(file, "", "0.6", degree);
+    check_mesh(mesh);
+    return mesh;
+  }
+} // namespace
+
+TEST(MshFile, StraightCellsAndNamesThatOverlap)
+{
+  SerialMesh                  mesh = tests::box("1, 2, 3.1", "2, 3, 2");
+  std::vector<unsigned int *> regions, boundaries;
+  std::vector<std::size_t>    some, others;
+  for (SerialMesh::Cell &cell : mesh.cells)
+    regions.push_back(&cell.region);
+  for (SerialMesh::Face &face : mesh.faces)
+    boundaries.push_back(&face.boundary);
+  for (std::size_t i = 0; i < 20; ++i)
+    (i % 2 == 0 ? some : others).push_back(i);
+  mesh.regions.add("even", some, regions);
+  mesh.regions.add("a name, with blanks", others, regions);
+  mesh.boundaries.add("patch", some, boundaries);
+  expect_the_same_again(mesh);
+}
+
+// Their nodes have other places in gmsh's elements. Of a half ball, some cells
+// are straight.
+TEST(MshFile, CurvedCells)
+{
+  for (const std::string degree : {"2", "3"})
+    {
+      const SerialMesh mesh =
+        from_geometry("Sphere(1) = {0, 0, 0, 1, 0, Pi/2, 2*Pi};\n"
+                      "Physical Volume(\"ball\") = {1};\n"
+                      "Physical Surface(\"all\") = Surface{:};\n",
+                      degree);
+      EXPECT_GT(mesh.curved_nodes.size(), 0u);
+      EXPECT_TRUE(std::any_of(mesh.cells.begin(),
+                              mesh.cells.end(),
+                              [](const SerialMesh::Cell &cell) {
+                                return cell.curve == SerialMesh::straight;
+                              }));
+      expect_the_same_again(mesh);
+    }
+}
+
+// Regions and boundaries without names are known by the same numbers again.
+TEST(MshFile, NumbersWithoutNames)
+{
+  const SerialMesh mesh = from_geometry("Box(1) = {0, 0, 0, 1, 1, 1};\n"
+                                        "Box(2) = {1, 0, 0, 1, 1, 1};\n"
+                                        "Coherence;\n"
+                                        "Physical Volume(7) = {1};\n"
+                                        "Physical Volume(4) = {2};\n"
+                                        "Physical Surface(12) = {1};\n",
+                                        "1");
+  EXPECT_EQ(region_volumes(mesh).count(7), 1u);
+  expect_the_same_again(mesh);
+}
+
+// A body of one region that has no name.
+TEST(MshFile, NoNames)
+{
+  const SerialMesh mesh = from_geometry("Box(1) = {0, 0, 0, 1, 1, 1};\n", "1");
+  expect_the_same_again(mesh);
+}
+
+// A mesh can be made again; anything else is not replaced.
+TEST(MshFile, WhatIsReplaced)
+{
+  const TemporaryFolder folder;
+  SerialMesh            mesh = tests::box("1, 1, 1", "1, 1, 1");
+  const std::string     file = folder / "a.msh";
+  std::ofstream(file) << "A letter.\n";
+  const auto refused = [&](const std::string &name) {
+    return refusal([&] { write_msh_file(folder / name, mesh); });
+  };
+  EXPECT_EQ(refused("a.msh"),
+            "'" + file +
+              "' is there, and is no mesh of gmsh, which would be replaced");
+  write_msh_file(folder / "b.msh", mesh);
+  write_msh_file(folder / "b.msh", mesh);
+  mesh.origin = folder / "b.msh";
+  EXPECT_EQ(refused("b.msh"),
+            "'" + mesh.origin +
+              "' is the file that is read; give another name");
+  EXPECT_EQ(refused("b.vtk"),
+            "a mesh is written to a .msh file: found '" + (folder / "b.vtk") +
+              "'");
+  EXPECT_THROW(write_msh_file(folder / "none/b.msh", mesh), MachineError);
+}
