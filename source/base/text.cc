@@ -151,4 +151,15 @@ namespace corotet
       part = dealii::Utilities::trim(part);
     return parts;
   }
+
+
+
+  std::string
+  upper_case(const std::string_view text)
+  {
+    std::string result(text);
+    for (char &c : result)
+      c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return result;
+  }
 } // namespace corotet

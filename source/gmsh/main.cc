@@ -38,7 +38,7 @@ int
 main(const int argc, char **argv)
 {
   using namespace corotet;
-  if (argc != 9)
+  if (argc != 10)
     {
       std::fputs("corotet-gmsh is started by corotet, which reads meshes "
                  "through it.\n",
@@ -54,7 +54,7 @@ main(const int argc, char **argv)
   const std::string   folder     = argv[6];
   const std::uint64_t max_memory = std::strtoull(argv[7], nullptr, 10);
   request.format                 = argv[8];
-  request.is_geometry            = request.format != "msh";
+  request.is_geometry            = argv[9][0] == '1';
 
   // Whatever gmsh prints must not be taken for the result.
   const int result = dup(STDOUT_FILENO);

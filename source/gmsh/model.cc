@@ -37,6 +37,20 @@ namespace corotet::gmsh_program
 
 
 
+    // Groups without names, known by the numbers of the entities.
+    std::vector<GmshModel::Group>
+    entities_as_groups(const int dimension)
+    {
+      std::vector<GmshModel::Group> result;
+      gmsh::vectorpair              entities;
+      gmsh::model::getEntities(entities, dimension);
+      for (const auto &[dim, tag] : entities)
+        result.push_back({dim, tag, "", {tag}});
+      return result;
+    }
+
+
+
     std::vector<GmshModel::ElementType>
     volume_types()
     {
@@ -176,8 +190,16 @@ namespace corotet::gmsh_program
 
     if (!has_shapes)
       for (const int dimension : {3, 2})
-        for (const GmshModel::Group &group : groups(dimension))
-          model.groups.push_back(group);
+        {
+          auto known = groups(dimension);
+          // Other programs number properties and references, which become
+          // gmsh's entities.
+          if (known.empty() && request.format != "msh" &&
+              request.format != "geo")
+            known = entities_as_groups(dimension);
+          for (const GmshModel::Group &group : known)
+            model.groups.push_back(group);
+        }
     model.volumes = elements(3, tetrahedra);
     // Triangles with 3, 6 and 10 nodes.
     model.surfaces        = elements(2, std::vector<int>{2, 9, 21});

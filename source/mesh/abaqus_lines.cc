@@ -47,17 +47,6 @@ namespace corotet::abaqus
 
 
   std::string
-  upper_case(const std::string_view text)
-  {
-    std::string result(text);
-    for (char &c : result)
-      c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return result;
-  }
-
-
-
-  std::string
   trimmed(const std::string_view text)
   {
     constexpr std::string_view blanks = " \t\r\"";

@@ -49,9 +49,6 @@ namespace corotet::abaqus
     needed(const std::string &parameter) const;
   };
 
-  std::string
-  upper_case(const std::string_view text);
-
   /// Without blanks around it, and without quotes.
   std::string
   trimmed(const std::string_view text);

@@ -69,8 +69,8 @@ namespace corotet
       file,
       "A mesh or a geometry, relative to the folder of this file: of gmsh "
       "(.msh, version 2.2 to 4.1, ASCII or binary; .geo), Abaqus or CalculiX "
-      "(.inp), or STEP, IGES and BREP of CAD programs. The format is known by "
-      "the content.",
+      "(.inp), Nastran (.bdf), UNV, VTK (legacy), Medit or CGNS, or STEP, IGES "
+      "and BREP of CAD programs. The format is known by the content.",
       dealii::Patterns::FileName());
     prm.add_parameter("Element size",
                       element_size,
@@ -111,6 +111,8 @@ namespace corotet
       check_msh(path);
     else if (format.format == MeshFormat::geo)
       check_geo(path);
+    else
+      check_end(path, format.format);
     if (element_size > 0 && !format.is_geometry)
       throw InputError(section + "Element size",
                        fmt::format("only a geometry can be given an element "
@@ -128,8 +130,11 @@ namespace corotet
       return serial_mesh(read_abaqus_file(path));
 
     GmshRequest request;
-    request.path             = path;
-    request.format           = format.name;
+    request.path   = path;
+    request.format = format.name;
+    if (!format.is_geometry && format.format != MeshFormat::msh)
+      request.extension =
+        format.extensions.substr(0, format.extensions.find(','));
     request.is_geometry      = format.is_geometry;
     request.element_size     = element_size;
     request.degree           = geometry_degree;

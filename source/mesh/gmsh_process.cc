@@ -9,7 +9,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -20,6 +22,62 @@ namespace corotet
 {
   namespace
   {
+    // gmsh knows many formats by the end of the file's name only: a link to the
+    // file that has it, as long as this object lives, or the file itself.
+    class NamedInput
+    {
+    public:
+      explicit NamedInput(const GmshRequest &request)
+        : path(request.path)
+      {
+        if (request.extension.empty() ||
+            std::filesystem::path(path).extension() == request.extension)
+          return;
+        std::string name =
+          (std::filesystem::temp_directory_path() / "corotet-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+          throw MachineError(name +
+                             ": cannot be made: " + std::strerror(errno));
+        folder = name;
+        path   = (folder / ("mesh" + request.extension)).string();
+        std::filesystem::create_symlink(std::filesystem::absolute(request.path),
+                                        path);
+      }
+
+      NamedInput(const NamedInput &) = delete;
+      NamedInput &
+      operator=(const NamedInput &) = delete;
+
+      ~NamedInput()
+      {
+        std::error_code error;
+        if (!folder.empty())
+          std::filesystem::remove_all(folder, error);
+      }
+
+      std::string path;
+
+    private:
+      std::filesystem::path folder;
+    };
+
+
+
+    // @p text with @p name in place of @p other.
+    std::string
+    with_name(std::string        text,
+              const std::string &other,
+              const std::string &name)
+    {
+      if (other != name)
+        for (std::size_t i = text.find(other); i != std::string::npos;
+             i             = text.find(other, i + name.size()))
+          text.replace(i, other.size(), name);
+      return text;
+    }
+
+
+
     // An error of gmsh, "'PATH', line N: TEXT" or any other text, as
     // "PATH:N: TEXT" or "PATH: TEXT".
     std::string
@@ -167,23 +225,28 @@ namespace corotet
         "first corotet in PATH");
     const std::string folder =
       std::filesystem::absolute(request.path).parent_path().string();
+    const NamedInput input(request);
     const ProgramEnd end = run_for_output(
       program,
-      {request.path,
+      {input.path,
        fmt::format("{}", request.element_size),
        std::to_string(request.degree),
        std::to_string(request.n_refinements),
        fmt::format("{}", request.max_n_cells),
-       request.format == "geo" ? folder : request.path,
+       request.format == "geo" ? folder : input.path,
        std::to_string(memory_limit(request.path, request.is_geometry)),
-       request.format},
+       request.format,
+       request.is_geometry ? "1" : "0"},
       request.time_limit);
     if (end.has_exceeded || end.signal != 0 || end.status != 0 ||
         end.output.empty())
       refuse_end(request, end);
     const GmshModel model = model_of_bytes(end.output, request.path);
     if (!model.error.empty())
-      throw InputError("", message_of_gmsh(request.path, model.error));
+      throw InputError(
+        "",
+        message_of_gmsh(request.path,
+                        with_name(model.error, input.path, request.path)));
     return model;
   }
 } // namespace corotet

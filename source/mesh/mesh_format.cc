@@ -5,11 +5,15 @@
 #include <corotet/base/text.h>
 #include <corotet/mesh/mesh_format.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
+#include <sstream>
 
 namespace corotet
 {
@@ -68,6 +72,64 @@ namespace corotet
 
 
 
+    // In upper case; what ends a word in some formats is a blank here.
+    std::string
+    first_word(const std::string &line)
+    {
+      const std::size_t i = line.find_first_not_of(" \t\r");
+      if (i == std::string::npos)
+        return "";
+      return upper_case(line.substr(i, line.find_first_of(" \t\r,*=", i) - i));
+    }
+
+
+
+    // The first line that is no comment is a statement of the executive or of
+    // the case control, or a card of the bulk data.
+    bool
+    begins_like_nastran(const std::string &bytes)
+    {
+      std::istringstream lines(bytes);
+      for (std::string line; std::getline(lines, line);)
+        {
+          const std::string word = first_word(line);
+          if (word.empty() || word[0] == '$')
+            continue;
+          const std::vector<std::string> words{"NASTRAN",
+                                               "ID",
+                                               "SOL",
+                                               "CEND",
+                                               "BEGIN",
+                                               "ECHO",
+                                               "TITLE",
+                                               "SUBCASE",
+                                               "GRID",
+                                               "PARAM",
+                                               "CORD2R",
+                                               "CTETRA",
+                                               "MAT1",
+                                               "PSOLID",
+                                               "INIT",
+                                               "ASSIGN"};
+          return std::find(words.begin(), words.end(), word) != words.end();
+        }
+      return false;
+    }
+
+
+
+    // A dataset: a line of -1, and a line with its number.
+    bool
+    begins_like_unv(const std::string &bytes)
+    {
+      std::istringstream words(bytes);
+      std::string        first;
+      int                number = 0;
+      return words >> first >> number && first == "-1" && number > 0;
+    }
+
+
+
     std::optional<MeshFormat>
     format_by_content(const std::string &bytes)
     {
@@ -86,7 +148,49 @@ namespace corotet
         return MeshFormat::iges;
       if (begins_like_abaqus(bytes))
         return MeshFormat::abaqus;
+      if (has("# vtk DataFile", 100))
+        return MeshFormat::vtk;
+      if (has("MeshVersionFormatted", 2000))
+        return MeshFormat::medit;
+      if (begins_like_unv(bytes))
+        return MeshFormat::unv;
+      if (begins_like_nastran(bytes))
+        return MeshFormat::nastran;
       return {};
+    }
+    // The types of cells come last of what makes a mesh of VTK: their number,
+    // and a number for each, as text or in four bytes.
+    void
+    check_end_of_vtk(const std::string &path)
+    {
+      std::ifstream file(path, std::ios::binary);
+      bool          is_binary = false;
+      std::size_t   n_wanted = 0, n = 0;
+      for (std::string line; n_wanted == 0 && std::getline(file, line);)
+        {
+          std::istringstream words(line);
+          std::string        word;
+          words >> word;
+          is_binary = is_binary || word == "BINARY";
+          if (word == "CELL_TYPES")
+            words >> n_wanted;
+        }
+      if (is_binary)
+        {
+          const auto begin = file.tellg();
+          file.seekg(0, std::ios::end);
+          n = (file.tellg() - begin) / 4;
+        }
+      else
+        for (int type = 0; n < n_wanted && file >> type;)
+          ++n;
+      if (n_wanted == 0 || n < n_wanted)
+        throw InputError("",
+                         fmt::format("{}: found {} types of cells (CELL_TYPES) "
+                                     "of {}: is the rest missing?",
+                                     path,
+                                     n,
+                                     n_wanted));
     }
   } // namespace
 
@@ -98,14 +202,19 @@ namespace corotet
     static const std::vector<MeshFormatDescription> formats{
       {MeshFormat::msh, "msh", ".msh", "mesh of gmsh, 2.2, 4.0 or 4.1", false},
       {MeshFormat::geo, "geo", ".geo", "geometry of gmsh", true},
-      {MeshFormat::step, "step", ".stp, .step", "geometry, STEP", true},
-      {MeshFormat::iges, "iges", ".igs, .iges", "geometry, IGES", true},
+      {MeshFormat::step, "step", ".step, .stp", "geometry, STEP", true},
+      {MeshFormat::iges, "iges", ".iges, .igs", "geometry, IGES", true},
       {MeshFormat::brep, "brep", ".brep", "geometry of OpenCASCADE", true},
       {MeshFormat::abaqus,
        "abaqus",
        ".inp",
        "mesh of Abaqus or CalculiX",
-       false}};
+       false},
+      {MeshFormat::nastran, "nastran", ".bdf, .nas", "mesh of Nastran", false},
+      {MeshFormat::unv, "unv", ".unv", "mesh of I-deas, Salome", false},
+      {MeshFormat::vtk, "vtk", ".vtk", "mesh of VTK, legacy format", false},
+      {MeshFormat::medit, "medit", ".mesh", "mesh of Medit, ASCII", false},
+      {MeshFormat::cgns, "cgns", ".cgns", "mesh in CGNS", false}};
     return formats;
   }
 
@@ -133,5 +242,47 @@ namespace corotet
     throw InputError(entry,
                      "the kind of mesh file is unknown: found '" +
                        shortened(path) + "'; allowed are " + join(allowed));
+  }
+
+
+
+  void
+  check_end(const std::string &path, const MeshFormat format)
+  {
+    const std::map<MeshFormat, std::string> words{{MeshFormat::nastran,
+                                                   "ENDDATA"},
+                                                  {MeshFormat::unv, "-1"},
+                                                  {MeshFormat::medit, "END"}};
+    const auto                              wanted = words.find(format);
+    if (format == MeshFormat::vtk)
+      check_end_of_vtk(path);
+    if (wanted == words.end())
+      return;
+    std::ifstream file(path);
+    std::string   last;
+    std::size_t   number = 0;
+    for (std::string line; std::getline(file, line);)
+      {
+        ++number;
+        const std::string word = first_word(line);
+        if (format == MeshFormat::nastran && word == "INCLUDE")
+          throw InputError("",
+                           fmt::format("{}:{}: other files are not read: found "
+                                       "INCLUDE; allowed is one file with the "
+                                       "whole mesh",
+                                       path,
+                                       number));
+        if (word == wanted->second)
+          last = word;
+        // Nastran reads no further.
+        else if (!word.empty() && format != MeshFormat::nastran)
+          last.clear();
+      }
+    if (last.empty())
+      throw InputError("",
+                       fmt::format("{}: the file does not end with {}: is the "
+                                   "rest missing?",
+                                   path,
+                                   wanted->second));
   }
 } // namespace corotet

@@ -103,7 +103,7 @@ namespace corotet
               found == named.names.end() ? "" : found->second;
             if (name.empty() && in_sets.contains(id))
               continue;
-            add(name, id > 0 ? static_cast<int>(id) : next++, std::array{id});
+            add(name, id > 0 ? static_cast<int>(id) : next++, std::vector{id});
           }
       }
     };

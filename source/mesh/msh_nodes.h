@@ -93,7 +93,7 @@ namespace corotet
         {
           if (corner > 0)
             xi[corner - 1] += 1. / node.size();
-          x += mesh.vertices[cell.vertices[corner]] / node.size();
+          x += mesh.vertices[cell.vertices[corner]] / double(node.size());
         }
       if (cell.curve == SerialMesh::straight)
         return x;

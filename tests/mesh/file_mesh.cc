@@ -20,47 +20,10 @@ namespace
 {
   using Known = std::vector<std::string>;
 
-  SerialMesh
-  read_file(const std::string &file,
-            const std::string &element_size = "0",
-            const std::string &degree       = "1")
-  {
-    FileMesh                 source("file");
-    dealii::ParameterHandler prm;
-    source.declare_parameters(prm);
-    prm.set("File", file);
-    prm.set("Element size", element_size);
-    prm.set("Geometry degree", degree);
-    SerialMesh mesh = source.create("");
-    check_mesh(mesh);
-    return mesh;
-  }
-
-  // What gmsh writes of shapes.
-  void
-  write_shapes(const std::string &file, const std::function<void()> &make)
-  {
-    gmsh::initialize(0, nullptr, false, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    make();
-    gmsh::model::occ::synchronize();
-    gmsh::write(file);
-    gmsh::finalize();
-  }
-
   void
   move(const std::string &from, const std::string &to)
   {
     std::filesystem::rename(from, to);
-  }
-
-  double
-  total(const std::map<unsigned int, double> &values)
-  {
-    double sum = 0;
-    for (const auto &[id, value] : values)
-      sum += value;
-    return sum;
   }
 } // namespace
 
@@ -229,8 +192,8 @@ TEST(FileMesh, Refusals)
   const std::string     text = folder.write("notes.txt", "Some text.\n");
   EXPECT_EQ(refusal([&] { read_file(text); }),
             "Mesh/file/File: the kind of mesh file is unknown: found '" + text +
-              "'; allowed are .msh, .geo, .stp, .step, .igs, .iges, .brep, "
-              ".inp");
+              "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, "
+              ".inp, .bdf, .nas, .unv, .vtk, .mesh, .cgns");
   // A file of another kind than its name says.
   const std::string step =
     folder.write("part.step", "ISO-10303-21;\nHEADER;\n");

@@ -185,8 +185,8 @@ TEST(GmshMesh, FileNames)
   const std::string file = folder.write("x.stl", "");
   EXPECT_EQ(message(file),
             "Mesh/gmsh/File: the kind of mesh file is unknown: found '" + file +
-              "'; allowed are .msh, .geo, .stp, .step, .igs, .iges, .brep, "
-              ".inp");
+              "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, "
+              ".inp, .bdf, .nas, .unv, .vtk, .mesh, .cgns");
 }
 
 // A mesh has its size; asking for another one must not be ignored silently.

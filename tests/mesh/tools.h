@@ -5,8 +5,11 @@
 #define corotet_tests_mesh_tools_h
 
 #include <corotet/base/exceptions.h>
+#include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/mesh_quality.h>
+
+#include <gmsh.h>
 
 #include <filesystem>
 #include <fstream>
@@ -31,6 +34,44 @@ namespace corotet::tests
     prm.set("Element size", element_size);
     prm.set("Geometry degree", degree);
     return source.create(folder, n_refinements);
+  }
+
+  /// A mesh or a geometry of any format, checked.
+  inline SerialMesh
+  read_file(const std::string &file,
+            const std::string &element_size = "0",
+            const std::string &degree       = "1")
+  {
+    FileMesh                 source("file");
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("File", file);
+    prm.set("Element size", element_size);
+    prm.set("Geometry degree", degree);
+    SerialMesh mesh = source.create("");
+    check_mesh(mesh);
+    return mesh;
+  }
+
+  /// What gmsh writes of shapes.
+  inline void
+  write_shapes(const std::string &file, const std::function<void()> &make)
+  {
+    gmsh::initialize(0, nullptr, false, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    make();
+    gmsh::model::occ::synchronize();
+    gmsh::write(file);
+    gmsh::finalize();
+  }
+
+  inline double
+  total(const std::map<unsigned int, double> &values)
+  {
+    double sum = 0;
+    for (const auto &[id, value] : values)
+      sum += value;
+    return sum;
   }
 
   /// Sum of the areas of the listed faces of each boundary.

@@ -6,6 +6,7 @@
 
 #include <istream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace corotet
@@ -25,6 +26,10 @@ namespace corotet
   std::string
   join(const std::vector<std::string> &parts,
        const std::string              &separator = ", ");
+
+  /// Of letters of ASCII.
+  std::string
+  upper_case(const std::string_view text);
 
   /// Skips the mark of UTF-8 that some editors write at the start of a file.
   void

@@ -20,6 +20,9 @@ namespace corotet
     std::string path;
     /// By its name in mesh_formats().
     std::string format;
+    /// The end of the file's name by which gmsh knows the format; empty if it
+    /// knows it by its content.
+    std::string extension;
     /// Cells are made of a geometry; a mesh has them.
     bool is_geometry = false;
     /// Of the edges; 0 leaves it to the file.

@@ -14,10 +14,15 @@ namespace corotet
   {
     abaqus,
     brep,
+    cgns,
     geo,
     iges,
+    medit,
     msh,
-    step
+    nastran,
+    step,
+    unv,
+    vtk
   };
 
   struct MeshFormatDescription
@@ -25,7 +30,7 @@ namespace corotet
     MeshFormat format;
     /// As programs know it, in lower case: "step".
     std::string name;
-    /// Usual ends of file names: ".stp, .step".
+    /// Usual ends of file names: ".step, .stp". gmsh knows the first.
     std::string extensions;
     std::string description;
     /// Whether cells are made of a geometry; a mesh has them.
@@ -43,6 +48,15 @@ namespace corotet
    */
   const MeshFormatDescription &
   mesh_format(const std::string &path, const std::string &entry);
+
+  /**
+   * Throws InputError if a file of a format that has a last word (Nastran,
+   * UNV, Medit) does not end with it, or one of VTK ends before its last cell:
+   * the rest would be missing in silence. So would what a file of Nastran
+   * includes, which is refused, too.
+   */
+  void
+  check_end(const std::string &path, const MeshFormat format);
 } // namespace corotet
 
 #endif
