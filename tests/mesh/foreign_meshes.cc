@@ -146,12 +146,18 @@ TEST(ForeignMeshes, CutOff)
       const std::string file = folder / ("whole" + format.extension);
       write_boxes(file, 1);
       const std::string text = folder.read("whole" + format.extension);
-      for (const double part : {0.1, 0.5, 0.8, 0.97})
+      for (const double part : {0.1, 0.5, 0.7, 0.97})
         {
           const std::string cut =
             folder.write("cut" + format.extension,
                          text.substr(0, std::size_t(part * text.size())));
-          const std::string message = refusal([&] { read_file(cut); });
+          std::size_t       n_cells = 0;
+          const std::string message =
+            refusal([&] { n_cells = read_file(cut).cells.size(); });
+          // Behind its mesh, VTK has values on cells.
+          if (format.extension == ".vtk" &&
+              n_cells == read_file(file).cells.size())
+            continue;
           EXPECT_EQ(message.compare(0, cut.size() + 1, cut + ":"), 0)
             << cut << " " << part << ": " << message;
           EXPECT_EQ(message.find('\n'), std::string::npos) << message;
