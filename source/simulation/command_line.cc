@@ -119,6 +119,10 @@ namespace corotet
         command_line.restart,
         "Go on from the newest good checkpoint in the output directory, or "
         "with a convergence study that was stopped: its finished runs are kept");
+      app.add_flag("--list",
+                   command_line.list,
+                   "List ready cases, laws, forces, integrators, "
+                   "preconditioners, mesh formats");
       app.add_flag("--quiet",
                    command_line.quiet,
                    "Show nothing on the terminal but errors");
@@ -198,7 +202,7 @@ namespace corotet
           command_line.print_parameters = styles.front();
         separate_style_from_file(command_line);
       }
-    else if (command_line.parameter_file.empty())
+    else if (command_line.parameter_file.empty() && !command_line.list)
       fail("a parameter file is needed: corotet [OPTIONS] FILE.prm (--help "
            "lists the options)");
     return command_line;

@@ -5,6 +5,7 @@
 #include <corotet/mesh/file_mesh.h>
 #include <corotet/mesh/mesh_report.h>
 #include <corotet/mesh/msh_file.h>
+#include <corotet/studies/choices.h>
 #include <corotet/studies/program.h>
 #include <corotet/studies/run_command.h>
 
@@ -22,6 +23,8 @@ namespace corotet
       CommandLine command = parse_command_line(argc, argv);
       if (command.message)
         return on_root(MPI_COMM_WORLD, [&] { std::cout << *command.message; });
+      if (command.list)
+        return on_root(MPI_COMM_WORLD, [] { std::cout << list_choices(); });
       if (command.mesh)
         return on_root(MPI_COMM_WORLD, [&] {
           const MeshCommand &asked = *command.mesh;

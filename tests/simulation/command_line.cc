@@ -147,6 +147,8 @@ TEST(CommandLine, RefusesASecondFile)
 TEST(CommandLine, Mesh)
 {
   EXPECT_FALSE(parse({"a.prm"}).mesh);
+  EXPECT_FALSE(parse({"a.prm"}).list);
+  EXPECT_TRUE(parse({"--list"}).list);
   const CommandLine c = parse(
     {"mesh", "part.step", "--size", "0.5", "--degree", "2", "--out", "a.msh"});
   ASSERT_TRUE(c.mesh);

@@ -27,8 +27,8 @@ namespace corotet
    */
   struct CommandLine
   {
-    /// As given. Empty only if there is a message, or if parameters are to be
-    /// printed without reading a file.
+    /// As given. Empty only if there is a message, or if something is to be
+    /// listed without reading a file.
     std::string parameter_file;
     /// Each "Section/Subsection/Entry = value", in their order, not yet
     /// checked.
@@ -44,6 +44,8 @@ namespace corotet
     /// List all parameters in this style ("prm", "json" or "markdown") and do
     /// nothing else.
     std::optional<std::string> print_parameters;
+    /// List what there is to choose from, and do nothing else.
+    bool list = false;
     /// Describe a mesh, and do nothing else.
     std::optional<MeshCommand> mesh;
     /// The answer to --help or --version: print it and do nothing else.
