@@ -19,7 +19,8 @@ from .text import count, escape
 
 HERE = pathlib.Path(__file__).resolve().parent
 THREE = pathlib.Path("/usr/share/javascript/three/three.min.js")
-SCRIPTS = ("format", "colours", "store", "plot", "surface", "orbit", "pick", "view", "legend", "player", "kept", "main")
+SCRIPTS = ("format", "colours", "store", "plot", "surface", "orbit", "pick", "view", "legend", "player", "kept", "report", "controls",
+           "main")
 MAX_BYTES = 15_000_000
 ROOM_TO_SPARE = 60_000
 KINDS = {"simulation": "simulation", "modes": "natural frequencies and modes", "study": "convergence study"}

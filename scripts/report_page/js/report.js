@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The page: plots, and the view with its controls.
+
+const PHASES = 72;
+const SEEN_AS_IT_IS = 0.05; // of the body's size: displacements that are seen without magnification
+
+const isStill = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
+
+/** All ways to colour, of fields and, if there are several, of regions. */
+function optionsOf(view, regions) {
+  const options = view.fields.flatMap((field) => field.options.map((option) => ({ ...option, field: field.name, unit: field.unit })));
+  const ids = [...new Set(regions)].sort((a, b) => a - b);
+  if (ids.length > 1) {
+    const indices = new Map(ids.map((id, i) => [id, i]));
+    options.push({ name: 'region', label: 'region', names: ids.map(String), indices, unit: '-' });
+  }
+  return options;
+}
+
+class Report {
+  constructor(description) {
+    this.description = description;
+    this.isModes = description.kind === 'modes';
+    this.plots = new Map();
+    for (const figure of document.querySelectorAll('[data-chart]')) {
+      const chart = description.charts.find((one) => one.name === figure.dataset.chart);
+      this.plots.set(chart.name, new Plot(figure, chart, (x) => this.goToTime(x)));
+    }
+  }
+
+  /** Reads the data; the state that is shown first before all others. */
+  async load() {
+    const { view } = this.description;
+    this.surface = new Surface(await readGeometry(view), view);
+    this.states = new Array(view.states.length);
+    const last = this.isModes ? this.firstElastic() : view.states.length - 1;
+    this.state = last;
+    this.states[last] = await readState(view, last);
+    this.options = optionsOf(view, this.surface.regions);
+    this.option = this.options.find((one) => one.name === (this.isModes ? 'displacement' : 'von_mises')) || this.options[0];
+    this.view = new View(byId('canvas'), this.surface, (place) => this.keep(this.view.pick(place)));
+    this.view.onCamera = () => showAxes(byId('axes'), this.view.orbit.axes());
+    this.kept = new Kept(byId('kept'), this.surface, this.description, (x) => this.goToTime(x));
+    this.phase = Math.PI / 2;
+    this.makeControls();
+    this.view.resize();
+    this.setWarp(this.firstWarp());
+    for (let k = 0; k < this.states.length; ++k) {
+      byId('loading').textContent = `reading ${this.isModes ? 'mode' : 'state'} ${k + 1} of ${this.states.length} …`;
+      if (!this.states[k]) this.states[k] = await readState(view, k);
+    }
+    byId('loading').remove();
+    this.makePlayer();
+  }
+
+  /** Of modes: the first one that deforms the body. */
+  firstElastic() {
+    const frequencies = this.description.view.states.map((state) => state.frequency);
+    return Math.max(0, frequencies.findIndex((frequency) => frequency > 1e-6 * Math.max(...frequencies)));
+  }
+
+  /** Of an option, over all states of the page. */
+  fullRange(name) {
+    const ranges = this.description.view.states.map((state) => state.ranges[name]);
+    return [Math.min(...ranges.map((range) => range[0])), Math.max(...ranges.map((range) => range[1]))];
+  }
+
+  size() {
+    const [low, high] = this.description.view.bounds;
+    return Math.hypot(...low.map((x, c) => high[c] - x));
+  }
+
+  firstWarp() {
+    const largest = this.fullRange('displacement')[1];
+    return largest === 0 || (!this.isModes && largest >= SEEN_AS_IT_IS * this.size()) ? 1 : roundDown(0.1 * this.size() / largest);
+  }
+
+  /** The corners of a box that all states are in, with the warp. */
+  reach() {
+    const [low, high] = this.description.view.bounds;
+    const ranges = ['x', 'y', 'z'].map((c) => this.fullRange(`displacement_${c}`));
+    const most = this.isModes ? ranges.map((range) => Math.max(...range.map(Math.abs))) : null;
+    return [low.map((x, c) => x + this.warp * Math.min(0, most ? -most[c] : ranges[c][0])),
+      high.map((x, c) => x + this.warp * Math.max(0, most ? most[c] : ranges[c][1]))];
+  }
+
+  makePlayer() {
+    const { states } = this.description.view;
+    const first = states[0].time;
+    const whole = states[states.length - 1].time - first || 1;
+    const places = this.isModes ? Array.from({ length: PHASES + 1 }, (_, k) => k / PHASES) : states.map((state) => (state.time - first) / whole);
+    const seconds = this.isModes ? 2 : Math.min(12, Math.max(3, states.length / 20));
+    this.player = new Player({ slider: byId('time'), button: byId('play'), speed: byId('speed') }, places, seconds, this.isModes ? 0 : 0.08, (place) => {
+      if (this.isModes) this.phase = 2 * Math.PI * place / PHASES;
+      else this.state = place;
+      this.show();
+    });
+    this.player.go(this.isModes ? PHASES / 4 : this.state);
+  }
+
+  /** Draws the state with all that depends on it. */
+  show() {
+    const state = this.states[this.state];
+    this.surface.displace(state, this.warp * (this.isModes ? Math.sin(this.phase) : 1));
+    this.values = this.surface.valuesOf(this.option, state);
+    this.showColours();
+    this.view.update();
+    this.showTime();
+    this.showPoint();
+  }
+
+  showColours() {
+    const [low, high] = this.range();
+    this.surface.colour(this.values, low, high);
+    const bands = byId('bands').checked && !this.option.names;
+    // The row of colours changes with the limits, not with the state.
+    const key = [this.option.name, low, high, bands].join();
+    if (key === this.rowKey) return;
+    this.rowKey = key;
+    const row = colourRow(this.option, low, high, bands);
+    this.view.setColours(row, bands || Boolean(this.option.names));
+    showLegend(byId('legend'), this.option, low, high, row, bands);
+  }
+
+  /** What the first and the last colour mean. */
+  range() {
+    const { option } = this;
+    if (option.names) return [-0.5, option.names.length - 0.5];
+    const kind = byId('range').value;
+    if (kind === 'own') {
+      const scale = this.ownScale.factor;
+      const [low, high] = [byId('low'), byId('high')].map((input) => input.valueAsNumber / scale);
+      return Number.isFinite(low) && high > low ? [low, high] : this.fullRange(option.name);
+    }
+    return kind === 'state' || this.isModes ? this.description.view.states[this.state].ranges[option.name] : this.fullRange(option.name);
+  }
+
+  showTime() {
+    const { view, isStatic } = this.description;
+    const state = view.states[this.state];
+    if (this.isModes) {
+      const mode = `mode ${state.time}, ${quantity(state.frequency, 'Hz', 5)}`;
+      byId('clock').textContent = `${mode} · drawn × ${plainNumber(this.warp)}`;
+      byId('now').textContent = `phase ${Math.round(this.phase * 180 / Math.PI)}°`;
+      return;
+    }
+    byId('clock').textContent = `t = ${quantity(state.time, 's')}${this.warp === 1 ? '' : ` · drawn × ${plainNumber(this.warp)}`}`;
+    byId('now').textContent = `${isStatic ? 'load ' : ''}t = ${quantity(state.time, 's')}`;
+    byId('time').setAttribute('aria-valuetext', `${quantity(state.time, 's')}, state ${this.state + 1} of ${view.states.length}`);
+    for (const plot of this.plots.values()) plot.setMark(state.time);
+    this.kept.plot?.setMark(state.time);
+  }
+
+  goToTime(time) {
+    if (!this.player || this.isModes) return;
+    const times = this.description.view.states.map((state) => state.time);
+    this.player.stop();
+    this.player.go(times.reduce((best, t, k) => (Math.abs(t - time) < Math.abs(times[best] - time) ? k : best), 0));
+  }
+
+  setWarp(warp) {
+    this.warp = warp;
+    byId('warp').value = warp;
+    const [low, high] = this.reach();
+    const middle = new THREE.Vector3(...low.map((x, c) => (x + high[c]) / 2));
+    const radius = 0.54 * Math.hypot(...low.map((x, c) => high[c] - x));
+    const { orbit } = this.view;
+    if (!orbit.home || (orbit.zoom === 1 && orbit.target.equals(orbit.home.target))) orbit.fit(middle, radius);
+    else orbit.home = { target: middle, radius };
+    this.showClip();
+    this.show();
+  }
+
+  showClip() {
+    const axis = byId('clip').value === '' ? null : Number(byId('clip').value);
+    byId('clip-settings').hidden = axis === null;
+    if (axis === null) { this.view.clip(null); return; }
+    const [low, high] = this.reach();
+    this.view.clip(axis, low[axis] + (high[axis] - low[axis]) * Number(byId('clip-place').value) / 1000, byId('clip-flip').getAttribute('aria-pressed') === 'true');
+  }
+
+  /** The point that was clicked stays in sight; none, or the same one: no longer. */
+  keep(point) {
+    this.kept.point = point;
+    this.hovered = null;
+    this.kept.show(this.states, this.option);
+    this.showTime();
+    this.showPoint();
+  }
+
+  /** The largest value of the state. */
+  keepLargest() {
+    let best = 0;
+    for (let v = 1; v < this.values.length; ++v) if (this.values[v] > this.values[best]) best = v;
+    const place = this.surface.triangles.indexOf(best);
+    this.keep({ triangle: Math.floor(place / 3), second: place % 3 === 1 ? 1 : 0, third: place % 3 === 2 ? 1 : 0 });
+  }
+
+  /** What the point under the pointer, else the kept one, has. */
+  showPoint() {
+    const { surface, kept } = this;
+    this.view.mark(kept.point ? surface.at(kept.point, surface.places, 3) : null);
+    const point = this.hovered || kept.point;
+    if (!point) { showReadout(byId('readout'), null); return; }
+    const state = this.states[this.state];
+    const byName = (name) => this.options.find((one) => one.name === name);
+    const scaled = (numbers, unit) => {
+      const scale = withPrefix(Math.max(...numbers.map(Math.abs)), unit);
+      return [` [${scale.unit}]`, ...numbers.map((x) => plainNumber(x * scale.factor))];
+    };
+    const rows = [];
+    for (const [name, numbers] of [['at rest', surface.at(point, surface.restPlaces, 3)],
+      ['displacement', ['x', 'y', 'z'].map((c) => surface.valueAt(point, byName(`displacement_${c}`), state))]]) {
+      const [unit, ...texts] = scaled(numbers, 'm');
+      rows.push([name + unit, ...texts]);
+    }
+    for (const option of new Set([byName('displacement'), this.option, byName('von_mises')].filter(Boolean))) {
+      const value = surface.valueAt(point, option, state);
+      rows.push([option.label, option.names ? option.names[value] : quantity(value, option.unit)]);
+    }
+    showReadout(byId('readout'), rows);
+  }
+}
