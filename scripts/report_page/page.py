@@ -109,6 +109,8 @@ def view_section(run, encoder, states):
     else:
         notes.append("Ranges are those of the surface; inside of the body values may be larger. The cut of the clip plane is a flat one: what is inside "
                      "of the body is not in the page.")
+        if not encoder.series.has("PointData", "von_mises"):
+            notes.append("Stress is that at the centres of cells; with Output/Stress = nodes it is recovered at the nodes.")
     words_of = {"modes": ("Phase of the vibration", "of this mode", "as written", ""),
                 "simulation": ("Time", "of all states", "true scale", " and plots its history")}[run.kind]
     if len(states) < 3:
@@ -159,8 +161,8 @@ def sections_of(run, encoder, states, all_charts):
         found.append(("study", "Runs", tables.study(run)))
     if all_charts:
         found.append(("plots", "Plots", plots_section(all_charts)))
-    results = (tables.final_state(run) if run.kind == "simulation" else "") + tables.size_and_cost(run)
-    found.append(("results", "Results", f'<div class="columns">{results}</div>'))
+    scalars, vectors = tables.final_state(run) if run.kind == "simulation" else ("", "")
+    found.append(("results", "Results", f'<div class="columns">{scalars}{tables.size_and_cost(run)}</div>{vectors}'))
     if run.checks:
         missed = sum(row["pass"] != "yes" for row in run.checks)
         found.append(("checks", "Checks", (f'<p class="notice failed">{count(missed, "check")} of {len(run.checks)} missed.</p>' if missed else "")

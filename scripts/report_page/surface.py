@@ -179,37 +179,54 @@ class Surface:
         return np.linalg.norm(np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), axis=1).sum() / 2
 
 
+def roughened(points, triangles):
+    """Points that are off the surface by a little, at random and always the same. Where a surface is flat, fields are not: on a rough one points are
+    taken away everywhere, on a smooth one first of all from flat parts."""
+    x = points[triangles]
+    lengths = np.linalg.norm(x - np.roll(x, -1, axis=1), axis=2)
+    shortest = np.full(len(points), np.inf)
+    np.minimum.at(shortest, triangles, lengths)
+    np.minimum.at(shortest, np.roll(triangles, -1, axis=1), lengths)
+    crossed = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    normals = np.stack([np.bincount(triangles.ravel(), np.repeat(crossed[:, c], 3), len(points)) for c in range(3)], axis=1)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    height = np.minimum(0.1 * shortest, 0.02 * np.median(lengths))
+    return points + np.random.default_rng(0).uniform(-1, 1, len(points))[:, None] * height[:, None] * normals
+
+
 def decimated(points, triangles, regions, target):
     """Fewer triangles among some of the points, region by region: points where regions or holes end stay."""
+    found = [decimated_region(points, triangles[regions == region], 1 - target / len(triangles)) for region in np.unique(regions)]
+    counts = [len(rows) for rows in found]
+    return np.concatenate(found), np.repeat(np.unique(regions), counts)
+
+
+def decimated_region(points, triangles, reduction):
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
     from vtkmodules.vtkFiltersCore import vtkDecimatePro
 
-    found = []
-    for region in np.unique(regions):
-        own = triangles[regions == region]
-        used, number = np.unique(own, return_inverse=True)
-        places, cells, body, names = vtkPoints(), vtkCellArray(), vtkPolyData(), numpy_to_vtk(used.astype(np.int64), deep=True)
-        places.SetData(numpy_to_vtk(points[used], deep=True))
-        connectivity = np.column_stack([np.full(len(own), 3), number.reshape(-1, 3)]).astype(np.int64)
-        cells.ImportLegacyFormat(numpy_to_vtkIdTypeArray(connectivity.ravel(), deep=True))
-        body.SetPoints(places)
-        body.SetPolys(cells)
-        names.SetName("node")
-        body.GetPointData().AddArray(names)
-        decimate = vtkDecimatePro()
-        decimate.SetInputData(body)
-        decimate.SetTargetReduction(max(0, 1 - target / len(triangles)))
-        decimate.PreserveTopologyOff()
-        decimate.SplittingOff()
-        decimate.BoundaryVertexDeletionOff()
-        decimate.Update()
-        result = decimate.GetOutput()
-        kept = vtk_to_numpy(result.GetPointData().GetArray("node"))
-        rows = vtk_to_numpy(result.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-        found.append((kept[rows], np.full(len(rows), region)))
-    return tuple(np.concatenate(parts) for parts in zip(*found))
+    used, number = np.unique(triangles, return_inverse=True)
+    number = number.reshape(-1, 3)
+    places, cells, body, names = vtkPoints(), vtkCellArray(), vtkPolyData(), numpy_to_vtk(used.astype(np.int64), deep=True)
+    places.SetData(numpy_to_vtk(roughened(points[used], number), deep=True))
+    cells.ImportLegacyFormat(numpy_to_vtkIdTypeArray(np.insert(number, 0, 3, axis=1).astype(np.int64).ravel(), deep=True))
+    body.SetPoints(places)
+    body.SetPolys(cells)
+    names.SetName("node")
+    body.GetPointData().AddArray(names)
+    decimate = vtkDecimatePro()
+    decimate.SetInputData(body)
+    decimate.SetTargetReduction(reduction)
+    decimate.SetFeatureAngle(CREASE)
+    decimate.PreserveTopologyOff()
+    decimate.SplittingOff()
+    decimate.BoundaryVertexDeletionOff()
+    decimate.Update()
+    result = decimate.GetOutput()
+    kept = vtk_to_numpy(result.GetPointData().GetArray("node"))
+    return kept[vtk_to_numpy(result.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
 
 
 def extract(points, cells, regions, degree, max_triangles=MAX_TRIANGLES):

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import columns
 from .run import last_row
-from .text import count, escape, number, plain, quantity, with_prefix
+from .text import MINUS, count, escape, number, plain, quantity, with_prefix
 
 COUNTS = ("step", "newton_iterations", "linear_iterations", "inverted_cells", "degenerate_cells", "robust_rotations", "clamped_cells", "parts",
           "rejected_steps")
@@ -28,7 +28,7 @@ def pairs(rows, caption):
 
 
 def final_state(run):
-    """Scalars, and vectors with their components side by side."""
+    """A table of scalars, and one of vectors with their components side by side."""
     final = last_row(run)
     vectors = columns.vectors(final)
     of_vectors = {f"{stem}_{c}" for stem in vectors for c in "xyz"}
@@ -45,7 +45,7 @@ def final_state(run):
         cells = [f'<data value="{v!r}" title="{v!r} {unit}" data-key="final.{escape(stem)}_{c}">{plain(v * factor)}</data>' if v is not None else "–"
                  for v, c in zip(values, "xyz")]
         rows.append([escape(known), *cells, escape(shown)])
-    return pairs(scalars, "Last state") + (table(["", "x", "y", "z", "unit"], rows, "Vectors of the last state", "numbers") if rows else "")
+    return pairs(scalars, "Last state"), table(["", "x", "y", "z", "unit"], rows, "Vectors of the last state", "numbers vectors") if rows else ""
 
 
 def size_and_cost(run):
@@ -59,7 +59,7 @@ def size_and_cost(run):
         cost += [[f"wall time, {escape(part)}", quantity(value, "s", f"wall_time.{part}")] for part, value in summary["wall_time"].items()]
     errors = []
     if "error_estimate" in summary:
-        errors.append(["estimated error of the stress, energy norm", quantity(summary["error_estimate"]["energy_norm"], "J^(1/2)",
+        errors.append(["estimated error of the stress, energy norm", quantity(summary["error_estimate"]["energy_norm"], "J^½",
                                                                               "error_estimate.energy_norm")])
         errors.append(["the same, relative", number(summary["error_estimate"]["relative"], "error_estimate.relative")])
     for norm, value in summary.get("errors", {}).items():
@@ -77,13 +77,12 @@ def modes(run):
         shares = [f'<data value="{t[f"mass_share_{c}"][i]!r}">{100 * t[f"mass_share_{c}"][i]:.1f}</data>' for c in "xyz"]
         rows.append([f'<button type="button" class="mode" data-mode="{i}" aria-pressed="false">{t["mode"][i]:.0f}</button>',
                      quantity(t["frequency"][i], "Hz", f"frequencies.{i}"), number(t["modal_mass"][i], digits=4), *shares, number(t["residual"][i], digits=2)])
-    return table(["mode", "frequency", "modal mass [kg]", "x [%]", "y [%]", "z [%]", "residual"], rows,
-                 "Natural frequencies, and the shares of the mass that take part when supports shake in x, y and z. A mode’s button shows its shape.",
-                 "numbers modes")
+    note = "A mode’s button shows its shape. In x, y and z: the shares of the mass that take part when supports shake in this direction."
+    return f'<p class="note">{note}</p>' + table(["mode", "frequency", "modal mass [kg]", "x [%]", "y [%]", "z [%]", "residual"], rows, classes="numbers")
 
 
 def checks(run):
-    rows = [[escape(row["quantity"]), number(row["computed"]), number(row["reference"]), escape(row["error"]), escape(row["tolerance"]),
+    rows = [[escape(row["quantity"]), number(row["computed"]), number(row["reference"]), escape(row["error"]).replace("-", MINUS), escape(row["tolerance"]),
              f'<span class="{"pass" if row["pass"] == "yes" else "miss"}">{escape(row["pass"])}</span>'] for row in run.checks]
     source, reason = run.entry("Verification/Source"), run.entry("Verification/Tolerance reason")
     notes = "".join(f"<p>{title}: {escape(text)}.</p>" for title, text in (("Reference", source), ("Why this tolerance", reason)) if text)
@@ -105,12 +104,13 @@ def study(run):
             return escape(value) if value not in ("nan", "") else ""
         if math.isnan(value):
             return ""
-        digits = 3 if name.endswith(("_order", "_in_time", "_time")) else 4
-        return number(int(value) if value == int(value) else value, digits=digits)
+        if name.endswith(("_order", "_in_time")):
+            return f'<data value="{value!r}">{value:.2f}</data>'.replace(">-", f">{MINUS}")
+        return number(int(value) if value == int(value) else value, digits=3 if name.endswith("_time") else 4)
 
     units = {name: columns.any_unit(name) for name in names + quantities}
     shown = names + quantities
-    head = [escape(columns.name(name)) + (f" [{units[name]}]" if units[name] != "-" else "") for name in shown]
+    head = [escape(name if name == "h" else columns.name(name)) + (f" [{units[name]}]" if units[name] != "-" else "") for name in shown]
     rows = [[cell(name, run.table[name][i]) for name in shown] for i in range(len(run.table["degree"]))]
     return table(head, rows, classes="numbers study")
 

@@ -25,6 +25,11 @@ def with_prefix(size, unit):
     return 1 / found[0], found[1] + unit
 
 
+def grouped(n):
+    """A whole number, from 10 000 on in groups of three digits."""
+    return f"{n:,}".replace(",", THIN_SPACE) if abs(n) >= 10_000 else str(n)
+
+
 def plain(value, digits=DIGITS):
     """A number without a unit; powers of ten where others would have many zeros."""
     if not isinstance(value, (int, float)) or isinstance(value, bool):
@@ -32,11 +37,11 @@ def plain(value, digits=DIGITS):
     if not math.isfinite(value):
         return "not a number" if math.isnan(value) else "infinite"
     if value == int(value) and abs(value) < 1e7:
-        text = f"{int(value):,}".replace(",", THIN_SPACE)
+        text = grouped(int(value))
     elif 1e-3 <= abs(value) < 1e6:
         text = f"{value:.{digits}g}"
-        if "e" in text:
-            text = f"{value:.0f}"
+        if abs(value) >= 10**(digits - 1):
+            text = grouped(round(value))
     else:
         mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
         if "." in mantissa:
@@ -65,4 +70,4 @@ def quantity(value, unit, key="", digits=DIGITS):
 
 
 def count(n, singular, plural=None):
-    return f"{n:,}".replace(",", THIN_SPACE) + " " + (singular if n == 1 else plural or singular + "s")
+    return grouped(n) + " " + (singular if n == 1 else plural or singular + "s")

@@ -5,7 +5,7 @@
 import pathlib
 import re
 
-from .text import count, escape, plain
+from .text import count, escape, plain, with_prefix
 
 LAWS = {"linear": "linear elasticity", "corotational": "corotational elasticity", "Saint Venant-Kirchhoff": "the Saint Venant-Kirchhoff law",
         "neo-Hookean": "the neo-Hookean law"}
@@ -15,7 +15,8 @@ def value(text, unit=""):
     """A number with its unit, or a formula as it was written."""
     shown = escape(text)
     try:
-        shown = plain(float(text))
+        factor, unit = with_prefix(abs(float(text)), unit or "-")
+        shown = plain(float(f"{float(text) * factor:.12g}"))
     except ValueError:
         shown = f"<code>{shown}</code>"
     return shown + (f"&nbsp;{unit}" if unit else "")
@@ -44,6 +45,8 @@ def lead(run):
     if run.is_static:
         steps = entry("Time integration/static/Load steps")
         return "The deformation of an elastic body at rest under its loads, " + ("in one step." if steps == "1" else f"in {value(steps)} load steps.")
+    if not entry("Time integration/End time"):
+        return "The motion of an elastic body."
     return f"The motion of an elastic body from {value(entry('Time integration/Start time'))} to {value(entry('Time integration/End time'), 's')}."
 
 

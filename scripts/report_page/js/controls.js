@@ -32,7 +32,7 @@ const CONTROLS = {
     }
     // Edges of thinned triangles are not those of cells.
     byId('edges-label').hidden = this.description.view.isThinned;
-    for (const button of document.querySelectorAll('[data-look]')) button.addEventListener('click', () => this.look(button.dataset.look));
+    for (const button of document.querySelectorAll('[data-look]')) button.addEventListener('click', () => this.view.orbit.look(button.dataset.look));
     for (const button of document.querySelectorAll('[data-mode]')) button.addEventListener('click', () => this.chooseMode(Number(button.dataset.mode)));
     this.showMode();
     this.listenToPointer();
@@ -59,11 +59,6 @@ const CONTROLS = {
     byId('low').value = Number((low * this.ownScale.factor).toPrecision(4));
     byId('high').value = Number((high * this.ownScale.factor).toPrecision(4));
     byId('own-unit').textContent = this.ownScale.unit;
-  },
-
-  look(name) {
-    this.view.orbit.look(name);
-    this.view.orbit.apply();
   },
 
   chooseMode(index) {
@@ -131,8 +126,8 @@ const CONTROLS = {
       orbit.turn(...turns[event.key]);
       return true;
     }
-    const act = { '+': () => orbit.zoomBy(1.25), '=': () => orbit.zoomBy(1.25), '-': () => orbit.zoomBy(0.8), r: () => { orbit.look('slanted'); orbit.reset(); },
-      m: () => this.keepLargest(), x: () => this.look('x'), y: () => this.look('y'), z: () => this.look('z'), Escape: () => this.keep(null) };
+    const act = { '+': () => orbit.zoomBy(1.25), '=': () => orbit.zoomBy(1.25), '-': () => orbit.zoomBy(0.8), r: () => orbit.look('slanted'),
+      m: () => this.keepLargest(), x: () => orbit.look('x'), y: () => orbit.look('y'), z: () => orbit.look('z'), Escape: () => this.keep(null) };
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     act[name]?.();
     return Boolean(act[name]);

@@ -30,6 +30,11 @@ function plainNumber(value, digits = 4) {
   return text.replace('-', MINUS);
 }
 
+/** How many digits mean something of a number that is known to a resolution: none of one below that. */
+function meaningfulDigits(value, resolution) {
+  return Math.abs(value) < resolution ? 0 : Math.min(4, Math.floor(Math.log10(Math.abs(value) / resolution)) + 1);
+}
+
 /** A factor and a unit for numbers up to the size: 0.002 m are 2 mm. */
 function withPrefix(size, unit) {
   const plain = { factor: 1, unit: unit === '-' ? '' : unit };

@@ -19,10 +19,11 @@ function showLegend(place, option, low, high, row, bands) {
   bar.style.background = gradientOf(row, bands);
   const ticks = element('div', { class: 'ticks' });
   const share = (value) => (high > low ? 100 * (value - low) / (high - low) : 50);
-  // The ends are the true ones; round numbers between, where there is room.
+  // The ends are the true ones, round-off aside; round numbers between, where there is room.
+  const shown = (value) => (Math.abs(value) < 1e-6 * Math.max(Math.abs(low), Math.abs(high)) ? 0 : value);
   const between = roundTicks(low, high, 3).filter((value) => share(value) > 22 && share(value) < 78);
   for (const value of high > low ? [low, ...between, high] : [low]) {
-    const tick = element('span', { 'data-value': value }, plainNumber(value * scale.factor));
+    const tick = element('span', { 'data-value': value }, plainNumber(shown(value) * scale.factor));
     tick.style.left = `${share(value)}%`;
     ticks.append(tick);
   }

@@ -6,7 +6,7 @@
 const LOOKS = {
   slanted: [-62 * Math.PI / 180, 24 * Math.PI / 180],
   x: [0, 0],
-  y: [Math.PI / 2, 0],
+  y: [-Math.PI / 2, 0],
   z: [-Math.PI / 2, Math.PI / 2],
 };
 
@@ -15,7 +15,7 @@ class Orbit {
   constructor(canvas, camera, moved, clicked) {
     Object.assign(this, { canvas, camera, moved, clicked });
     this.target = new THREE.Vector3();
-    this.radius = 1;
+    this.zoom = 1;
     this.pointers = new Map();
     this.look('slanted');
     canvas.addEventListener('pointerdown', (event) => this.press(event));
@@ -25,21 +25,34 @@ class Orbit {
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
   }
 
-  /** Shows a ball: of this middle and radius, all of it. */
-  fit(target, radius) {
-    this.home = { target: target.clone(), radius };
-    this.reset();
+  /** The box that reset() shows all of, its corners as arrays of three. */
+  setHome(low, high) {
+    const middle = new THREE.Vector3(...low.map((x, c) => (x + high[c]) / 2));
+    this.home = { low, high, middle, radius: Math.hypot(...low.map((x, c) => high[c] - x)) / 2 };
+  }
+
+  get isAtHome() {
+    return !this.home || (this.zoom === 1 && this.target.equals(this.home.middle));
   }
 
   reset() {
-    this.target.copy(this.home.target);
-    this.radius = this.home.radius;
+    this.target.copy(this.home.middle);
     this.zoom = 1;
+    this.frame();
     this.apply();
+  }
+
+  /** Half of the width and of the height that the box has from here. */
+  frame() {
+    const { x, y } = this.axes();
+    const sides = this.home.low.map((v, c) => (this.home.high[c] - v) / 2);
+    const extent = (axis) => axis.toArray().reduce((sum, a, c) => sum + Math.abs(a) * sides[c], 0);
+    this.half = [extent(x), extent(y)].map((size) => Math.max(1.12 * size, 0.05 * this.home.radius));
   }
 
   look(name) {
     [this.azimuth, this.elevation] = LOOKS[name];
+    if (this.home) this.reset();
   }
 
   /** Radians to the right and upwards, of the camera. */
@@ -79,16 +92,16 @@ class Orbit {
     const { x, y, z } = this.axes();
     const { camera } = this;
     const aspect = this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1);
-    // The ball fits into the smaller side.
-    const half = this.radius / this.zoom / Math.min(1, aspect);
+    const half = Math.max(this.half[1], this.half[0] / aspect) / this.zoom;
+    const reach = 20 * this.home.radius;
     camera.top = half;
     camera.bottom = -half;
     camera.right = half * aspect;
     camera.left = -half * aspect;
     // Nothing is cut off, however far the body moves.
     camera.near = 0;
-    camera.far = 40 * this.radius;
-    camera.position.copy(this.target).addScaledVector(z, 20 * this.radius);
+    camera.far = 2 * reach;
+    camera.position.copy(this.target).addScaledVector(z, reach);
     camera.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(x, y, z));
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();

@@ -4,8 +4,8 @@
 // The point of the drawn surface that a ray meets first.
 
 /**
- * @p origin and @p direction are arrays of three, @p visible tells whether a place is drawn. Returns the triangle and the shares of its second
- * and third vertex, or nothing (Moeller and Trumbore's test for each triangle).
+ * @p origin and @p direction are arrays of three, @p visible tells whether a place is drawn. Returns the triangle, the shares of its second
+ * and third vertex, and whether it is seen from inside; or nothing (Moeller and Trumbore's test for each triangle).
  */
 function meet(positions, triangles, origin, direction, visible) {
   const [ox, oy, oz] = origin;
@@ -30,7 +30,7 @@ function meet(positions, triangles, origin, direction, visible) {
     if (distance < 0 || distance >= nearest) continue;
     if (!visible(ox + distance * dx, oy + distance * dy, oz + distance * dz)) continue;
     nearest = distance;
-    best = { triangle: t / 3, second, third };
+    best = { triangle: t / 3, second, third, isInside: determinant < 0 };
   }
   return best;
 }

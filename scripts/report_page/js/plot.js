@@ -90,7 +90,7 @@ class Plot {
       const i = x === null || !one.isShown ? -1 : one.x.indexOf(x);
       one.value.textContent = i < 0 ? '' : `\u00a0${plainNumber(one.y[i] === null ? null : one.y[i] * this.scale.factor, 5)}`;
     }
-    this.at.textContent = x === null ? '' : `at ${this.chart.x_label.replace(/,.*/, '')} ${plainNumber(x * this.xScale.factor, 5)}`;
+    this.at.textContent = x === null ? '' : `at ${this.chart.x_label.replace(/,.*/, '')} ${plainNumber(x * this.xScale.factor, 5)} ${this.xScale.unit}`;
     if (x !== null && this.toX) {
       this.cursorLine = this.line('cursor', this.toX(x), PLOT.top, this.toX(x), PLOT.height - PLOT.bottom);
       this.svg.append(this.cursorLine);
@@ -145,7 +145,7 @@ class Plot {
     const step = Math.max(1, Math.ceil((high - low) / n));
     const found = [];
     for (let p = Math.floor(low); p <= high; ++p) {
-      if (p % step === 0) for (const f of factors) if (f * 10 ** p >= range[0] && f * 10 ** p <= range[1]) found.push([f * 10 ** p, plainNumber(f * 10 ** p, 1)]);
+      if (p % step === 0) for (const f of factors) if (f * 10 ** p >= range[0] && f * 10 ** p <= range[1]) found.push([f * 10 ** p, f === 1 && Math.abs(p) > 2 ? `10${superscript(p)}` : plainNumber(f * 10 ** p, 1)]);
     }
     return found;
   }

@@ -138,7 +138,7 @@ class Report {
   }
 
   showTime() {
-    const { view, isStatic } = this.description;
+    const { view } = this.description;
     const state = view.states[this.state];
     if (this.isModes) {
       const mode = `mode ${state.time}, ${quantity(state.frequency, 'Hz', 5)}`;
@@ -146,9 +146,12 @@ class Report {
       byId('now').textContent = `phase ${Math.round(this.phase * 180 / Math.PI)}°`;
       return;
     }
-    byId('clock').textContent = `t = ${quantity(state.time, 's')}${this.warp === 1 ? '' : ` · drawn × ${plainNumber(this.warp)}`}`;
-    byId('now').textContent = `${isStatic ? 'load ' : ''}t = ${quantity(state.time, 's')}`;
-    byId('time').setAttribute('aria-valuetext', `${quantity(state.time, 's')}, state ${this.state + 1} of ${view.states.length}`);
+    // In the unit that suits the whole of the run.
+    const scale = withPrefix(Math.max(...view.states.map((one) => Math.abs(one.time))), 's');
+    const time = `${plainNumber(state.time * scale.factor)}\u00a0${scale.unit}`;
+    byId('clock').textContent = `t = ${time}${this.warp === 1 ? '' : ` · drawn × ${plainNumber(this.warp)}`}`;
+    byId('now').textContent = `t = ${time}`;
+    byId('time').setAttribute('aria-valuetext', `${time}, state ${this.state + 1} of ${view.states.length}`);
     for (const plot of this.plots.values()) plot.setMark(state.time);
     this.kept.plot?.setMark(state.time);
   }
@@ -163,12 +166,10 @@ class Report {
   setWarp(warp) {
     this.warp = warp;
     byId('warp').value = warp;
-    const [low, high] = this.reach();
-    const middle = new THREE.Vector3(...low.map((x, c) => (x + high[c]) / 2));
-    const radius = 0.54 * Math.hypot(...low.map((x, c) => high[c] - x));
     const { orbit } = this.view;
-    if (!orbit.home || (orbit.zoom === 1 && orbit.target.equals(orbit.home.target))) orbit.fit(middle, radius);
-    else orbit.home = { target: middle, radius };
+    const { isAtHome } = orbit;
+    orbit.setHome(...this.reach());
+    if (isAtHome) orbit.reset();
     this.showClip();
     this.show();
   }
@@ -176,9 +177,15 @@ class Report {
   showClip() {
     const axis = byId('clip').value === '' ? null : Number(byId('clip').value);
     byId('clip-settings').hidden = axis === null;
+    if (axis !== this.clipAxis) {
+      this.clipAxis = axis;
+      // What is nearer is cut away first.
+      if (axis !== null) this.isNearBelow = this.view.orbit.axes().z.getComponent(axis) < 0;
+    }
     if (axis === null) { this.view.clip(null); return; }
     const [low, high] = this.reach();
-    this.view.clip(axis, low[axis] + (high[axis] - low[axis]) * Number(byId('clip-place').value) / 1000, byId('clip-flip').getAttribute('aria-pressed') === 'true');
+    const isOther = byId('clip-flip').getAttribute('aria-pressed') === 'true';
+    this.view.clip(axis, low[axis] + (high[axis] - low[axis]) * Number(byId('clip-place').value) / 1000, this.isNearBelow !== isOther);
   }
 
   /** The point that was clicked stays in sight; none, or the same one: no longer. */
@@ -206,20 +213,23 @@ class Report {
     if (!point) { showReadout(byId('readout'), null); return; }
     const state = this.states[this.state];
     const byName = (name) => this.options.find((one) => one.name === name);
-    const scaled = (numbers, unit) => {
-      const scale = withPrefix(Math.max(...numbers.map(Math.abs)), unit);
-      return [` [${scale.unit}]`, ...numbers.map((x) => plainNumber(x * scale.factor))];
-    };
-    const rows = [];
-    for (const [name, numbers] of [['at rest', surface.at(point, surface.restPlaces, 3)],
-      ['displacement', ['x', 'y', 'z'].map((c) => surface.valueAt(point, byName(`displacement_${c}`), state))]]) {
-      const [unit, ...texts] = scaled(numbers, 'm');
-      rows.push([name + unit, ...texts]);
-    }
+    const place = surface.at(point, surface.restPlaces, 3);
+    const moved = ['x', 'y', 'z'].map((c) => surface.valueAt(point, byName(`displacement_${c}`), state));
+    const rows = [this.vectorRow('at rest', place, 1e-6 * this.size()), this.vectorRow('displacement', moved, state.displacement.unit)];
     for (const option of new Set([byName('displacement'), this.option, byName('von_mises')].filter(Boolean))) {
       const value = surface.valueAt(point, option, state);
-      rows.push([option.label, option.names ? option.names[value] : quantity(value, option.unit)]);
+      const digits = option.names ? 0 : meaningfulDigits(value, state[option.field].unit);
+      rows.push([option.label, option.names ? option.names[value] : quantity(digits ? value : 0, option.unit, digits || 1)]);
     }
     showReadout(byId('readout'), rows);
+  }
+
+  /** Of the page's readout: a name with a unit, and three numbers in it. */
+  vectorRow(name, numbers, resolution) {
+    const scale = withPrefix(Math.max(...numbers.map(Math.abs), resolution), 'm');
+    return [`${name} [${scale.unit}]`, ...numbers.map((x) => {
+      const digits = meaningfulDigits(x, resolution);
+      return digits ? plainNumber(x * scale.factor, digits) : '0';
+    })];
   }
 }

@@ -105,7 +105,7 @@ class View {
     if (isOn) {
       const normal = new THREE.Vector3().setComponent(axis, flipped ? 1 : -1);
       this.plane.set(normal, flipped ? -place : place);
-      this.cap.position.copy(this.orbit.home.target).setComponent(axis, place);
+      this.cap.position.copy(this.orbit.home.middle).setComponent(axis, place);
       this.cap.scale.setScalar(8 * this.orbit.home.radius);
       this.cap.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), normal);
     }
@@ -159,7 +159,9 @@ class View {
     const visible = isClipped
       ? (px, py, pz) => plane.normal.x * px + plane.normal.y * py + plane.normal.z * pz + plane.constant >= 0
       : () => true;
-    return meet(this.surface.places, this.surface.triangles, origin.toArray(), direction.toArray(), visible);
+    const found = meet(this.surface.places, this.surface.triangles, origin.toArray(), direction.toArray(), visible);
+    // The cut lies before what is seen from inside: it has no values.
+    return isClipped && found?.isInside ? null : found;
   }
 
   resize() {
