@@ -113,7 +113,8 @@ def study_chart(rows, error, abscissa, label):
     is_relative = any(isinstance(row.get(f"{error}_reference"), float) and row[f"{error}_reference"] for row in rows)
     series = [{"label": series_label(key), "x": [finite(x) for x, _ in group], "y": [finite(y) for _, y in group]} for key, group in groups.items()]
     title = ERRORS.get(error, f"error of {columns.name(error)}") + (", relative" if is_relative else "")
-    return Chart(f"{error}-{abscissa}", title[0].upper() + title[1:], "-", label, columns.any_unit(abscissa), series, log=True, points=True, n_rows=len(rows))
+    return Chart(f"{error}-{abscissa}", title[0].upper() + title[1:], "-", label, columns.any_unit(abscissa), series, log=True, points=True,
+                 n_rows=len(rows))
 
 
 def study_charts(run):

@@ -57,7 +57,7 @@ def read_text(path):
 def read_table(path):
     """The columns of a table: numbers, or texts where not all are. A last row that is being written is left out."""
     try:
-        names, *rows = list(csv.reader(read_text(path).splitlines()))
+        names, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
     except (ValueError, csv.Error) as error:
         raise ReportError(f"{path} is damaged: {error}") from error
     short = [i for i, row in enumerate(rows) if len(row) != len(names)]

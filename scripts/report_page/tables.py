@@ -76,7 +76,8 @@ def modes(run):
     for i in range(len(t["mode"])):
         shares = [f'<data value="{t[f"mass_share_{c}"][i]!r}">{100 * t[f"mass_share_{c}"][i]:.1f}</data>' for c in "xyz"]
         rows.append([f'<button type="button" class="mode" data-mode="{i}" aria-pressed="false">{t["mode"][i]:.0f}</button>',
-                     quantity(t["frequency"][i], "Hz", f"frequencies.{i}"), number(t["modal_mass"][i], digits=4), *shares, number(t["residual"][i], digits=2)])
+                     quantity(t["frequency"][i], "Hz", f"frequencies.{i}"), number(t["modal_mass"][i], digits=4), *shares,
+                     number(t["residual"][i], digits=2)])
     note = "A mode’s button shows its shape. In x, y and z: the shares of the mass that take part when supports shake in this direction."
     return f'<p class="note">{note}</p>' + table(["mode", "frequency", "modal mass [kg]", "x [%]", "y [%]", "z [%]", "residual"], rows, classes="numbers")
 

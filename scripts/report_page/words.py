@@ -39,7 +39,7 @@ def lead(run):
     if run.kind == "study":
         against = {"exact solution": "an exact solution", "finer run": "a run on a finer mesh"}.get(entry("Convergence study/Reference"))
         varied = [f"degree {entry('Convergence study/Degrees')}", f"refinements {entry('Convergence study/Refinements')}"]
-        varied += [f"{name} {entry(f'Convergence study/{key}')}" for name, key in (("time steps", "Time steps"), ("masses", "Masses"), ("rotations", "Rotations"))
+        varied += [f"{key.lower()} {entry(f'Convergence study/{key}')}" for key in ("Time steps", "Masses", "Rotations")
                    if entry(f"Convergence study/{key}")]
         return f"A convergence study: {escape('; '.join(varied))}" + (f"; compared with {against}." if against else ".")
     if run.is_static:
@@ -81,7 +81,8 @@ def material(run):
     if entry("Material/Type") == "corotational":
         law += f", a rotation for each {'cell' if entry('Material/Rotation').startswith('cell') else 'quadrature point'}"
     yield "Law", law
-    yield "Material", (f"Young’s modulus {value(entry('Material/Young\'s modulus'), 'Pa')}, Poisson’s ratio {value(entry('Material/Poisson\'s ratio'))}, "
+    modulus, ratio = entry("Material/Young's modulus"), entry("Material/Poisson's ratio")
+    yield "Material", (f"Young’s modulus {value(modulus, 'Pa')}, Poisson’s ratio {value(ratio)}, "
                        f"density {value(entry('Material/Density'), 'kg/m³')}")
 
 
@@ -103,7 +104,8 @@ def conditions(run):
         yield "Supports", supports or "none: the body is free"
     if run.kind == "modes":
         return
-    loads = [f"{name} {vector(entry(path), unit)}" for name, path, unit in (("gravity", "Loads/Gravity", "m/s²"), ("body force", "Loads/Body force", "N/m³"))
+    loads = [f"{name} {vector(entry(path), unit)}"
+             for name, path, unit in (("gravity", "Loads/Gravity", "m/s²"), ("body force", "Loads/Body force", "N/m³"))
              if entry(path) and not is_zero(entry(path))]
     loads += [text for text in (given(("traction in Pa:", "Boundary conditions/Traction"), ("pressure in Pa:", "Boundary conditions/Pressure"),
                                       ("point forces in N:", "Loads/Point forces")),) if text]

@@ -107,6 +107,11 @@ class Browser:
         chain.perform()
         self.settle()
 
+    def press_mouse(self):
+        """Where it is."""
+        ActionChains(self.driver).click().perform()
+        self.settle()
+
     def picture(self, selector):
         """What is drawn there, as numbers from 0 to 255 (rows x columns x 3)."""
         self.settle()

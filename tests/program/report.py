@@ -45,9 +45,10 @@ class Report(ProgramTest):
         self.browser.set_size(1200, 900)
         self.browser.set_media(prefers_color_scheme="light", prefers_reduced_motion="reduce")
 
-    @functools.cache
     def run_of(self, name):
         """The folder of a run with its page, made once."""
+        if (self.results / name).exists():
+            return self.results / name
         if name == "study":
             (self.folder / "study.prm").write_text(parameter_text(STUDY), encoding="utf-8")
             self.run_program("study.prm", "--output", self.results / name)
@@ -59,13 +60,6 @@ class Report(ProgramTest):
             self.run_case(case, self.results / name, *settings)
         self.make(self.results / name)
         return self.results / name
-
-    # One cache for all tests of the class.
-    def __hash__(self):
-        return hash(type(self))
-
-    def __eq__(self, other):
-        return type(self) is type(other)
 
     def make(self, folder):
         run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "report", folder], capture_output=True, text=True, check=False)
@@ -89,8 +83,8 @@ class Report(ProgramTest):
         if match := re.fullmatch(r"(.*)×10(-?\d+)", shown):
             shown = f"{match.group(1)}e{match.group(2)}"
         # A prefix of the unit is a power of 1000.
-        powers = [0] if float(expected) == 0 else [round(math.log10(abs(expected / float(shown))) / 3)] if float(shown) else [0]
-        self.assertAlmostEqual(float(shown) * 1000.0**powers[0], expected, delta=6e-5 * abs(expected), msg=f"{key}: {text}")
+        power = round(math.log10(abs(expected / float(shown))) / 3) if expected and float(shown) else 0
+        self.assertAlmostEqual(float(shown) * 1000.0**power, expected, delta=6e-5 * abs(expected), msg=f"{key}: {text}")
 
     def test_numbers_are_those_of_the_files(self):
         folder = self.open("motion")
@@ -113,7 +107,7 @@ class Report(ProgramTest):
             self.assertIn("set Spectral radius = 0.8", file.read())
         entries = set(self.browser.texts("#parameters th code"))
         self.assertLessEqual({"Boundary conditions/Fixed", "Mesh/box/Cells", "Loads/Gravity", "Output/Stress"}, entries)
-        self.assertFalse({"Type", "Discretization/Degree", "Output/Directory", "Material/Poisson's ratio", "Time integration/generalized-alpha/Spectral radius"} & entries)
+        self.assertFalse({"Type", "Discretization/Degree", "Output/Directory", "Time integration/generalized-alpha/Spectral radius"} & entries)
 
     def test_surface_is_that_of_the_body(self):
         folder = self.open("motion")
@@ -235,7 +229,7 @@ class Report(ProgramTest):
         row = next(row for row in self.browser.find("#readout").text.split("\n") if row.startswith("displacement ["))
         unit, *shown = re.fullmatch(r"displacement \[(\w+)\] (\S+) (\S+) (\S+)", row.replace("\u2212", "-")).groups()
         self.assertEqual(unit, "mm")
-        # A pixel is 1 mm of the end, which has turned by less than half a right angle: so much its displacement differs from pixel to pixel.
+        # A pixel is less than 1 mm of the end, which has turned by less than half a right angle: so much its displacement differs at most.
         for value, expected in zip(shown, (final["tip_x"], final["tip_y"], final["tip_z"])):
             self.assertAlmostEqual(float(value) * 1e-3, expected, delta=1e-3)
         self.browser.point_at(5, 5)
@@ -255,7 +249,7 @@ class Report(ProgramTest):
         for text, column in zip(texts, ("kinetic_energy", "elastic_energy", "external_work")):
             self.assertAlmostEqual(float(text.split()[-1]), float(row[column]), delta=6e-5 * float(row[column]), msg=text)
         # A click takes the view there; a curve that is put away is gone.
-        self.browser.click(f"{chart} svg")
+        self.browser.press_mouse()
         self.assertEqual(self.browser.run("return report.description.view.states[report.state].time"), float(row["time"]))
         self.browser.click(f"{chart} .keyline button")
         self.assertEqual(self.browser.run(f"return document.querySelectorAll('{chart} path.curve').length"), 2)

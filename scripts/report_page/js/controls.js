@@ -114,9 +114,9 @@ const CONTROLS = {
   keyOfTime(event) {
     if (!this.player || event.shiftKey) return false;
     const end = this.player.places.length - 1;
-    const go = { ArrowLeft: () => this.player.step(-1), ArrowRight: () => this.player.step(1), Home: () => this.player.step(-end), End: () => this.player.step(end) };
-    go[event.key]?.();
-    return Boolean(go[event.key]);
+    const by = { ArrowLeft: -1, ArrowRight: 1, Home: -end, End: end }[event.key];
+    if (by) this.player.step(by);
+    return Boolean(by);
   },
 
   keyInView(event) {

@@ -25,7 +25,9 @@ class Plot {
   summary() {
     const parts = this.series.map((one) => {
       const finite = one.y.filter((y) => y !== null);
-      return finite.length ? `${one.label} from ${quantity(Math.min(...finite), this.chart.unit)} to ${quantity(Math.max(...finite), this.chart.unit)}` : one.label;
+      if (!finite.length) return one.label;
+      const [low, high] = [Math.min(...finite), Math.max(...finite)].map((y) => quantity(y, this.chart.unit));
+      return `${one.label} from ${low} to ${high}`;
     });
     return `${this.chart.title} over ${this.chart.x_label}: ${parts.join('; ')}`;
   }
@@ -113,7 +115,8 @@ class Plot {
   /** From the least to the largest number of the curves that are shown, with a little room. */
   findRange() {
     const shown = this.series.filter((one) => one.isShown);
-    const span = (values) => values.reduce(([low, high], v) => (v === null ? [low, high] : [Math.min(low, v), Math.max(high, v)]), [Infinity, -Infinity]);
+    const wider = ([low, high], v) => (v === null ? [low, high] : [Math.min(low, v), Math.max(high, v)]);
+    const span = (values) => values.reduce(wider, [Infinity, -Infinity]);
     const x = span(shown.flatMap((one) => one.x));
     const y = span(shown.flatMap((one) => one.y));
     if (this.chart.log) return { x: [x[0] / 1.25, x[1] * 1.25], y: [y[0] / 1.5, y[1] * 1.5] };
@@ -145,7 +148,10 @@ class Plot {
     const step = Math.max(1, Math.ceil((high - low) / n));
     const found = [];
     for (let p = Math.floor(low); p <= high; ++p) {
-      if (p % step === 0) for (const f of factors) if (f * 10 ** p >= range[0] && f * 10 ** p <= range[1]) found.push([f * 10 ** p, f === 1 && Math.abs(p) > 2 ? `10${superscript(p)}` : plainNumber(f * 10 ** p, 1)]);
+      for (const f of p % step === 0 ? factors : []) {
+        const value = f * 10 ** p;
+        if (value >= range[0] && value <= range[1]) found.push([value, f === 1 && Math.abs(p) > 2 ? `10${superscript(p)}` : plainNumber(value, 1)]);
+      }
     }
     return found;
   }

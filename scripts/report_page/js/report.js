@@ -52,6 +52,8 @@ class Report {
       if (!this.states[k]) this.states[k] = await readState(view, k);
     }
     byId('loading').remove();
+    // Now the view knows how far the body goes.
+    this.setWarp(this.warp);
     this.makePlayer();
   }
 
@@ -77,13 +79,14 @@ class Report {
     return largest === 0 || (!this.isModes && largest >= SEEN_AS_IT_IS * this.size()) ? 1 : roundDown(0.1 * this.size() / largest);
   }
 
-  /** The corners of a box that all states are in, with the warp. */
+  /** The corners of a box that the body at rest is in and, with the warp, in all states that have been read; of modes the shown one. */
   reach() {
-    const [low, high] = this.description.view.bounds;
-    const ranges = ['x', 'y', 'z'].map((c) => this.fullRange(`displacement_${c}`));
-    const most = this.isModes ? ranges.map((range) => Math.max(...range.map(Math.abs))) : null;
-    return [low.map((x, c) => x + this.warp * Math.min(0, most ? -most[c] : ranges[c][0])),
-      high.map((x, c) => x + this.warp * Math.max(0, most ? most[c] : ranges[c][1]))];
+    const [low, high] = this.description.view.bounds.map((corner) => [...corner]);
+    for (const state of this.isModes ? [this.states[this.state]] : this.states.filter(Boolean)) {
+      this.surface.extend(low, high, state.displacement, this.warp);
+      if (this.isModes) this.surface.extend(low, high, state.displacement, -this.warp);
+    }
+    return [low, high];
   }
 
   makePlayer() {

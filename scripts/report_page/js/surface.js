@@ -69,6 +69,18 @@ class Surface {
     this.computeNormals();
   }
 
+  /** The box with these corners gets so large that all nodes are in it at rest + factor u. */
+  extend(low, high, displacement, factor) {
+    const { n, rest } = this;
+    for (let c = 0; c < 3; ++c) {
+      for (let k = 0; k < n; ++k) {
+        const x = rest[3 * k + c] + factor * displacement.unit * displacement.values[c * n + k];
+        if (x < low[c]) low[c] = x;
+        else if (x > high[c]) high[c] = x;
+      }
+    }
+  }
+
   /** What an option shows at the vertices. */
   valuesOf(option, state) {
     const values = new Float32Array(this.nVertices);
