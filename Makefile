@@ -10,10 +10,14 @@ PRESETS ?= release debug
 # Not empty: `make bench` takes less than three minutes instead of fifteen, and only small cases.
 QUICK ?=
 
-.PHONY: help run test verify bench format check clean
+# Where `make report` has the results of the case, as `make run` has.
+OUTPUT = output/$(basename $(notdir $(PRM)))
+
+.PHONY: help run report test verify bench format check clean
 
 help:
 	@echo 'make run [PRM=parameters/x.prm]  build the program and run a case; its results replace those of the last run'
+	@echo 'make report [PRM=...]            the same, and the page of the run: one file, for any browser'
 	@echo 'make test                        build and test: Release and Debug'
 	@echo 'make verify                      compare cases with known answers; status 1 if one is off'
 	@echo 'make bench [QUICK=1]             measure; status 1 if a required ratio is not reached'
@@ -25,6 +29,16 @@ run:
 	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
 	  cmake --build --preset release --target corotet'
 	@$(TOOLCHAIN) build/release/corotet $(PRM) --set "Output/Overwrite = true" $(ARGUMENTS)
+
+# A run whose computation failed, or that was stopped, has a page, too. The page of an earlier run is no result that the program replaces.
+report:
+	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
+	  cmake --build --preset release --target corotet'
+	@rm -f $(OUTPUT)/report.html
+	@status=0; \
+	  $(TOOLCHAIN) build/release/corotet $(PRM) --output $(OUTPUT) --set "Output/Overwrite = true" $(ARGUMENTS) || status=$$?; \
+	  case $$status in 0 | 2 | 4) $(TOOLCHAIN) scripts/report $(OUTPUT) || exit ;; esac; \
+	  exit $$status
 
 test:
 	@for preset in $(PRESETS); do \

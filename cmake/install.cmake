@@ -17,7 +17,8 @@ install(TARGETS corotet_library EXPORT corotetTargets
 
 # What the program starts (base/programs.h), and cases to begin with, which refer to each other's folders.
 set(data ${CMAKE_INSTALL_DATADIR}/corotet)
-install(PROGRAMS scripts/draw_study scripts/plot DESTINATION ${data}/scripts COMPONENT ${runtime})
+install(PROGRAMS scripts/draw_study scripts/plot scripts/report DESTINATION ${data}/scripts COMPONENT ${runtime})
+install(DIRECTORY scripts/report_page DESTINATION ${data}/scripts COMPONENT ${runtime} PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY parameters meshes DESTINATION ${data} COMPONENT ${runtime})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${runtime})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT ${runtime})

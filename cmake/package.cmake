@@ -21,8 +21,8 @@ This package has the program and ready cases.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME corotet)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# For runs on several ranks, and for pictures of convergence studies.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openmpi-bin, python3, python3-matplotlib")
+# For runs on several ranks, for pictures of convergence studies, and for the pages of runs.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openmpi-bin, python3, python3-matplotlib, python3-numpy, python3-h5py, python3-vtk9, libjs-three")
 
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and CMake files of corotet's library, for programs that add forces, time integrators
 or a loop of their own.")

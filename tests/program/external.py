@@ -160,6 +160,10 @@ class External(unittest.TestCase):
         self.assertTrue((folder / "output" / "study" / "study_l2_over_h.svg").exists())
         with open(folder / "output" / "study" / "study.csv", newline="", encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), 2)
+        # The page's script is there as well, and finds the program beside it: it knows the defaults.
+        subprocess.run([self.prefix / "share" / "corotet" / "scripts" / "report", folder / "output" / "study"], capture_output=True, check=True)
+        page = (folder / "output" / "study" / "report.html").read_text(encoding="utf-8")
+        self.assertIn("<code>Convergence study/Degrees</code>", page)
 
 
 if __name__ == "__main__":

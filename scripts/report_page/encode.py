@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""The surface and its states as the page holds them: blocks, each deflated and in base64, and a description of what is in them.
+
+Numbers of states have 16 bits, relative to the largest one of their field in the state: an error of 1.5e-5 of that. Each component is a run of
+differences to the node before, modulo 2^16, all low bytes before all high bytes, which deflates best. js/store.js is the other end.
+"""
+
+import base64
+import zlib
+
+import numpy as np
+
+from . import fields as field_module
+from .fields import Reader, values_of
+from .mesh import Quality
+from .run import ReportError
+from .surface import MAX_TRIANGLES, extract
+
+SCALE = 32767
+N_SAMPLES = 4
+FEWEST_STATES = 12  # with less, what is extra is left out first
+MARGIN = 0.97
+
+
+def text_of(data):
+    return base64.b64encode(zlib.compress(data, 6)).decode()
+
+
+def packed(values):
+    """Bytes of values (components x nodes), and what 1 means."""
+    largest = np.abs(values).max(initial=0)
+    unit = largest / SCALE if largest > 0 else 1.0
+    whole = np.round(values / unit).astype(np.int16)
+    differences = np.diff(whole.astype(np.uint16), axis=1, prepend=np.uint16(0)).ravel().astype("<u2")
+    return np.concatenate([differences & 255, differences >> 8]).astype(np.uint8).tobytes(), unit
+
+
+class Encoder:
+    """The surface of a run and those of its states that there is room for."""
+
+    def __init__(self, series, kind, max_triangles=MAX_TRIANGLES):
+        self.series, self.kind = series, kind
+        self.quality = Quality(series.points, series.cells)
+        self.surface, self.n_triangles = extract(series.points, series.cells, series.regions, series.degree, max_triangles)
+        self.reader = Reader(series, self.surface, self.quality.volumes)
+        self.fields = field_module.fields_of(series, kind)
+        self.left_out = []  # fields
+        self.not_finite = 0  # states
+
+    @property
+    def is_thinned(self):
+        return len(self.surface.triangles) < self.n_triangles
+
+    def geometry(self):
+        """The block that all states share, and its arrays in order: [name, type, count]."""
+        s = self.surface
+        arrays = {"rest": s.rest.astype("<f4"), "weights": s.weights().astype("<f4"), "faces": s.faces.astype("<u4"),
+                  "vertexFaces": s.vertex_faces.astype("<u4"), "triangles": s.triangles.astype("<u4"), "cellEdges": s.cell_edges.astype("<u4"),
+                  "outline": s.outline.astype("<u4"), "regions": s.node_regions.astype("<i4"), "vertexPlaces": s.vertex_places.astype("<u4")}
+        types = {"f": "Float32Array", "u": "Uint32Array", "i": "Int32Array"}
+        return text_of(b"".join(a.tobytes() for a in arrays.values())), [[name, types[a.dtype.kind], a.size] for name, a in arrays.items()]
+
+    def state(self, index):
+        """A block of all fields and what describes it; nothing for a state with numbers that are not finite."""
+        parts, units, ranges = [], [], {}
+        for field in self.fields:
+            values = self.reader(field, index)
+            if not np.isfinite(values).all():
+                return None
+            data, unit = packed(values)
+            parts.append(data)
+            units.append(unit)
+            for option in field.options:
+                shown = values_of(option, values)
+                ranges[option.name] = [float(shown.min()), float(shown.max())]
+        return text_of(b"".join(parts)), {"time": float(self.series.times[index]), "index": index, "units": units, "ranges": ranges}
+
+    def states(self, room):
+        """Blocks of states, evenly spread among all of them, that take @p room bytes at most; the first and the last are among them."""
+        n = len(self.series.times)
+        while True:
+            samples = [self.state(i) for i in {round(k * (n - 1) / (N_SAMPLES - 1)) for k in range(N_SAMPLES)}]
+            sizes = [len(sample[0]) for sample in samples if sample]
+            fitting = int(MARGIN * room / max(np.mean(sizes), 1)) if sizes else n
+            extra = [field for field in self.fields if field.is_extra]
+            if fitting >= min(n, FEWEST_STATES) or not extra:
+                break
+            self.left_out.append(extra[-1])
+            self.fields.remove(extra[-1])
+        wanted = min(n, max(fitting, 2))
+        while True:
+            found = self.encode_states(wanted)
+            size = sum(len(block) for block, _ in found)
+            if size <= room or wanted <= 2:
+                return found
+            wanted = max(2, min(wanted - 1, int(MARGIN * wanted * room / size)))
+
+    def encode_states(self, wanted):
+        n = len(self.series.times)
+        indices = np.unique(np.round(np.linspace(0, n - 1, wanted)).astype(int)) if wanted > 1 else [n - 1]
+        found = [self.state(int(i)) for i in indices]
+        self.not_finite = sum(one is None for one in found)
+        found = [one for one in found if one is not None]
+        if not found:
+            raise ReportError(f"{self.series.path} has no state whose numbers are finite")
+        return found
+
+    def describe(self, states, arrays):
+        """What the page's scripts need to know, without the blocks."""
+        s = self.surface
+        return {"degree": s.degree, "nodes": len(s.nodes), "places": len(s.weights()), "nodesOfFace": s.faces.shape[1], "arrays": arrays,
+                "states": states, "isThinned": self.is_thinned,
+                "bounds": [s.rest.min(axis=0).tolist(), s.rest.max(axis=0).tolist()],
+                "fields": [{"name": f.name, "unit": f.unit, "components": f.components, "options": [vars(o) for o in f.options]} for f in self.fields]}

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""scripts/report with what is no run, or none that is whole: a message in one line and no file, or a page that says what is missing."""
+
+import fcntl
+import json
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+from support import ROOT, ProgramTest
+
+RUN = ("Time integration/End time = 0.04", "Discretization/Degree = 1")
+
+
+class ReportMistakes(ProgramTest):
+
+    def setUp(self):
+        super().setUp()
+        self.run_case("cantilever", "run", *RUN)
+
+    def report(self, *words, status=0):
+        before = self.files()
+        run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "report", *words], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, status, run.stdout + run.stderr)
+        if status:
+            self.assertEqual(self.files(), before, "something was written")
+            self.assertEqual((run.stdout, len(run.stderr.splitlines())), ("", 1), run.stderr)
+            self.assertRegex(run.stderr, "^report: error: ")
+        return run.stdout + run.stderr
+
+    def files(self):
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))
+
+    def copy(self, name):
+        shutil.copytree(self.folder / "run", self.folder / name)
+        return self.folder / name
+
+    def page(self, name):
+        """The status that the page of a copy shows: its kind and its words."""
+        self.report(name)
+        text = (self.folder / name / "report.html").read_text(encoding="utf-8")
+        return re.search(r'<p class="([a-z ]+)"[^>]* id="status" data-state="([a-z]+)">(.*?)</p>', text).groups()
+
+    def test_no_run(self):
+        (self.folder / "foreign").mkdir()
+        (self.folder / "foreign" / "history.csv").write_text("step,time\n0,0\n")
+        (self.folder / "file").write_text("")
+        (self.copy("no_states") / "history.csv").unlink()
+        (self.copy("no_rows") / "history.csv").write_text("")
+        (self.copy("no_series") / "solution.vtkhdf").unlink()
+        shutil.rmtree(self.copy("no_files") / "solution")
+        self.assertIn("no_where does not exist", self.report("no_where", status=1))
+        self.assertIn("file is a file; allowed is a folder of results", self.report("file", status=1))
+        self.assertIn("foreign is no folder of results of corotet", self.report("foreign", status=1))
+        self.assertIn("no_states has no states", self.report("no_states", status=1))
+        self.assertIn("no_rows has no states", self.report("no_rows", status=1))
+        self.assertIn("no_series has no states: solution.vtkhdf is missing", self.report("no_series", status=1))
+        self.assertIn("step_000000.h5 is missing, to which solution.vtkhdf refers", self.report("no_files", status=1))
+        self.assertIn("nowhere/page.html cannot be written: No such file or directory", self.report("run", "--out", "nowhere/page.html", status=1))
+
+    def test_damaged_files(self):
+        for name, file, damage, message in (
+                ("summary", "summary.json", lambda data: data[:40], "summary.json is damaged"),
+                ("history", "history.csv", lambda data: data.replace(b"\n2,", b"\n2,x"), "history.csv is damaged: column time has what is not a number"),
+                ("rows", "history.csv", lambda data: data.replace(b"\n2,", b"\n"), "history.csv is damaged: row 3 has"),
+                ("parameters", "parameters.prm", lambda data: data + b"end\n", "parameters.prm is damaged: an 'end' too many"),
+                ("series", "solution.vtkhdf", lambda data: data[:2000], "solution.vtkhdf is damaged or incomplete"),
+                ("mesh", "solution/mesh.h5", lambda data: data[:len(data) // 2], "solution/mesh.h5 is damaged or incomplete"),
+                ("state", "solution/step_000002.h5", lambda data: data[:len(data) // 2], "solution/step_000002.h5 is damaged or incomplete"),
+                ("no_state", "solution/step_000002.h5", None, "solution/step_000002.h5 is missing")):
+            with self.subTest(name=name):
+                path = self.copy(name) / file
+                data = path.read_bytes()
+                path.unlink()
+                if damage:
+                    path.write_bytes(damage(data))
+                self.assertIn(message, self.report(name, status=1))
+
+    def test_runs_without_a_good_end(self):
+        summary = json.loads((self.folder / "run" / "summary.json").read_text())
+        self.assertEqual(self.page("run")[:2], ("status", "done"))
+        (self.copy("failed") / "summary.json").write_text(json.dumps(summary | {"status": "failed", "message": "Newton <did> not converge"}))
+        kind, state, text = self.page("failed")
+        self.assertEqual((kind, state), ("notice failed", "failed"))
+        self.assertIn("The computation failed. Newton &lt;did&gt; not converge. It reached t = 0.04 s, step 4.", text)
+        (self.copy("stopped") / "summary.json").write_text(json.dumps(summary | {"status": "stopped", "message": "by a signal"}))
+        self.assertEqual(self.page("stopped")[:2], ("notice open", "stopped"))
+        # A row that is being written is none yet.
+        killed = self.copy("killed")
+        (killed / "summary.json").unlink()
+        with open(killed / "history.csv", "a", encoding="utf-8") as file:
+            file.write("5,0.05,0.0")
+        kind, state, text = self.page("killed")
+        self.assertEqual((kind, state), ("notice open", "killed"))
+        self.assertIn("It reached t = 0.04 s, step 4.", text)
+        # Who writes there keeps the folder locked.
+        with open(killed / ".corotet", "rb") as mark:
+            fcntl.flock(mark, fcntl.LOCK_EX)
+            kind, state, text = self.page("killed")
+        self.assertEqual((kind, state), ("notice open", "running"))
+        self.assertIn("The run is under way.", text)
+
+    def test_checks_that_are_missed(self):
+        (self.folder / "run" / "verification.csv").write_text("case,quantity,computed,reference,error,tolerance,pass\n"
+                                                              "x,a,1,1,+0 %,1 %,yes\nx,b,2,1,+100 %,1 %,no\n")
+        self.report("run")
+        text = (self.folder / "run" / "report.html").read_text(encoding="utf-8")
+        self.assertIn('<p class="notice failed">1 check of 2 missed.</p>', text)
+        self.assertEqual(re.findall(r'<span class="(\w+)">', text), ["pass", "miss"])
+
+    def test_texts_of_others(self):
+        """What a log or a name has is text, whatever it looks like."""
+        self.copy("<b>&")
+        with open(self.folder / "<b>&" / "log.txt", "a", encoding="utf-8") as file:
+            file.write("warning: </script><script>alert(1)</script>\n")
+        self.report("<b>&", "--out", "page.html")
+        text = (self.folder / "page.html").read_text(encoding="utf-8")
+        self.assertIn("<h1>&lt;b&gt;&amp;</h1>", text)
+        self.assertNotIn("<script>alert", text)
+        self.assertIn("&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;", text)
+
+    def test_without_the_program(self):
+        """A copy of the scripts alone, with no program beside it or in the path, does not know the defaults, and says so."""
+        shutil.copytree(ROOT / "scripts", self.folder / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
+        run = subprocess.run([sys.executable, "-B", self.folder / "scripts" / "report", "run", "--out", "page.html"], cwd=self.folder,
+                             env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, check=False)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn("What differs from the defaults is not known here", (self.folder / "page.html").read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    unittest.main()
