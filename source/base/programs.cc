@@ -82,6 +82,22 @@ namespace corotet
       int number = -1;
     };
 
+    // Without what tells a process that it is a rank of this run: a program
+    // that uses MPI itself would wait for the others.
+    std::vector<std::string>
+    environment_without_mpi()
+    {
+      std::vector<std::string> variables;
+      for (char **variable = environ; *variable != nullptr; ++variable)
+        {
+          const std::string text = *variable;
+          if (!text.starts_with("OMPI_") && !text.starts_with("PMIX_") &&
+              !text.starts_with("PMI_") && !text.starts_with("PRTE_"))
+            variables.push_back(text);
+        }
+      return variables;
+    }
+
     // Starts @p path with its standard output in the pipe.
     pid_t
     start(const std::string        &path,
@@ -107,13 +123,14 @@ namespace corotet
       posix_spawnattr_setsigdefault(&attributes, &all);
       posix_spawnattr_setflags(&attributes,
                                POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-      pid_t     process = 0;
-      const int failure = posix_spawn(&process,
+      std::vector<std::string> variables = environment_without_mpi();
+      pid_t                    process   = 0;
+      const int                failure   = posix_spawn(&process,
                                       path.c_str(),
                                       &actions,
                                       &attributes,
                                       pointers_to(words).data(),
-                                      environ);
+                                      pointers_to(variables).data());
       posix_spawnattr_destroy(&attributes);
       posix_spawn_file_actions_destroy(&actions);
       if (failure != 0)

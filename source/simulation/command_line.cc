@@ -119,6 +119,10 @@ namespace corotet
         command_line.restart,
         "Go on from the newest good checkpoint in the output directory, or "
         "with a convergence study that was stopped: its finished runs are kept");
+      app.add_flag("--report",
+                   command_line.report,
+                   "Also write the page of the run, report.html, into the "
+                   "output directory");
       app.add_flag("--list",
                    command_line.list,
                    "List ready cases, laws, forces, integrators, "

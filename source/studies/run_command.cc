@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/programs.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
 #include <corotet/output/history_writer.h>
@@ -97,6 +98,28 @@ namespace corotet
       void
       run()
       {
+        try
+          {
+            compute();
+          }
+        catch (const ComputationError &)
+          {
+            // What there is.
+            write_report();
+            throw;
+          }
+        catch (const Stopped &)
+          {
+            write_report();
+            throw;
+          }
+        write_report();
+      }
+
+    private:
+      void
+      compute()
+      {
         switch (parameters.simulation.type)
           {
             case RunType::convergence_study:
@@ -108,7 +131,28 @@ namespace corotet
           }
       }
 
-    private:
+      void
+      write_report()
+      {
+        if (!command.report || command.validate)
+          return;
+        const bool is_written = from_root(comm, [&] {
+          const std::string script =
+            find_installed("share/corotet/scripts/report");
+          if (script.empty())
+            return false;
+          constexpr double hour = 3600;
+          const ProgramEnd end  = run_for_output(script, {directory}, hour);
+          return end.status == 0 && end.signal == 0 && !end.has_exceeded;
+        });
+        if (is_written)
+          log.line("The page of the run is " + directory + "/report.html");
+        else
+          log.warning("the page of the run could not be written; "
+                      "scripts/report " +
+                      directory + " says why");
+      }
+
       // A restart without anything to go on from begins anew.
       bool
       may_overwrite() const
@@ -215,7 +259,7 @@ namespace corotet
       void
       record(const std::string           &table,
              const bool                   goes_on,
-             const std::function<void()> &compute)
+             const std::function<void()> &action)
       {
         if (command.validate)
           return log.line(command.parameter_file + ": valid");
@@ -223,7 +267,7 @@ namespace corotet
           lock.emplace(directory, comm);
         if (!goes_on)
           prepare_output_directory(directory, may_overwrite(), comm);
-        compute();
+        action();
         log.line("Results are in " + directory);
         parameters.verification.compare(
           std::filesystem::path(command.parameter_file).stem().string(),

@@ -149,6 +149,8 @@ TEST(CommandLine, Mesh)
   EXPECT_FALSE(parse({"a.prm"}).mesh);
   EXPECT_FALSE(parse({"a.prm"}).list);
   EXPECT_TRUE(parse({"--list"}).list);
+  EXPECT_FALSE(parse({"a.prm"}).report);
+  EXPECT_TRUE(parse({"a.prm", "--report"}).report);
   const CommandLine c = parse(
     {"mesh", "part.step", "--size", "0.5", "--degree", "2", "--out", "a.msh"});
   ASSERT_TRUE(c.mesh);

@@ -44,7 +44,8 @@ namespace corotet
 
   /**
    * The same with the program's standard output taken. It reads nothing from
-   * its standard input, and its messages are thrown away. After @p time_limit
+   * its standard input, its messages are thrown away, and it does not know that
+   * this program is a rank of several. After @p time_limit
    * seconds it is ended by SIGKILL (ProgramEnd::has_exceeded). Throws
    * MachineError if it cannot be started.
    */

@@ -39,6 +39,8 @@ namespace corotet
     bool validate = false;
     /// Go on with what is in the output directory.
     bool restart = false;
+    /// Write the page of the run, too.
+    bool report = false;
     /// Nothing on the terminal but errors.
     bool quiet = false;
     /// List all parameters in this style ("prm", "json" or "markdown") and do
