@@ -27,6 +27,12 @@ def group(column):
 
 class Ranks(ProgramTest):
 
+    def test_report(self):
+        # The script that makes it must not wait for the other rank.
+        for ranks in (1, 2):
+            run = self.run_case("cantilever", f"page{ranks}", "Time integration/End time = 0.03", ranks=ranks, more=("--report",))
+            self.assertIn("</html>", (run / "report.html").read_text(encoding="utf-8"))
+
     def check(self, preconditioner):
         settings = (*STRICT, "Time integration/End time = 0.03", f"Linear solver/Type = {preconditioner}")
         one = self.run_case("cantilever", "one", *settings)

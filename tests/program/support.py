@@ -103,10 +103,10 @@ class ProgramTest(unittest.TestCase):
             self.assertEqual(run.stderr, "")
         return run
 
-    def run_case(self, case, output, *settings, **others):
-        """Runs parameters/@p case.prm with overrides; returns the output directory."""
+    def run_case(self, case, output, *settings, more=(), **others):
+        """Runs parameters/@p case.prm with overrides and @p more arguments; returns the output directory."""
         overrides = [word for setting in settings for word in ("--set", setting)]
-        self.run_program(ROOT / "parameters" / f"{case}.prm", *overrides, "--output", output, **others)
+        self.run_program(ROOT / "parameters" / f"{case}.prm", *overrides, "--output", output, *more, **others)
         return self.folder / output
 
     def check_vtkhdf(self, directory):
