@@ -30,6 +30,11 @@ def needs_no_display():
     return not hasattr(vtkRenderingOpenGL2, "vtkXOpenGLRenderWindow")
 
 
+def end(server):
+    server.terminate()
+    server.wait()
+
+
 def have_display():
     """To be called before anything is drawn. What it starts ends with the process, however that ends: the server stays while there are
     connections, and one is kept."""
@@ -37,20 +42,20 @@ def have_display():
         return
     if not shutil.which("Xvfb"):
         raise WrongInput("there is no display, and no Xvfb for an invisible one (package xvfb)")
-    folder = tempfile.TemporaryDirectory(prefix="corotet-display-")
-    atexit.register(folder.cleanup)
+    folder = tempfile.mkdtemp(prefix="corotet-display-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
     # Only who has this key may look: one for any display (family 65535).
-    authority = os.path.join(folder.name, "authority")
+    authority = os.path.join(folder, "authority")
     fields = (b"", b"", b"MIT-MAGIC-COOKIE-1", secrets.token_bytes(16))
     with open(os.open(authority, os.O_CREAT | os.O_WRONLY, 0o600), "wb") as file:
         file.write(struct.pack(">H", 65535) + b"".join(struct.pack(">H", len(field)) + field for field in fields))
-    end, start = os.pipe()
+    pipe_end, start = os.pipe()
     command = ["Xvfb", "-displayfd", str(start), "-screen", "0", "640x480x24", "-nolisten", "tcp", "-terminate", "-auth", authority]
     server = subprocess.Popen(command, pass_fds=[start], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    atexit.register(end, server)
     os.close(start)
-    with os.fdopen(end) as pipe:
+    with os.fdopen(pipe_end) as pipe:
         number = pipe.readline().strip()
     os.environ.update({"DISPLAY": f":{number}", "XAUTHORITY": authority})
     if not number or not connect():
-        server.kill()
         raise WrongInput("there is no display, and Xvfb could not make an invisible one")

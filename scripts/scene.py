@@ -118,8 +118,8 @@ class Legend:
 
 
 def number_text(value):
-    """With four digits that mean something; zero is 0."""
-    return f"{value:.4g}".replace("e-0", "e-").replace("e+0", "e+").replace("-", "\N{MINUS SIGN}")
+    """With three digits, or all of whole numbers up to 9999."""
+    return f"{value:.{4 if abs(value) >= 1000 else 3}g}".replace("e-0", "e-").replace("e+0", "e+").replace("-", "\N{MINUS SIGN}")
 
 
 def font_size(size):
