@@ -17,6 +17,7 @@ from results import WrongInput, one_line
 
 # In each file that is written, near its start or end: such files may be replaced.
 MARK = "made by corotet"
+FIRST_COLUMNS = "node,x,y,z,"
 
 
 class Parser(argparse.ArgumentParser):
@@ -61,12 +62,12 @@ class Progress:
 
 
 def is_ours(path):
-    """Whether a file was written by these scripts."""
+    """Whether a file was written by these scripts; a table is known by its first columns."""
     with open(path, "rb") as file:
         start = file.read(1 << 16)
         file.seek(max(0, os.path.getsize(path) - (1 << 16)))
         content = start + file.read()
-    return MARK.encode() in content
+    return MARK.encode() in content or start.startswith(FIRST_COLUMNS.encode())
 
 
 def check_target(path, overwrite):

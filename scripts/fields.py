@@ -104,3 +104,19 @@ def mean_of_cells(run, values):
     n = len(run.points)
     repeated = np.repeat(values, run.cells.shape[1])
     return np.bincount(nodes, repeated, n) / np.bincount(nodes, minlength=n)
+
+
+def round_factor(ratio):
+    """The largest of 1, 2, 5, 10, .. that is not above the ratio."""
+    power = 10.0 ** np.floor(np.log10(ratio))
+    return power * max(leading for leading in (1, 2, 5) if leading * power <= ratio * (1 + 1e-9))
+
+
+def choose_warp(run, states, wanted):
+    """What displacements are multiplied by: a number, or with "auto", the default for modes, a round number that lets them show."""
+    if wanted != "auto" and not (wanted is None and run.is_modes):
+        return float(1 if wanted is None else wanted)
+    largest = max(np.linalg.norm(run.displacement(state), axis=1).max() for state in states)
+    ratio = 0.1 * np.linalg.norm(np.ptp(run.points, axis=0)) / largest if largest > 0 else 1
+    # What is seen as it is, is not magnified.
+    return 1.0 if ratio < 2 else round_factor(ratio)

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pyvista as pv
 
-from fields import choose_field, mean_of_cells, with_prefix
+from fields import choose_field, choose_warp, mean_of_cells, with_prefix
 from lagrange import Surface, inside
 from results import WrongInput
 from scene import (Body, Legend, View, direction_of, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size)
@@ -24,12 +24,6 @@ class Frame:
     factor: float = 1.0
 
 
-def round_factor(ratio):
-    """The largest of 1, 2, 5, 10, .. that is not above the ratio."""
-    power = 10.0 ** np.floor(np.log10(ratio))
-    return power * max(leading for leading in (1, 2, 5) if leading * power <= ratio * (1 + 1e-9))
-
-
 class Pictures:
     """All frames, in one view and with one legend. @p options are those of scripts/render."""
 
@@ -41,7 +35,7 @@ class Pictures:
         self.surface = self.make_surface()
         self.rest = self.surface.at(run.points)
         self.size_of_body = float(np.linalg.norm(np.ptp(run.points, axis=0)))
-        self.warp = self.choose_warp()
+        self.warp = choose_warp(run, states, options.warp)
         self.legend, self.factor = self.make_legend()
         self.clip = self.make_clip()
         self.outline = None if "outline" in options.without else self.rest[self.surface.lines(self.rest, FOLD)]
@@ -58,17 +52,6 @@ class Pictures:
         finest = int((MANY_TRIANGLES / len(faces.simplices)) ** 0.5)
         wanted = {1: 1, 2: 3, 3: 4}[self.run.degree]
         return faces if min(finest, wanted) <= 1 else Surface(self.run.cells, self.run.degree, min(finest, wanted))
-
-    def choose_warp(self):
-        warp = self.options.warp
-        if warp is None:
-            warp = "auto" if self.run.is_modes else 1.0
-        if warp != "auto":
-            return float(warp)
-        largest = max(np.linalg.norm(self.run.displacement(state), axis=1).max() for state in self.states)
-        ratio = 0.1 * self.size_of_body / largest if largest > 0 else 1
-        # What is seen as it is, is not magnified.
-        return 1.0 if ratio < 2 else round_factor(ratio)
 
     def values(self, state):
         """At nodes; of cells if they are to be shown as they are."""

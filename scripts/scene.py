@@ -190,7 +190,7 @@ def draw_axes(image, view):
     for axis in np.argsort(view.towards):
         end = origin + vectors[axis]
         colour = ((190, 40, 40), (30, 130, 30), (40, 70, 190))[axis]
-        if np.linalg.norm(vectors[axis]) > 0.25 * f:
+        if np.linalg.norm(vectors[axis]) > 0.5 * f:
             draw.line((*origin, *end), colour, max(2, f // 9))
             draw.text(tuple(origin + 1.45 * vectors[axis]), "xyz"[axis], colour, font(round(0.85 * f)), "mm")
 
