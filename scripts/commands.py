@@ -70,15 +70,20 @@ def is_ours(path):
     return MARK.encode() in content or start.startswith(FIRST_COLUMNS.encode())
 
 
-def check_target(path, overwrite):
-    """A file may be written there: nothing of others is lost, unless that is wanted."""
+def check_folder(path):
+    """A file can be written there."""
     path = pathlib.Path(path)
     if not path.parent.is_dir():
         raise WrongInput(f"{path} cannot be written: the folder {path.parent} does not exist")
-    if path.is_dir():
-        raise WrongInput(f"{path} cannot be written: it is a folder")
     if not os.access(path.parent, os.W_OK):
         raise WrongInput(f"{path} cannot be written: the folder {path.parent} may not be written to")
+
+
+def check_target(path, overwrite):
+    """A file may be written there: nothing of others is lost, unless that is wanted."""
+    check_folder(path)
+    if path.is_dir():
+        raise WrongInput(f"{path} cannot be written: it is a folder")
     if path.exists() and not overwrite and not is_ours(path):
         raise WrongInput(f"{path} exists and was not made by this program; --overwrite replaces it")
 

@@ -10,7 +10,8 @@ import pyvista as pv
 from fields import choose_field, choose_warp, mean_of_cells, with_prefix
 from lagrange import Surface, inside
 from results import WrongInput
-from scene import (Body, Legend, View, direction_of, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size)
+from scene import Body, Legend, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size
+from views import View, direction_of
 
 FOLD = 35  # degrees: where the surface is folded by more, the outline has an edge
 MANY_TRIANGLES = 400_000

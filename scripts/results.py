@@ -84,6 +84,8 @@ class Run:
     def check_files(self, top):
         """A file that is referred to, and missing or damaged, would give zeros."""
         for source in {source.file_name for source in top["PointData/displacement"].virtual_sources()}:
+            if not (self.folder / source).exists():
+                raise OSError(f"{source}: the file is missing")
             try:
                 h5py.File(self.folder / source, "r").close()
             except OSError as error:

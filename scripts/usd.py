@@ -2,18 +2,10 @@
 # Copyright (C) 2026 by the corotet authors
 """The displaced surface as USD, with samples of its points and colours in time. Needs Pixar's Python package pxr."""
 
-import importlib.util
-
 from commands import MARK
 from exports import colours_of
-from results import WrongInput
 
 CODES_PER_SECOND = 24
-
-
-def check_package():
-    if importlib.util.find_spec("pxr") is None:
-        raise WrongInput("USD needs the Python package pxr (usd-core), which is not installed; gltf needs none")
 
 
 def write_usd(source, path, seconds=None):
