@@ -121,8 +121,7 @@ def write_file(source, states, path, seconds):
 def attributes(source, skin, state, limits, factor):
     points = source.surface_points(state, factor)[skin.vertices]
     colours = linear(colours_of(skin.values(state), limits))
-    # Differences are those of the numbers that are in the file.
-    return {"POSITION": points.astype(np.float32), "NORMAL": skin.normals(points).astype(np.float32), "COLOR_0": colours.astype(np.float32)}
+    return {"POSITION": points, "NORMAL": skin.normals(points), "COLOR_0": colours}
 
 
 def animation(buffer, name, times, weights):
