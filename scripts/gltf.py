@@ -83,45 +83,47 @@ def write_gltf(source, path, split=False, seconds=None):
 
 def write_file(source, states, path, seconds):
     buffer, skin = Buffer(), Skin(source)
-    swings = source.run.is_modes and len(states) >= 1
-    limits = source.colour_range()
-    factor = 0.0 if swings else 1.0
-    base = attributes(source, skin, states[0], limits, factor)
-    if swings and len(states) > 1:
-        del base["COLOR_0"]  # each mode has its own
+    swings, limits = source.run.is_modes, source.colour_range()
+    base = attributes(source, skin, states[0], limits, 0.0 if swings else 1.0)
+    alone = len(states) == 1
+    if swings and not alone:
+        del base["COLOR_0"]  # each mode would have its own
+    elif not alone:
+        # Not all programs know colours of targets: these are for the others.
+        base["COLOR_0"] = colours(np.max([skin.values(state) for state in states], axis=0), limits)
     primitive = {"attributes": {name: buffer.add(data, VERTICES, name == "POSITION") for name, data in base.items()},
                  "indices": buffer.add(skin.triangles.ravel(), INDICES), "material": 0}
     targets = []
-    for state in states if swings else states[1:]:
+    for state in [] if alone and not swings else states:
         target = attributes(source, skin, state, limits, 1.0)
         if swings:
             del target["COLOR_0"]
         targets.append({name: buffer.add(data - base[name], VERTICES, name == "POSITION") for name, data in target.items()})
         source.advance()
+    mesh = {"primitives": [primitive | ({"targets": targets} if targets else {})],
+            "extras": {"field": source.colour_field.name, "unit": source.colour_field.unit, "range": [float(end) for end in limits]}}
     if targets:
-        primitive["targets"] = targets
-    times = source.run.times[states].astype(float)
-    if seconds and times[-1] > times[0]:
-        times = (times - times[0]) * seconds / (times[-1] - times[0])
-    animations = swing(buffer, source.run, states, seconds or 1) if swings else follow(buffer, times) if targets else []
-    field = source.colour_field
+        mesh["weights"] = [0] * len(targets) if swings else [1] + [0] * (len(targets) - 1)
+    animations = swing(buffer, source.run, states, seconds or 1) if swings else follow(buffer, source.run.times[states], seconds) if targets else []
     document = {
         "asset": {"version": "2.0", "generator": MARK},
         "scene": 0, "scenes": [{"nodes": [0]}],
         # z is up in the run, y in glTF.
         "nodes": [{"mesh": 0, "name": source.run.folder.resolve().name, "rotation": [-(0.5 ** 0.5), 0, 0, 0.5 ** 0.5]}],
-        "meshes": [{"primitives": [primitive], "extras": {"field": field.name, "unit": field.unit, "range": [float(end) for end in limits]}}
-                   | ({"weights": [0] * len(targets)} if targets else {})],
+        "meshes": [mesh],
         "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.7}}],
         "buffers": [{"byteLength": buffer.size}], "bufferViews": buffer.views, "accessors": buffer.accessors,
     } | ({"animations": animations} if animations else {})
     write_glb(path, document, buffer)
 
 
+def colours(values, limits):
+    return linear(colours_of(values, limits))
+
+
 def attributes(source, skin, state, limits, factor):
     points = source.surface_points(state, factor)[skin.vertices]
-    colours = linear(colours_of(skin.values(state), limits))
-    return {"POSITION": points, "NORMAL": skin.normals(points), "COLOR_0": colours}
+    return {"POSITION": points, "NORMAL": skin.normals(points), "COLOR_0": colours(skin.values(state), limits)}
 
 
 def animation(buffer, name, times, weights):
@@ -129,9 +131,11 @@ def animation(buffer, name, times, weights):
     return {"name": name, "samplers": [sampler], "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}
 
 
-def follow(buffer, times):
-    """One state after the other: the first is the mesh itself, each other a target, which counts fully at its time."""
-    return [animation(buffer, "states", times, np.eye(len(times))[:, 1:])]
+def follow(buffer, times, seconds):
+    """One state after the other: each is a target, which counts fully at its time."""
+    if seconds and times[-1] > times[0]:
+        times = (times - times[0]) * seconds / (times[-1] - times[0])
+    return [animation(buffer, "states", times, np.eye(len(times)))]
 
 
 def swing(buffer, run, modes, seconds):
