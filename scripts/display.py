@@ -5,6 +5,7 @@
 import atexit
 import ctypes
 import ctypes.util
+import functools
 import os
 import secrets
 import shutil
@@ -35,8 +36,9 @@ def end(server):
     server.wait()
 
 
+@functools.cache
 def have_display():
-    """To be called before anything is drawn. What it starts ends with the process, however that ends: the server stays while there are
+    """To be called before anything is drawn; once is enough. What it starts ends with the process, however that ends: the server stays while there are
     connections, and one is kept."""
     if needs_no_display() or connect():
         return

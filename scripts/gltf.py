@@ -16,6 +16,7 @@ FLOAT, UNSIGNED = 5126, 5125
 VERTICES, INDICES = 34962, 34963
 FOLD = 35  # degrees: edges that are sharper look so
 FRAMES_OF_A_SWING = 24
+PLAIN = (0.2, 0.35, 0.5, 1)  # red, green, blue, opacity
 
 
 class Buffer:
@@ -111,7 +112,7 @@ def write_file(source, states, path, seconds):
         # z is up in the run, y in glTF.
         "nodes": [{"mesh": 0, "name": source.run.folder.resolve().name, "rotation": [-(0.5 ** 0.5), 0, 0, 0.5 ** 0.5]}],
         "meshes": [mesh],
-        "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.7}}],
+        "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.7} | ({} if "COLOR_0" in base else {"baseColorFactor": PLAIN})}],
         "buffers": [{"byteLength": buffer.size}], "bufferViews": buffer.views, "accessors": buffer.accessors,
     } | ({"animations": animations} if animations else {})
     write_glb(path, document, buffer)
