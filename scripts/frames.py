@@ -179,10 +179,11 @@ class Pictures:
 
     def margins(self):
         f = font_size(self.options.size)
-        label = 5 * f if self.options.together and "time" not in self.options.without else 1.5 * f
+        labels = self.options.together and "time" not in self.options.without
+        side = 5 * f if labels else 1.5 * f
         above = 1.5 * f if "time" in self.options.without or self.options.together else 2.5 * f
         below = 1.5 * f if {"legend", "axes"} <= set(self.options.without) else 5.5 * f
-        return label, label, above, below
+        return side, side, above, below + (1.5 * f if labels else 0)
 
     def times(self):
         """Texts for the states' times, with as many digits as tell them apart."""
@@ -212,15 +213,21 @@ class Pictures:
             draw_time(image, texts[frame.states[0]])
             return image
         for state, body in zip(frame.states, bodies):
-            # Beside the place that has moved farthest, away from the middle of the body.
-            moved = np.linalg.norm(self.run.displacement(state), axis=1)
-            seen = self.view.pixels(body.points)
-            if moved.max() > 1e-3 * self.size_of_body:
-                place = self.view.pixels(self.surface.at(self.places(state, frame.factor))[self.surface.at(moved).argmax()])[0]
-                place = place + self.view.pixels(self.shifts(len(frame.states))[frame.states.index(state)])[0] - self.view.pixels(np.zeros(3))[0]
-                away = place - (seen.min(axis=0) + seen.max(axis=0)) / 2
-            else:
-                place = np.array([seen[:, 0].mean(), seen[:, 1].max()])
-                away = np.array([0.0, 1.0])
-            draw_label(image, place, texts[state], away)
+            draw_label(image, *self.label_place(state, body), texts[state])
         return image
+
+    def label_place(self, state, body):
+        """A place at the body, and which side of it a text is on."""
+        seen = self.view.pixels(body.points)
+        low, high = seen.min(axis=0), seen.max(axis=0)
+        middle = (low + high) / 2
+        if self.options.shift:
+            # Side by side: below each; one above the other: to the right.
+            step = np.abs(np.diff(self.view.pixels(self.shifts(2)), axis=0)[0])
+            return (np.array([middle[0], high[1]]), np.array([0.0, 1.0])) if step[0] > step[1] else (np.array([high[0], middle[1]]), np.array([1.0, 0.0]))
+        # Beside what has moved farthest, away from the middle.
+        moved = self.surface.at(np.linalg.norm(self.run.displacement(state), axis=1))
+        if moved.max() < 1e-3 * self.size_of_body:
+            return np.array([middle[0], high[1]]), np.array([0.0, 1.0])
+        place = self.view.pixels(self.surface.at(self.places(state, 1.0))[moved.argmax()])[0]
+        return place, place - middle

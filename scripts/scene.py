@@ -133,7 +133,7 @@ def draw_axes(image, view):
             draw.text(tuple(origin + 1.45 * vectors[axis]), "xyz"[axis], colour, font(round(0.85 * f)), "mm")
 
 
-def draw_label(image, place, text, away):
+def draw_label(image, place, away, text):
     """A text beside a place, on the side that the vector points to."""
     f = font_size(image.size)
     draw = ImageDraw.Draw(image)
