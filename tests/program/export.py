@@ -21,6 +21,7 @@ from vtkmodules.vtkIOGeometry import vtkGLTFReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from scripts_support import ScriptTest, State, state_of, times_of
+from commands import is_ours
 from support import read_history, read_modes
 
 SINGLE = 1e-6  # relative; single precision has 6e-8, and sums of some thousand numbers lose a digit
@@ -309,10 +310,14 @@ class Export(ScriptTest):
             ((beam, "--to", "stl", "--out", "nowhere/beam.stl"), "the folder nowhere does not exist"),
             ((beam, "--to", "stl", "--times", "0", "--out", "foreign.stl"), "foreign.stl exists and was not made by this program"),
             ((beam, "--to", "stl", "--times", "0", "--out", "empty.stl", "--warp", "much"), "found --warp much; allowed are numbers and auto")))
-        # Own files may be replaced: of each kind, once more.
-        for kind in ("gltf", "vtu", "stl", "obj", "xdmf", "csv"):
-            for _ in range(2):
-                self.start(beam, "--to", kind, "--times", 0, 0.3)
+
+    def test_own_files(self):
+        """They are known, so that they may be replaced."""
+        for kind in ("gltf", "vtu", "stl", "obj", "xdmf", "csv", "csv"):
+            self.start(self.runs / "beam", "--to", kind, "--times", 0, 0.3)
+        files = [path for path in self.folder.rglob("*") if path.is_file()]
+        self.assertEqual(len(files), 1 + 3 + 2 + 2 + 2 + 2)
+        self.assertEqual([path for path in files if not is_ours(path)], [])
         # Nothing is left of what was under way.
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".")], [])
 

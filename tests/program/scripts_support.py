@@ -16,6 +16,8 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from support import ROOT, ProgramTest
 
+sys.path.insert(0, str(ROOT / "scripts"))
+
 # A quadratic beam that swings, with recovered stress; a cubic octant of a sphere on curved cells, in statics; modes of a plate, three of them rigid.
 RUNS = {"beam": ("cantilever", "Discretization/Degree = 2", "Output/Stress = nodes", "Time integration/End time = 0.3", "Time integration/Time step = 0.03",
                  "Mesh/box/Cells = 6, 1, 1", "Checkpoint/Minutes between checkpoints = 0"),
