@@ -15,10 +15,14 @@ install(TARGETS corotet_library EXPORT corotetTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${development}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
-# What the program starts (base/programs.h), and cases to begin with, which refer to each other's folders.
+# What the program starts (base/programs.h), scripts for results with their modules, and cases to begin with, which refer to
+# each other's folders.
 set(data ${CMAKE_INSTALL_DATADIR}/corotet)
-install(PROGRAMS scripts/draw_study scripts/plot scripts/report DESTINATION ${data}/scripts COMPONENT ${runtime})
+install(PROGRAMS scripts/draw_study scripts/plot scripts/render scripts/export scripts/report DESTINATION ${data}/scripts COMPONENT ${runtime})
 install(DIRECTORY scripts/report_page DESTINATION ${data}/scripts COMPONENT ${runtime} PATTERN __pycache__ EXCLUDE)
+set(modules commands display exports fields films frames gltf lagrange results scene usd views)
+list(TRANSFORM modules REPLACE "(.+)" "scripts/\\1.py")
+install(FILES ${modules} DESTINATION ${data}/scripts COMPONENT ${runtime})
 install(DIRECTORY parameters meshes DESTINATION ${data} COMPONENT ${runtime})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${runtime})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT ${runtime})

@@ -23,6 +23,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # For runs on several ranks, for pictures of convergence studies, and for the pages of runs.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openmpi-bin, python3, python3-matplotlib, python3-numpy, python3-h5py, python3-vtk9, libjs-three")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, python3-pyvista, xvfb")
 
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and CMake files of corotet's library, for programs that add forces, time integrators
 or a loop of their own.")

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What pictures of results are made of: states of a run, displaced surfaces, colour bars. Works without a display, by xvfb-run. Needs PyVista and
+"""What pictures of the documentation are made of: states of a run, displaced surfaces, colour bars. Works without a display. Needs PyVista and
 matplotlib (packages of scripts/packages.txt)."""
 
-import csv
 import pathlib
 
 import matplotlib
@@ -12,33 +11,28 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-from vtkmodules.vtkIOHDF import vtkHDFReader
+
+from display import have_display
+from results import Run
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "doc" / "pictures"
 COLOURS = "viridis"
 
 
-class Results:
-    """The results of one run."""
-
-    def __init__(self, directory):
-        self.directory = pathlib.Path(directory)
-        self.reader = vtkHDFReader()
-        self.reader.SetFileName(str(self.directory / "solution.vtkhdf"))
-        self.reader.UpdateInformation()
-        self.times = np.array(self.reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS()))
+class Results(Run):
+    """The results of one run, with states as meshes of PyVista."""
 
     def state(self, time):
         """The mesh with the data of the result nearest to @p time."""
-        self.reader.UpdateTimeStep(self.times[np.abs(self.times - time).argmin()])
-        return pv.wrap(self.reader.GetOutputDataObject(0)).copy(deep=True)
-
-    def history(self):
-        with open(self.directory / "history.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+        state = np.abs(self.times - time).argmin()
+        cells = np.insert(self.cells, 0, self.cells.shape[1], axis=1).ravel()
+        grid = pv.UnstructuredGrid(cells, np.full(len(self.cells), pv.CellType.LAGRANGE_TETRAHEDRON), self.points)
+        for name in self.point_fields:
+            grid.point_data[name] = self.point_data(name, state)
+        for name in self.cell_fields:
+            grid.cell_data[name] = self.cell_data(name, state)
+        return grid
 
 
 def surface(grid, warp=1.0, subdivisions=4):
@@ -58,6 +52,7 @@ def outline(grid):
 
 
 def plotter(size, columns=1):
+    have_display()
     p = pv.Plotter(off_screen=True, window_size=size, shape=(1, columns), border=False)
     p.set_background("white")
     p.enable_anti_aliasing("ssaa")
@@ -66,10 +61,6 @@ def plotter(size, columns=1):
 
 def show_body(p, mesh, scalars, limits):
     p.add_mesh(mesh, scalars=scalars, clim=limits, cmap=COLOURS, show_scalar_bar=False, specular=0.2, ambient=0.25)
-
-
-def label(p, place, text):
-    p.add_point_labels([place], [text], shape=None, text_color="black", font_size=22, show_points=False, always_visible=True)
 
 
 def camera(p, focus, direction, height):

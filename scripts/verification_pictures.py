@@ -15,12 +15,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
+from fields import with_prefix
 from pictures import PICTURES, Results, add_image, cell_edges, image_of, outline, plotter, show_body, surface
 
 FOLDER = PICTURES / "verification"
 COLOURS_OF_A_FILE = 255
 COMPUTED, EXACT, OTHER = "#0072b2", "#d55e00", "#009e73"
-PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"))
 SLANTED, FROM_FRONT, FROM_ABOVE = (0.45, -1, 0.45), (0.25, -1, 0.2), (0.2, 0.25, 1)
 MAY_BE_DRAWN_AS_IT_IS = 0.05  # of the body's size: displacements that are seen without magnification
 
@@ -43,14 +43,6 @@ def evaluate(formula, **columns):
     functions = {name: getattr(np, name) for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "abs", "pi")}
     functions |= {"a" + name: getattr(np, "arc" + name) for name in ("sin", "cos", "tan")}
     return eval(formula.replace("^", "**"), {"__builtins__": {}}, functions | columns)
-
-
-def with_prefix(largest, unit):
-    """A factor and a unit for numbers up to @p largest: 0.002 m are 2 mm."""
-    if not unit:
-        return 1, ""
-    size, prefix = next(((size, prefix) for size, prefix in PREFIXES if largest >= size), PREFIXES[-1])
-    return 1 / size, prefix + unit
 
 
 def exact_history(outcome):
@@ -206,7 +198,7 @@ def draw_body(figure, run, look):
 
 def draw_modes(figure, run, look):
     """The shapes of the lowest frequencies that are not zero, one of each."""
-    with open(run.directory / "modes.csv", newline="", encoding="utf-8") as file:
+    with open(run.folder / "modes.csv", newline="", encoding="utf-8") as file:
         frequencies = np.array([float(row["frequency"]) for row in csv.DictReader(file)])
     groups = []
     for mode, frequency in enumerate(frequencies, start=1):

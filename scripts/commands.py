@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""What scripts/render and scripts/export share as programs: one line for a mistake, a bar of progress, files that are whole or not there."""
+
+import argparse
+import contextlib
+import errno
+import os
+import pathlib
+import shutil
+import signal
+import sys
+import tempfile
+import time
+
+from results import WrongInput, one_line
+
+# In each file that is written, near its start or end: such files may be replaced.
+MARK = "made by corotet"
+FIRST_COLUMNS = "node,x,y,z,"
+
+
+class Parser(argparse.ArgumentParser):
+    """Mistakes are one line, and status 1."""
+
+    def __init__(self, name, description):
+        super().__init__(prog=name, description=description, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+
+    def error(self, message):
+        raise WrongInput(message)
+
+
+def run_command(name, main):
+    """Calls main and ends the process: status 0, 1 for wrong input, 3 if the machine failed (interrupted: as signals do)."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+    try:
+        main()
+    except WrongInput as error:
+        sys.exit(f"{name}: error: {error}")
+    except OSError as error:
+        print(f"{name}: error: {error.filename + ': ' if error.filename else ''}{one_line(error)}", file=sys.stderr)
+        sys.exit(3)
+    except KeyboardInterrupt:
+        sys.exit(128 + signal.SIGINT)
+
+
+class Progress:
+    """A bar on a terminal, else nothing: what is done, and how long the rest will take."""
+
+    def __init__(self, what, n):
+        self.what, self.n, self.done, self.start = what, n, 0, time.monotonic()
+        self.shown = sys.stderr.isatty() and n > 1
+
+    def advance(self):
+        self.done += 1
+        if not self.shown:
+            return
+        left = (time.monotonic() - self.start) / self.done * (self.n - self.done)
+        bar = "#" * round(30 * self.done / self.n)
+        end = "\n" if self.done == self.n else ""
+        print(f"\r{self.what} {self.done}/{self.n} [{bar:<30}] {left:.0f} s left ", end=end, file=sys.stderr, flush=True)
+
+
+def is_ours(path):
+    """Whether a file was written by these scripts; a table is known by its first columns."""
+    with open(path, "rb") as file:
+        start = file.read(1 << 16)
+        file.seek(max(0, os.path.getsize(path) - (1 << 16)))
+        content = start + file.read()
+    return MARK.encode() in content or start.startswith(FIRST_COLUMNS.encode())
+
+
+def check_folder(path):
+    """A file can be written there."""
+    path = pathlib.Path(path)
+    if not path.parent.is_dir():
+        raise WrongInput(f"{path} cannot be written: the folder {path.parent} does not exist")
+    if not os.access(path.parent, os.W_OK):
+        raise WrongInput(f"{path} cannot be written: the folder {path.parent} may not be written to")
+
+
+def check_target(path, overwrite):
+    """A file may be written there: nothing of others is lost, unless that is wanted."""
+    check_folder(path)
+    if path.is_dir():
+        raise WrongInput(f"{path} cannot be written: it is a folder")
+    if path.exists() and not overwrite and not is_ours(path):
+        raise WrongInput(f"{path} exists and was not made by this program; --overwrite replaces it")
+
+
+@contextlib.contextmanager
+def written_beside(target):
+    """A folder beside the target, gone at the end. Files that are whole go from there to their places by os.replace."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix=f".{pathlib.Path(target).name}.", dir=pathlib.Path(target).parent))
+    try:
+        yield folder
+    except OSError as error:
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            raise OSError(error.errno, error.strerror, str(target)) from error
+        raise
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""The displaced surface as glTF 2.0, one binary file (.glb): a mesh with colours, states as morph targets, and their animation. Needs NumPy and
+PyVista."""
+
+import json
+import struct
+
+import numpy as np
+import pyvista as pv
+
+from commands import MARK
+from exports import colours_of, numbered
+
+FLOAT, UNSIGNED = 5126, 5125
+VERTICES, INDICES = 34962, 34963
+FOLD = 35  # degrees: edges that are sharper look so
+FRAMES_OF_A_SWING = 24
+PLAIN = (0.2, 0.35, 0.5, 1)  # red, green, blue, opacity
+
+
+class Buffer:
+    """The binary part of the file, and what says what is in it."""
+
+    def __init__(self):
+        self.parts, self.size, self.views, self.accessors = [], 0, [], []
+
+    def add(self, data, target=None, limits=False):
+        """Adds vectors or scalars; returns the number of their accessor."""
+        data = np.ascontiguousarray(data, np.uint32 if target == INDICES else np.float32)
+        kind = "SCALAR" if data.ndim == 1 else f"VEC{data.shape[1]}"
+        view = {"buffer": 0, "byteOffset": self.size, "byteLength": data.nbytes}
+        self.views.append(view | ({"target": target} if target else {}))
+        accessor = {"bufferView": len(self.views) - 1, "componentType": UNSIGNED if target == INDICES else FLOAT, "count": len(data), "type": kind}
+        if limits:
+            flat = data.reshape(len(data), -1)
+            accessor |= {"min": flat.min(axis=0).tolist(), "max": flat.max(axis=0).tolist()}
+        self.accessors.append(accessor)
+        self.parts.append(data.tobytes())
+        self.size += data.nbytes
+        return len(self.accessors) - 1
+
+
+def linear(colours):
+    """From what screens have to intensities, which glTF has."""
+    return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+
+
+class Skin:
+    """Vertices of the file: those of the surface, once for each side of a sharp edge, or once for each triangle where colours jump."""
+
+    def __init__(self, source):
+        surface = source.make_surface()
+        if source.flat():
+            self.vertices = surface.simplices.ravel()
+            self.triangles = np.arange(len(self.vertices)).reshape(-1, 3)
+            self.values = lambda state: source.colour_values(state)
+            return
+        mesh = pv.PolyData(surface.at(source.run.points), np.insert(surface.simplices, 0, 3, axis=1).ravel())
+        mesh["vertex"] = np.arange(mesh.n_points)
+        mesh = mesh.compute_normals(cell_normals=False, split_vertices=True, feature_angle=FOLD, consistent_normals=False, non_manifold_traversal=False)
+        self.vertices, self.triangles = np.asarray(mesh["vertex"]), mesh.regular_faces
+        self.values = lambda state: source.colour_values(state)[self.vertices]
+
+    def normals(self, points):
+        """At vertices, the mean of those of their triangles, by area."""
+        a, b, c = (points[self.triangles[:, i]] for i in range(3))
+        of_triangles = np.cross(b - a, c - a)
+        sums = np.stack([np.bincount(self.triangles.ravel(), np.repeat(of_triangles[:, i], 3), len(points)) for i in range(3)], axis=1)
+        lengths = np.linalg.norm(sums, axis=1)
+        return np.where(lengths[:, None] > 0, sums / np.where(lengths > 0, lengths, 1)[:, None], (0, 0, 1))
+
+
+def write_gltf(source, path, split=False, seconds=None):
+    """One file in which states follow each other at their times, which @p seconds stretch to that length; with @p split a file for each state."""
+    if not split:
+        write_file(source, source.states, path, seconds)
+        return [path.name]
+    files = numbered(path, len(source.states))
+    for state, file in zip(source.states, files):
+        write_file(source, [state], file, None)
+    return [file.name for file in files]
+
+
+def write_file(source, states, path, seconds):
+    buffer, skin = Buffer(), Skin(source)
+    swings, limits = source.run.is_modes, source.colour_range()
+    base = attributes(source, skin, states[0], limits, 0.0 if swings else 1.0)
+    alone = len(states) == 1
+    if swings and not alone:
+        del base["COLOR_0"]  # each mode would have its own
+    elif not alone:
+        # Not all programs know colours of targets: these are for the others.
+        base["COLOR_0"] = colours(np.max([skin.values(state) for state in states], axis=0), limits)
+    primitive = {"attributes": {name: buffer.add(data, VERTICES, name == "POSITION") for name, data in base.items()},
+                 "indices": buffer.add(skin.triangles.ravel(), INDICES), "material": 0}
+    targets = []
+    for state in [] if alone and not swings else states:
+        target = attributes(source, skin, state, limits, 1.0)
+        if swings:
+            del target["COLOR_0"]
+        targets.append({name: buffer.add(data - base[name], VERTICES, name == "POSITION") for name, data in target.items()})
+        source.advance()
+    mesh = {"primitives": [primitive | ({"targets": targets} if targets else {})],
+            "extras": {"field": source.colour_field.name, "unit": source.colour_field.unit, "range": [float(end) for end in limits]}}
+    if targets:
+        mesh["weights"] = [0] * len(targets) if swings else [1] + [0] * (len(targets) - 1)
+    animations = swing(buffer, source.run, states, seconds or 1) if swings else follow(buffer, source.run.times[states], seconds) if targets else []
+    document = {
+        "asset": {"version": "2.0", "generator": MARK},
+        "scene": 0, "scenes": [{"nodes": [0]}],
+        # z is up in the run, y in glTF.
+        "nodes": [{"mesh": 0, "name": source.run.folder.resolve().name, "rotation": [-(0.5 ** 0.5), 0, 0, 0.5 ** 0.5]}],
+        "meshes": [mesh],
+        "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.7} | ({} if "COLOR_0" in base else {"baseColorFactor": PLAIN})}],
+        "buffers": [{"byteLength": buffer.size}], "bufferViews": buffer.views, "accessors": buffer.accessors,
+    } | ({"animations": animations} if animations else {})
+    write_glb(path, document, buffer)
+
+
+def colours(values, limits):
+    return linear(colours_of(values, limits))
+
+
+def attributes(source, skin, state, limits, factor):
+    points = source.surface_points(state, factor)[skin.vertices]
+    return {"POSITION": points, "NORMAL": skin.normals(points), "COLOR_0": colours(skin.values(state), limits)}
+
+
+def animation(buffer, name, times, weights):
+    sampler = {"input": buffer.add(times, limits=True), "output": buffer.add(weights.ravel()), "interpolation": "LINEAR"}
+    return {"name": name, "samplers": [sampler], "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}
+
+
+def follow(buffer, times, seconds):
+    """One state after the other: each is a target, which counts fully at its time."""
+    if seconds and times[-1] > times[0]:
+        times = (times - times[0]) * seconds / (times[-1] - times[0])
+    return [animation(buffer, "states", times, np.eye(len(times)))]
+
+
+def swing(buffer, run, modes, seconds):
+    """A vibration in each mode."""
+    phases = np.linspace(0, 2 * np.pi, FRAMES_OF_A_SWING + 1)
+    frequencies = run.history()["frequency"]
+    result = []
+    for i, mode in enumerate(modes):
+        weights = np.zeros((len(phases), len(modes)))
+        weights[:, i] = np.sin(phases)
+        result.append(animation(buffer, f"mode {run.times[mode]:g}: {frequencies[mode]:.5g} Hz", phases / (2 * np.pi) * seconds, weights))
+    return result
+
+
+def write_glb(path, document, buffer):
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    with open(path, "wb") as file:
+        file.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + buffer.size))
+        file.write(struct.pack("<I4s", len(text), b"JSON") + text)
+        file.write(struct.pack("<I4s", buffer.size, b"BIN\0"))
+        file.writelines(buffer.parts)

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""The results of one run, read from its folder: the mesh, states, histories. Needs h5py and NumPy."""
+
+import csv
+import os
+import pathlib
+import re
+
+import numpy as np
+
+# The run may go on, and results may be where nothing can be locked: files are only read here.
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+import h5py  # noqa: E402  (the environment is read when it is loaded)
+
+DEGREES = {4: 1, 10: 2, 20: 3}  # by the number of a tetrahedron's nodes
+
+
+class WrongInput(Exception):
+    """What was asked for is not possible; the message is one line for the user."""
+
+
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+class Run:
+    """A folder of results, as they were when it was opened. Numbers are those of the files, in their units.
+
+    `points` [m] are those of the body at rest, `cells` the nodes of each cell in VTK's order, `times` those of the states (for modes their
+    numbers, in statics the share of the loads), `point_fields` and `cell_fields` the numbers of components by name.
+    """
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        if not self.folder.is_dir():
+            raise WrongInput(f"{folder} is not a folder of results: " + ("it is a file" if self.folder.exists() else "it does not exist"))
+        path = self.folder / "solution.vtkhdf"
+        if not path.exists():
+            raise WrongInput(self.why_without_states())
+        try:
+            self.file = h5py.File(path, "r")
+            self.read_mesh()
+        except (OSError, KeyError, ValueError, RuntimeError) as error:
+            raise WrongInput(f"{path} is damaged: {one_line(error)}") from error
+        self.is_modes = (self.folder / "modes.csv").exists()
+        self.is_static = not self.is_modes and self.entry("Time integration", "Type") == "static"
+        if not self.times.size:
+            raise WrongInput(f"{folder} has no states yet")
+
+    def why_without_states(self):
+        if (self.folder / "study.csv").exists():
+            return f"{self.folder} has the results of a convergence study, which are no states of a body (scripts/draw_study draws them)"
+        if (self.folder / ".corotet").exists() or (self.folder / "parameters.prm").exists():
+            return f"{self.folder} has no states yet: there is no solution.vtkhdf"
+        return f"{self.folder} is not a folder of results: there is no solution.vtkhdf"
+
+    def read_mesh(self):
+        top = self.file["VTKHDF"]
+        self.check_files(top)
+        self.times = top["Steps/Values"][:]
+        self.points = top["Points"][:]
+        n_cells = int(top["NumberOfCells"][0])
+        self.cells = top["Connectivity"][:].reshape(n_cells, -1)
+        if self.cells.shape[1] not in DEGREES or self.cells.min() < 0 or self.cells.max() >= len(self.points):
+            raise ValueError("its cells are no tetrahedra of degree 1 to 3")
+        self.degree = DEGREES[self.cells.shape[1]]
+        self.point_fields = self.fields_of(top["PointData"], len(self.points))
+        self.cell_fields = self.fields_of(top["CellData"], n_cells)
+
+    def fields_of(self, group, n):
+        fields = {}
+        for name in sorted(group):
+            shape = group[name].shape
+            if shape[0] not in (n, n * len(self.times)):
+                raise ValueError(f"{name} has {shape[0]} rows")
+            fields[name] = shape[1] if len(shape) > 1 else 1
+        return fields
+
+    def check_files(self, top):
+        """A file that is referred to, and missing or damaged, would give zeros."""
+        for source in {source.file_name for source in top["PointData/displacement"].virtual_sources()}:
+            if not (self.folder / source).exists():
+                raise OSError(f"{source}: the file is missing")
+            try:
+                h5py.File(self.folder / source, "r").close()
+            except OSError as error:
+                raise OSError(f"{source}: {one_line(error)}") from error
+
+    def rows(self, group, name, n, state):
+        data = self.file["VTKHDF"][group][name]
+        first = state * n if data.shape[0] == n * len(self.times) else 0
+        try:
+            return data[first : first + n]
+        except (OSError, RuntimeError) as error:
+            raise WrongInput(f"{self.folder / 'solution.vtkhdf'} is damaged: {name}: {one_line(error)}") from error
+
+    def point_data(self, name, state):
+        """Values at nodes in a state, given by its index."""
+        return self.rows("PointData", name, len(self.points), state)
+
+    def cell_data(self, name, state):
+        return self.rows("CellData", name, len(self.cells), state)
+
+    def displacement(self, state):
+        return self.point_data("displacement", state)
+
+    def index(self, time):
+        """The state nearest to @p time, which must be within those of the run."""
+        first, last = self.times[0], self.times[-1]
+        margin = 1e-9 * max(abs(first), abs(last))
+        if not first - margin <= time <= last + margin:
+            what = "modes" if self.is_modes else "times"
+            raise WrongInput(f"{time:g} is outside of the run, whose {what} are from {first:g} to {last:g}")
+        return int(np.abs(self.times - time).argmin())
+
+    def choose(self, words):
+        """The states meant by words of a command line: `all`, times, or FROM:TO[:NUMBER], which are all between or a number of states at
+        equal distances; each state once, in the order of time."""
+        chosen = set()
+        for word in words:
+            parts = word.split(":")
+            if word == "all":
+                chosen |= set(range(len(self.times)))
+            elif len(parts) == 1 and is_number(word):
+                chosen.add(self.index(float(word)))
+            elif len(parts) in (2, 3) and all(map(is_number, parts[:2])) and all(part.isdigit() and int(part) > 0 for part in parts[2:]):
+                ends = [float(part) for part in parts[:2]]
+                first, last = (self.index(time) for time in ends)
+                if ends[0] > ends[1]:
+                    raise WrongInput(f"found the times {word}; the first must not be after the last")
+                chosen |= {self.index(time) for time in np.linspace(*ends, int(parts[2]))} if parts[2:] else set(range(first, last + 1))
+            else:
+                raise WrongInput(f"found the time '{word}'; allowed are numbers, FROM:TO, FROM:TO:NUMBER and all")
+        return sorted(chosen)
+
+    def history(self):
+        """The columns of history.csv, or of modes.csv."""
+        path = self.folder / ("modes.csv" if self.is_modes else "history.csv")
+        try:
+            with open(path, newline="", encoding="utf-8") as file:
+                names, *rows = list(csv.reader(file))
+            # A last row may be under way.
+            return {name: np.array([float(row[i]) for row in rows if len(row) == len(names)]) for i, name in enumerate(names)}
+        except (OSError, ValueError, csv.Error) as error:
+            raise WrongInput(f"{path} cannot be read: {one_line(error)}") from error
+
+    def entry(self, section, name):
+        """An entry of a top section of the parameters, or an empty text."""
+        path = self.folder / "parameters.prm"
+        text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+        found = re.search(rf"^subsection {re.escape(section)}\n(?:  .*\n|\n)*?  set {re.escape(name)}\s*=([^#\n]*)", text, re.MULTILINE)
+        return found.group(1).strip() if found else ""
+
+
+def one_line(error):
+    """The start of what an exception says."""
+    text = " ".join(str(getattr(error, "strerror", None) or (error.args[0] if error.args else error)).split())
+    return text if len(text) < 150 else text[:150] + "..."

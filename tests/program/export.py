@@ -1,0 +1,326 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""scripts/export: what was written is read back, by VTK's, PyVista's and meshio's readers where there are, and compared with the run's own numbers, which
+VTK's reader of the time series and history.csv have."""
+
+import csv
+import importlib.util
+import json
+import struct
+import unittest
+import xml.etree.ElementTree as xml
+
+import matplotlib
+import numpy as np
+import pyvista as pv
+from meshio.xdmf import TimeSeriesReader
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLogger
+from vtkmodules.vtkIOGeometry import vtkGLTFReader
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+from scripts_support import ScriptTest, State, state_of, times_of
+from commands import is_ours
+from support import read_history, read_modes
+
+SINGLE = 1e-6  # relative; single precision has 6e-8, and sums of some thousand numbers lose a digit
+# A rule for tetrahedra that is exact for polynomials of degree 3, as the volume of quadratic ones needs: points and weights.
+KEAST = [((1 / 4,) * 3, -4 / 30)] + [((a, b, c), 9 / 120) for a, b, c in ((1 / 6,) * 3, (1 / 2, 1 / 6, 1 / 6), (1 / 6, 1 / 2, 1 / 6), (1 / 6, 1 / 6, 1 / 2))]
+
+
+def volume(state):
+    """Of the displaced body, by the derivatives of VTK's own cells."""
+    total, places = 0, state.displaced()
+    for i, nodes in enumerate(state.cells):
+        cell, derivatives = state.grid.GetCell(i), np.zeros(3 * len(nodes))
+        for point, weight in KEAST:
+            cell.InterpolateDerivs(point, derivatives)
+            total += weight * np.linalg.det(derivatives.reshape(3, -1) @ places[nodes])
+    return total
+
+
+def enclosed(points, triangles):
+    a, b, c = (points[triangles[:, i]].astype(float) for i in range(3))
+    return (a * np.cross(b, c)).sum() / 6
+
+
+def area(points, triangles):
+    a, b, c = (points[triangles[:, i]].astype(float) for i in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+
+
+class Glb:
+    """A binary glTF file, its structure checked on the way."""
+
+    def __init__(self, test, path):
+        content = path.read_bytes()
+        magic, version, length = struct.unpack_from("<4sII", content)
+        test.assertEqual((magic, version, length), (b"glTF", 2, len(content)))
+        n_json, kind = struct.unpack_from("<I4s", content, 12)
+        test.assertEqual((kind, n_json % 4), (b"JSON", 0))
+        self.json = json.loads(content[20 : 20 + n_json])
+        n_binary, kind = struct.unpack_from("<I4s", content, 20 + n_json)
+        test.assertEqual((kind, 28 + n_json + n_binary), (b"BIN\0", len(content)))
+        test.assertEqual(self.json["buffers"], [{"byteLength": n_binary}])
+        self.binary = content[28 + n_json :]
+        for i, accessor in enumerate(self.json["accessors"]):
+            data = self.read(i)
+            if "min" in accessor:
+                test.assertEqual((np.atleast_1d(data.min(axis=0)).tolist(), np.atleast_1d(data.max(axis=0)).tolist()), (accessor["min"], accessor["max"]))
+        self.primitive = self.json["meshes"][0]["primitives"][0]
+        # What the format asks for.
+        for attributes in [self.primitive["attributes"], *self.primitive.get("targets", [])]:
+            test.assertIn("min", self.json["accessors"][attributes["POSITION"]])
+        self.base = {name: self.read(i) for name, i in self.primitive["attributes"].items()}
+        self.targets = [{name: self.read(i) for name, i in target.items()} for target in self.primitive.get("targets", [])]
+        self.triangles = self.read(self.primitive["indices"]).reshape(-1, 3)
+        test.assertLess(self.triangles.max(), len(self.base["POSITION"]))
+
+    def read(self, number):
+        accessor = self.json["accessors"][number]
+        view = self.json["bufferViews"][accessor["bufferView"]]
+        kind = {5126: np.float32, 5125: np.uint32}[accessor["componentType"]]
+        width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+        data = np.frombuffer(self.binary, kind, accessor["count"] * width, view["byteOffset"])
+        assert data.nbytes == view["byteLength"]
+        return data if width == 1 else data.reshape(-1, width)
+
+    def animation(self, number):
+        """Times, and a row of weights for each."""
+        sampler = self.json["animations"][number]["samplers"][0]
+        times = self.read(sampler["input"])
+        return times, self.read(sampler["output"]).reshape(len(times), -1)
+
+
+class Export(ScriptTest):
+    script = "export"
+
+    def history(self):
+        return [{name: float(value) for name, value in row.items()} for row in read_history(self.runs / "beam")]
+
+    def test_vtu(self):
+        """Lagrange tetrahedra of the run's degree with the same numbers, bit by bit; their volume is that of history.csv to round-off."""
+        for run in ("beam", "plate"):
+            self.start(self.runs / run, "--to", "vtu")
+            entries = xml.parse(self.folder / f"{run}.pvd").getroot().find("Collection")
+            self.assertEqual([float(entry.get("timestep")) for entry in entries], times_of(self.runs / run).tolist())
+            self.assertGreaterEqual(len(entries), 5)
+            for i, entry in enumerate(entries):
+                reader = vtkXMLUnstructuredGridReader()
+                reader.SetFileName(str(self.folder / entry.get("file")))
+                reader.Update()
+                found, expected = State(reader.GetOutput()), state_of(self.runs / run, i)
+                self.assertEqual(set(vtk_to_numpy(reader.GetOutput().GetCellTypesArray())), {71})
+                self.assertEqual(vtk_to_numpy(reader.GetOutput().GetFieldData().GetArray("TimeValue")).tolist(), [float(entry.get("timestep"))])
+                for one, other in ((found.points, expected.points), (found.cells, expected.cells)):
+                    np.testing.assert_array_equal(one, other)
+                for one, other in ((found.point_data, expected.point_data), (found.cell_data, expected.cell_data)):
+                    self.assertEqual(set(one), set(other))
+                    for name, values in other.items():
+                        self.assertEqual((one[name].dtype, one[name].tobytes()), (values.dtype, values.tobytes()), name)
+            if run == "beam":
+                self.assertAlmostEqual(volume(found) / self.history()[-1]["volume"], 1, delta=1e-12)
+        self.start(self.runs / "beam", "--to", "vtu", "--times", 0.3, "--field", "stress", "--out", "one.vtu")
+        one = State(pv.read(self.folder / "one.vtu"))
+        self.assertEqual((list(one.point_data), list(one.cell_data)), (["stress"], []))
+
+    def test_csv(self):
+        """All digits: the table has the numbers themselves."""
+        self.start(self.runs / "beam", "--to", "csv")
+        for i, row in enumerate(self.history()):
+            with open(self.folder / f"beam_{i:04d}.csv", newline="", encoding="utf-8") as file:
+                names, *rows = csv.reader(file)
+            table = dict(zip(names, np.array(rows, float).T))
+            state = state_of(self.runs / "beam", i)
+            np.testing.assert_array_equal(np.stack([table[name] for name in "xyz"], axis=1), state.points)
+            for name in ("stress", "strain"):
+                np.testing.assert_array_equal(np.stack([table[f"{name}_{part}"] for part in ("xx", "yy", "zz", "xy", "yz", "xz")], axis=1), state.point_data[name])
+            np.testing.assert_array_equal(table["von_mises"], state.point_data["von_mises"])
+            displacement = np.stack([table[f"displacement_{part}"] for part in "xyz"], axis=1)
+            # The root of a sum of three squares, by another program.
+            self.assertAlmostEqual(np.linalg.norm(displacement, axis=1).max(), row["max_displacement"], delta=1e-15)
+
+    def test_stl(self):
+        """Closed, seen from outside; of a box, at rest, with its volume and area; else with a volume whose error falls with the square
+        of the size of triangles, as it does for the chords of curves."""
+        self.start(self.runs / "beam", "--to", "stl", "--times", 0, "--out", "rest.stl")
+        mesh = pv.read(self.folder / "rest.stl").clean()
+        self.assertAlmostEqual(enclosed(mesh.points, mesh.regular_faces) / 0.01, 1, delta=SINGLE)
+        self.assertAlmostEqual(area(mesh.points, mesh.regular_faces) / 0.42, 1, delta=SINGLE)
+        errors = []
+        for n in (1, 2, 4):
+            self.start(self.runs / "beam", "--to", "stl", "--times", 0.3, "--out", "bent.stl", "--subdivisions", n)
+            mesh = pv.read(self.folder / "bent.stl").clean()
+            errors.append(1 - enclosed(mesh.points, mesh.regular_faces) / self.history()[-1]["volume"])
+            sides = mesh.regular_faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+            # Each edge is there once in each direction.
+            self.assertEqual(len(np.unique(sides, axis=0)), len(sides))
+            self.assertEqual(set(map(tuple, sides.tolist())), {(b, a) for a, b in sides.tolist()})
+            # 6 x 1 x 1 cuboids have 26 squares outside, each of two faces.
+            self.assertEqual(len(mesh.regular_faces), 52 * n**2)
+        for coarse, fine in zip(errors, errors[1:]):
+            self.assertAlmostEqual(coarse / fine, 4, delta=0.5)
+
+    def test_obj(self):
+        """The displaced nodes of the surface, to the nine digits that are written, in colours of the field from violet to yellow."""
+        self.start(self.runs / "beam", "--to", "obj", "--field", "displacement", "--times", 0, 0.3)
+        lines = [line.split() for line in (self.folder / "beam_0001.obj").read_text().splitlines()]
+        rows = np.array([line[1:] for line in lines if line[0] == "v"], float)
+        triangles = np.array([line[1:] for line in lines if line[0] == "f"], int) - 1
+        state = state_of(self.runs / "beam", -1)
+        nodes, places = rows[:, :3], state.displaced()
+        nearest = np.abs(nodes[:, None] - places[None]).max(axis=2)
+        self.assertLess(nearest.min(axis=1).max(), 1e-9)
+        self.assertEqual(len(np.unique(nearest.argmin(axis=1))), len(nodes))
+        self.assertGreater(enclosed(nodes, triangles), 0.0099)
+        sizes = np.linalg.norm(state.point_data["displacement"], axis=1)[nearest.argmin(axis=1)]
+        for value, colour in ((sizes.min(), 0.0), (sizes.max(), 1.0)):
+            expected = matplotlib.colormaps["viridis"](colour)[:3]
+            np.testing.assert_allclose(rows[np.isclose(sizes, value)][0, 3:], expected, atol=1e-8)
+
+    def test_gltf(self):
+        """Each state is a morph target that counts fully at its time, with the run's largest displacement and volume."""
+        self.start(self.runs / "beam", "--to", "gltf", "--field", "displacement")
+        file, times = Glb(self, self.folder / "beam.glb"), times_of(self.runs / "beam")
+        self.assertEqual(len(file.targets), len(times))
+        keys, weights = file.animation(0)
+        np.testing.assert_array_equal(keys, times.astype(np.float32))
+        np.testing.assert_array_equal(weights, np.eye(len(times)))
+        for row, target in zip(self.history(), file.targets):
+            self.assertAlmostEqual(np.linalg.norm(target["POSITION"], axis=1).max(), row["max_displacement"], delta=SINGLE * row["max_displacement"])
+            # Straight triangles, two for each edge of a cell: test_stl has how that error vanishes.
+            places = file.base["POSITION"] + target["POSITION"]
+            self.assertAlmostEqual(enclosed(places, file.triangles) / row["volume"], 1, delta=1e-3)
+            normals = file.base["NORMAL"] + target["NORMAL"]
+            np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=SINGLE)
+        # Sides of the box at rest are flat, though its vertices are there more than once for that.
+        self.assertTrue((np.sort(abs(file.base["NORMAL"]), axis=1) == (0, 0, 1)).all())
+        # Colours are intensities: the largest displacement of all is yellow, that of the support violet.
+        colours = file.base["COLOR_0"] + file.targets[-1]["COLOR_0"]
+        # Those of the mesh are the largest of all states, which are those of the last one here.
+        np.testing.assert_allclose(colours, file.base["COLOR_0"], atol=SINGLE)
+        self.assertGreater(abs(file.targets[0]["COLOR_0"]).max(), 0.5)
+        tip = np.linalg.norm(file.targets[-1]["POSITION"], axis=1).argmax()
+        for vertex, colour in ((tip, 1.0), (file.base["POSITION"][:, 0].argmin(), 0.0)):
+            expected = ((np.array(matplotlib.colormaps["viridis"](colour)[:3]) + 0.055) / 1.055) ** 2.4
+            np.testing.assert_allclose(colours[vertex], expected, atol=2e-3)
+
+    def test_gltf_by_vtk(self):
+        """VTK's reader takes the file, and has the run's displaced body at a time of the run."""
+        self.start(self.runs / "beam", "--to", "gltf")
+        # It has no colours of morph targets, and says so for each.
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
+        reader = vtkGLTFReader()
+        reader.SetFileName(str(self.folder / "beam.glb"))
+        reader.UpdateInformation()
+        reader.SetFrameRate(100)
+        reader.EnableAnimation(0)
+        reader.UpdateInformation()
+        reader.UpdateTimeStep(0.15)
+        block = reader.GetOutputDataObject(0)
+        while block.IsA("vtkMultiBlockDataSet"):
+            block = block.GetBlock(0)
+        # The y axis of the file is the run's z axis.
+        x, y, z = vtk_to_numpy(block.GetPoints().GetData()).T
+        places = state_of(self.runs / "beam", 5).displaced()
+        for found, expected in zip((x, -z, y), places.T):
+            np.testing.assert_allclose((found.min(), found.max()), (expected.min(), expected.max()), atol=1e-6)
+
+    def test_gltf_of_modes(self):
+        """Each mode is a target with an animation of its own, named by its frequency; without --field one state is a plain mesh."""
+        self.start(self.runs / "plate", "--to", "gltf", "--warp", 1, "--seconds", 2)
+        file, modes = Glb(self, self.folder / "plate.glb"), read_modes(self.runs / "plate")
+        names = [f"mode {i}: {float(mode['frequency']):.5g} Hz" for i, mode in enumerate(modes, start=1)]
+        self.assertEqual([animation["name"] for animation in file.json["animations"]], names)
+        for i, target in enumerate(file.targets):
+            keys, weights = file.animation(i)
+            self.assertEqual((keys[0], keys[-1]), (0, 2))
+            np.testing.assert_allclose(weights, np.outer(np.sin(np.pi * keys), np.arange(len(modes)) == i), atol=SINGLE)
+            state = state_of(self.runs / "plate", i)
+            # Nodes on the sides of the plate; inside some move farther.
+            shape = state.point_data["displacement"][np.isclose(state.points / (10, 10, 1), (0.5, 0.5, 0), atol=0.499).all(axis=1) == 0]
+            self.assertAlmostEqual(np.linalg.norm(target["POSITION"], axis=1).max() / np.linalg.norm(shape, axis=1).max(), 1, delta=SINGLE)
+        self.start(self.runs / "beam", "--to", "gltf", "--times", 0.15, 0.3, "--split")
+        for name in ("beam_0000.glb", "beam_0001.glb"):
+            file = Glb(self, self.folder / name)
+            self.assertEqual((file.targets, "animations" in file.json), ([], False))
+
+    def test_xdmf(self):
+        """meshio reads the same numbers, bit by bit."""
+        self.start(self.runs / "beam", "--to", "xdmf")
+        with TimeSeriesReader(self.folder / "beam.xdmf") as reader:
+            points, cells = reader.read_points_cells()
+            self.assertEqual((reader.num_steps, cells[0].type), (11, "tetra10"))
+            for i, time in enumerate(times_of(self.runs / "beam")):
+                found_time, point_data, cell_data = reader.read_data(i)
+                state = state_of(self.runs / "beam", i)
+                self.assertEqual(found_time, time)
+                np.testing.assert_array_equal(points, state.points)
+                np.testing.assert_array_equal(cells[0].data, state.cells)
+                for name in ("displacement", "velocity", "von_mises"):
+                    np.testing.assert_array_equal(point_data[name], state.point_data[name])
+                np.testing.assert_array_equal(point_data["stress_xz"], state.point_data["stress"][:, 5])
+                np.testing.assert_array_equal(cell_data["det_F"][0], state.cell_data["det_F"])
+                np.testing.assert_array_equal(cell_data["cells_von_mises"][0], state.cell_data["von_mises"])
+
+    def test_xdmf_of_cubic_cells(self):
+        """27 straight tetrahedra on the nodes of each: all nodes are used, none is inside out, and with the displaced nodes their volume
+        is that of the curved ones to 1 %, the error of chords of 10 degrees."""
+        self.start(self.runs / "sphere", "--to", "xdmf")
+        state = state_of(self.runs / "sphere", -1)
+        with TimeSeriesReader(self.folder / "sphere.xdmf") as reader:
+            points, cells = reader.read_points_cells()
+            _, point_data, cell_data = reader.read_data(reader.num_steps - 1)
+        self.assertEqual(cells[0].data.shape, (27 * len(state.cells), 4))
+        self.assertEqual(len(np.unique(cells[0].data)), len(state.points))
+        rest, displaced = (np.linalg.det(places[:, 1:] - places[:, :1]) / 6 for places in (points[cells[0].data],
+                                                                                     (points + point_data["displacement"])[cells[0].data]))
+        self.assertGreater(rest.min(), 0)
+        expected = float(read_history(self.runs / "sphere")[-1]["volume"])
+        self.assertAlmostEqual(displaced.sum() / expected, 1, delta=1e-2)
+        np.testing.assert_array_equal(cell_data["det_F"][0], np.repeat(state.cell_data["det_F"], 27))
+
+    def test_usd(self):
+        if importlib.util.find_spec("pxr") is None:
+            self.check_mistakes([((self.runs / "beam", "--to", "usd"), "USD needs the Python package pxr")])
+            return
+        from pxr import Usd, UsdGeom
+        self.start(self.runs / "beam", "--to", "usd", "--out", "beam.usda")
+        stage = Usd.Stage.Open(str(self.folder / "beam.usda"))
+        points = UsdGeom.Mesh(stage.GetDefaultPrim()).GetPointsAttr()
+        np.testing.assert_allclose(np.array(points.GetTimeSamples()) / stage.GetTimeCodesPerSecond(), times_of(self.runs / "beam"), atol=1e-12)
+        last = np.array(points.Get(points.GetTimeSamples()[-1]))
+        np.testing.assert_allclose(np.ptp(last, axis=0), np.ptp(state_of(self.runs / "beam", -1).displaced(), axis=0), rtol=SINGLE)
+
+    def test_mistakes(self):
+        beam = self.runs / "beam"
+        (self.folder / "empty").mkdir()
+        (self.folder / "foreign.stl").write_text("a shape of someone else")
+        self.check_mistakes((
+            (("empty", "--to", "stl"), "empty is not a folder of results: there is no solution.vtkhdf"),
+            ((beam, "--to", "step"), "argument --to: invalid choice: 'step'"), ((beam,), "the following arguments are required: --to"),
+            ((beam, "--to", "csv", "--field", "stres"), "is it stress? There are: "),
+            ((beam, "--to", "gltf", "--field", "displacment"), "is it displacement? There are: "),
+            ((beam, "--to", "gltf", "--field", "det_F", "region"), "gltf has colours of one field, found det_F, region"),
+            ((beam, "--to", "stl", "--times", "1"), "1 is outside of the run, whose times are from 0 to 0.3"),
+            ((beam, "--to", "stl", "--out", "beam.obj"), "found 'beam.obj'; of stl names end with .stl"),
+            ((beam, "--to", "vtu", "--out", "beam.vtu"), "found 'beam.vtu' for 11 states; several go into a .pvd"),
+            ((beam, "--to", "stl", "--subdivisions", "0"), "found --subdivisions 0; allowed are 1 to 16"),
+            ((beam, "--to", "stl", "--out", "nowhere/beam.stl"), "the folder nowhere does not exist"),
+            ((beam, "--to", "stl", "--times", "0", "--out", "foreign.stl"), "foreign.stl exists and was not made by this program"),
+            ((beam, "--to", "stl", "--times", "0", "--out", "empty.stl", "--warp", "much"), "found --warp much; allowed are numbers and auto")))
+
+    def test_own_files(self):
+        """They are known, so that they may be replaced."""
+        for kind in ("gltf", "vtu", "stl", "obj", "xdmf", "csv", "csv"):
+            self.start(self.runs / "beam", "--to", kind, "--times", 0, 0.3)
+        files = [path for path in self.folder.rglob("*") if path.is_file()]
+        self.assertEqual(len(files), 1 + 3 + 2 + 2 + 2 + 2)
+        self.assertEqual([path for path in files if not is_ours(path)], [])
+        # Nothing is left of what was under way.
+        self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".")], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

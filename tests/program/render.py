@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""scripts/render: pictures and films of results. Sizes and colours in the pictures are compared with the run's numbers, read by VTK's own reader."""
+
+import json
+import shutil
+import subprocess
+import unittest
+
+import matplotlib
+import numpy as np
+from PIL import Image
+from vtkmodules import vtkRenderingOpenGL2
+
+from scripts_support import ScriptTest, state_of, times_of
+
+BARE = ("--without", "legend", "time", "axes", "outline")
+SMALL = ("--size", "400", "300")
+FONT = 11  # pixels, at the sizes of these tests; margins are 1.5 of it
+
+
+def pixels(path):
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB")).astype(int)
+
+
+def is_body(picture):
+    """All colours of the map have a component below 140; pixels at edges count if about half of them is the body's."""
+    return (picture < 140).any(axis=2)
+
+
+def extent(picture):
+    """Of the body: columns and rows from, to (not included)."""
+    rows, columns = np.nonzero(is_body(picture))
+    return columns.min(), columns.max() + 1, rows.min(), rows.max() + 1
+
+
+class Render(ScriptTest):
+    script = "render"
+
+    def notes(self, name):
+        with Image.open(self.folder / name) as image:
+            return dict(image.text)
+
+    def test_legend(self):
+        """Its range is that of the recovered stress at all nodes, its colours are those of the map from end to end, and so are the body's."""
+        said = self.start(self.runs / "beam", *SMALL)
+        picture, notes = pixels(self.folder / "render.png"), self.notes("render.png")
+        self.assertEqual(picture.shape, (300, 400, 3))
+        stress = state_of(self.runs / "beam", -1).point_data["von_mises"]
+        self.assertEqual((notes["Field"], notes["Title"], notes["Time"]), ("von_mises", "von Mises stress [kPa]", "300 ms"))
+        # Round-off of a factor of 1e-3.
+        np.testing.assert_allclose([float(end) for end in notes["Range"].split()], [stress.min() / 1e3, stress.max() / 1e3], rtol=1e-15)
+        self.assertIn(f"{stress.max() / 1e3:.3g}", said)
+        bar = picture[300 - round(4.3 * FONT) + 3, 80:320]
+        expected = 255 * matplotlib.colormaps["viridis"](np.linspace(0, 1, 240))[:, :3]
+        np.testing.assert_allclose(bar, expected, atol=0.5)
+        # Largest at the clamped end, above and below; shading makes colours darker, but yellow stays yellow and violet violet.
+        self.start(self.runs / "beam", *SMALL, *BARE, "--camera", "front", "--warp", "0", "--field", "displacement")
+        body = pixels(self.folder / "render.png")
+        left, right, top, bottom = extent(body)
+        root, tip = body[(top + bottom) // 2, left + 3], body[(top + bottom) // 2, right - 4]
+        self.assertLess(root[1], 0.5 * root[2])
+        self.assertLess(tip[2], 0.5 * tip[1])
+
+    def test_size_of_the_body(self):
+        """The body fills the picture up to the margins, in the ratio of its displaced bounding box: pixels at its edges may be counted or not."""
+        self.start(self.runs / "beam", *SMALL, *BARE, "--camera", "front")
+        left, right, top, bottom = extent(pixels(self.folder / "render.png"))
+        places = state_of(self.runs / "beam", -1).displaced()
+        size = np.ptp(places, axis=0)
+        margin = 1.5 * FONT
+        scale = min((400 - 2 * margin) / size[0], (300 - 2 * margin) / size[2])
+        self.assertAlmostEqual(right - left, scale * size[0], delta=2)
+        self.assertAlmostEqual(bottom - top, scale * size[2], delta=2)
+        self.assertAlmostEqual((left + right) / 2, 200, delta=1.5)
+        self.assertAlmostEqual((top + bottom) / 2, 150, delta=1.5)
+        # The same from where only positions tell: three times as high a picture shows it at a third.
+        middle = (places.min(axis=0) + places.max(axis=0)) / 2
+        self.start(self.runs / "beam", *SMALL, *BARE, "--position", middle[0], middle[1] - 5, middle[2], "--focus", *middle, "--height", 3 * 300 / scale)
+        small = extent(pixels(self.folder / "render.png"))
+        self.assertAlmostEqual(small[1] - small[0], (right - left) / 3, delta=2)
+
+    def test_curved_cells(self):
+        """The silhouette of the sphere's octant is a quarter of a disc of radius 2, to 0.2 %: flat faces would be 2 % smaller. A cut at
+        y = 1 leaves a quarter of a disc of radius 3^(1/2)."""
+        for words, radius in (((), 2), (("--clip", "front", 0, 1, 0), 3**0.5)):
+            self.start(self.runs / "sphere", "--size", 800, 800, *BARE, "--camera", "front", "--warp", "0", "--mesh", *words)
+            picture = pixels(self.folder / "render.png")
+            scale = (800 - 2 * 1.5 * round(0.022 * 800)) / 2
+            area = is_body(picture).sum() / scale**2
+            self.assertAlmostEqual(area / (np.pi * radius**2 / 4), 1, delta=2e-3)
+            self.assertAlmostEqual(extent(picture)[1] - extent(picture)[0], radius * scale, delta=3)
+
+    def test_time_and_repetition(self):
+        """Pictures change with time; the same one again has the same bytes, and on another number of processes."""
+        self.start(self.runs / "beam", *SMALL, "--times", 0.09, 0.18, 0.3, "--out", "several.png", "--out", "several.gif", "--jobs", 1)
+        first = {path.name: path.read_bytes() for path in self.folder.glob("several*")}
+        self.assertEqual(sorted(first), ["several.gif", "several_0001.png", "several_0002.png", "several_0003.png"])
+        a, b = pixels(self.folder / "several_0001.png"), pixels(self.folder / "several_0002.png")
+        self.assertGreater((abs(a - b).max(axis=2) > 20).mean(), 0.05)
+        self.start(self.runs / "beam", *SMALL, "--times", 0.09, 0.18, 0.3, "--out", "several.png", "--out", "several.gif", "--jobs", 3)
+        self.assertEqual(first, {path.name: path.read_bytes() for path in self.folder.glob("several*")})
+
+    def test_films(self):
+        """All have a frame for each state, their size and time; an MP4's sizes are even."""
+        outs = [word for kind in ("gif", "webp", "mp4") for word in ("--out", f"film.{kind}")]
+        self.start(self.runs / "beam", "--size", 321, 241, "--fps", 10, "--field", "rotation_angle", *outs)
+        n = len(times_of(self.runs / "beam"))
+        self.assertEqual(n, 11)
+        for kind in ("gif", "webp"):
+            with Image.open(self.folder / f"film.{kind}") as film:
+                self.assertEqual((film.n_frames, film.size, film.info.get("loop")), (n, (321, 241), 0), kind)
+                frames = []
+                for i in range(n):
+                    film.seek(i)
+                    frames.append(np.asarray(film.convert("RGB")).astype(int))
+                    self.assertEqual(film.info["duration"], 100)
+            self.assertTrue(all(abs(one - other).max() > 50 for one, other in zip(frames, frames[1:])), kind)
+        if not shutil.which("ffprobe"):
+            return
+        probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", self.folder / "film.mp4"], capture_output=True,
+                               text=True, check=True)
+        stream = json.loads(probe.stdout)["streams"][0]
+        found = [stream[key] for key in ("codec_name", "pix_fmt", "width", "height", "nb_read_frames", "avg_frame_rate")]
+        self.assertEqual(found, ["h264", "yuv420p", 322, 242, str(n), "10/1"])
+
+    def test_modes(self):
+        """A film of modes swings in the first one that deforms the body: displaced most after a quarter and three quarters, to opposite sides."""
+        self.start(self.runs / "plate", *SMALL, "--swing", 4, "--out", "mode.png", "--without", "time")
+        frames = [pixels(self.folder / f"mode_000{i}.png") for i in (1, 2, 3, 4)]
+        self.assertIn("mode 4: ", self.notes("mode_0001.png")["Time"])
+        np.testing.assert_array_equal(frames[0], frames[2])
+        self.assertGreater(abs(frames[1] - frames[3]).max(), 50)
+        self.assertIn("displacement drawn × 10", self.notes("mode_0001.png")["Title"])
+        self.start(self.runs / "plate", *SMALL, "--out", "mode.gif")
+        with Image.open(self.folder / "mode.gif") as film:
+            self.assertEqual(film.n_frames, 24)
+
+    def test_together(self):
+        """Three states side by side are as wide as their shifts say."""
+        self.start(self.runs / "beam", *SMALL, *BARE, "--times", 0, 0.03, 0.06, "--together", "--shift", 1.5, 0, 0, "--camera", "front", "--field", "region")
+        picture = pixels(self.folder / "render.png")
+        left, right, _, _ = extent(picture)
+        gaps = np.flatnonzero(~is_body(picture[:, left:right]).any(axis=0))
+        # Beams of 1 m, of which the third has bent by less than 1 % of that, and two gaps of 0.5 m.
+        self.assertAlmostEqual(len(gaps) / (right - left), 1 / 4, delta=0.01)
+
+    def test_mistakes(self):
+        beam = self.runs / "beam"
+        for name in ("empty", "waiting", "study", "damaged", "shortened", "incomplete"):
+            (self.folder / name).mkdir()
+        (self.folder / "waiting" / ".corotet").touch()
+        (self.folder / "study" / "study.csv").touch()
+        (self.folder / "damaged" / "solution.vtkhdf").write_bytes((beam / "solution.vtkhdf").read_bytes()[:5000])
+        for name in ("shortened", "incomplete"):
+            shutil.copytree(beam, self.folder / name, dirs_exist_ok=True)
+        last = sorted((self.folder / "shortened" / "solution").iterdir())[-1].name
+        data = self.folder / "shortened" / "solution" / last
+        data.write_bytes(data.read_bytes()[:1000])
+        (self.folder / "incomplete" / "solution" / last).unlink()
+        (self.folder / "foreign.png").write_text("a picture of someone else")
+        self.check_mistakes((
+            (("nothing",), "nothing is not a folder of results: it does not exist"),
+            (("empty",), "empty is not a folder of results: there is no solution.vtkhdf"),
+            (("waiting",), "waiting has no states yet"),
+            (("study",), "study has the results of a convergence study"),
+            (("damaged",), "damaged/solution.vtkhdf is damaged: "),
+            (("shortened",), f"shortened/solution.vtkhdf is damaged: solution/{last}: "),
+            (("incomplete",), f"incomplete/solution.vtkhdf is damaged: solution/{last}: the file is missing"),
+            ((beam, "--field", "von_mise"), "no field 'von_mise' in"), ((beam, "--field", "von_mise"), "is it von_mises? There are: "),
+            ((beam, "--time", "0.4"), "0.4 is outside of the run, whose times are from 0 to 0.3"),
+            ((beam, "--times", "soon"), "found the time 'soon'; allowed are numbers, FROM:TO, FROM:TO:NUMBER and all"),
+            ((beam, "--times", "0.2:0.1"), "the first must not be after the last"),
+            ((beam, "--out", "picture.jpg"), "found 'picture.jpg'; allowed are .png, .gif, .webp, .mp4"),
+            ((beam, "--out", "nowhere/picture.png"), "nowhere/picture.png cannot be written: the folder nowhere does not exist"),
+            ((beam, "--out", "foreign.png"), "foreign.png exists and was not made by this program; --overwrite replaces it"),
+            ((beam, "--camera", "somewhere"), "found --camera somewhere; allowed are front, back"),
+            ((beam, "--clip", "right", "5", "0", "0"), "the plane of --clip does not cut the body"),
+            ((beam, "--size", "1", "1"), "found the size 1 x 1; allowed are 64 to 8192 pixels"),
+            ((beam, "--colours", "virids"), "no colours 'virids'; is it viridis?"),
+            ((beam, "--swing"), "--swing is for modes"), ((beam, "--tim", "1"), "unrecognized arguments: --tim 1"),
+            ((beam, "--time", "0", "--times", "0"), "allowed is one of them")))
+        self.assertEqual((self.folder / "foreign.png").read_text(), "a picture of someone else")
+        self.start(beam, *SMALL, "--out", "foreign.png", "--overwrite")
+        self.assertEqual(pixels(self.folder / "foreign.png").shape, (300, 400, 3))
+
+    @unittest.skipUnless(hasattr(vtkRenderingOpenGL2, "vtkXOpenGLRenderWindow"), "this VTK needs no display")
+    def test_without_a_display(self):
+        """Where there is none, and no Xvfb, one line says so."""
+        message = self.start(self.runs / "beam", status=1, env={"PATH": "/nonexistent", "HOME": str(self.folder)})
+        self.assertIn("there is no display, and no Xvfb", message)
+
+
+if __name__ == "__main__":
+    unittest.main()
