@@ -31,12 +31,14 @@ namespace corotet
 
     // Names of what a run writes, as regular expressions of paths relative to
     // the output directory. A folder is removed if it is empty then.
-    const std::array<std::string_view, 5> own_files{
+    const std::array<std::string_view, 6> own_files{
       {R"(study(_[a-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
        R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
-       R"((rows/[^/]+/)?checkpoint/step_[0-9]+\.(h5|json)(\.tmp)?)"}};
+       R"((rows/[^/]+/)?checkpoint/step_[0-9]+\.(h5|json)(\.tmp)?)",
+       // The page of a run, also as it is while scripts/report writes it.
+       R"(report\.html|\.report\.html\..*)"}};
     const std::array<std::string_view, 4> own_folders{
       {"solution",
        "stress_points",

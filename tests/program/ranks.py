@@ -32,6 +32,9 @@ class Ranks(ProgramTest):
         for ranks in (1, 2):
             run = self.run_case("cantilever", f"page{ranks}", "Time integration/End time = 0.03", ranks=ranks, more=("--report",))
             self.assertIn("</html>", (run / "report.html").read_text(encoding="utf-8"))
+        # It is one of the results, which may be replaced.
+        self.run_case("cantilever", "page1", "Time integration/End time = 0.02", "Output/Overwrite = true")
+        self.assertFalse((self.folder / "page1" / "report.html").exists())
 
     def check(self, preconditioner):
         settings = (*STRICT, "Time integration/End time = 0.03", f"Linear solver/Type = {preconditioner}")
