@@ -97,6 +97,9 @@ class Pictures:
         side = (self.run.points - point) @ normal
         if not (side.min() < 0 < side.max()):
             raise WrongInput("the plane of --clip does not cut the body")
+        # By this it misses nodes that are in the plane, where VTK loses pieces of the cut; cells that have a face there are cut, too.
+        point = point - 1e-6 * self.size_of_body * normal / np.linalg.norm(normal)
+        side = (self.run.points - point) @ normal
         cut = (side[self.run.cells].min(axis=1) < 0) & (side[self.run.cells].max(axis=1) > 0)
         return normal, point, np.flatnonzero(cut), inside(self.run.cells[cut], self.run.degree, self.run.degree)
 
