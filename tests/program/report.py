@@ -168,6 +168,7 @@ class Report(ProgramTest):
                 self.browser.click(f"#{name}")
                 self.assertGreater(n_different(before, picture), least)
                 self.assertLess(n_different(before, self.browser.picture("#canvas")), 20)
+        self.check_clip(before)
         # Early states have little stress: their own range shows more of it.
         self.browser.set_value("time", 3)
         picture = self.browser.picture("#canvas")
@@ -177,6 +178,23 @@ class Report(ProgramTest):
         dark = self.browser.picture("#canvas")[2, -2]
         self.assertGreater(background.sum(), 650)
         self.assertLess(dark.sum(), 150)
+
+    def check_clip(self, whole):
+        """A plane across the beam leaves none, about half or all of it, and the cut is grey."""
+        def coloured(picture):
+            return (np.ptp(picture, axis=2) > 60).sum()
+
+        self.browser.set_value("clip", "0")
+        pictures = []
+        for place in (0, 500, 1000):
+            self.browser.set_value("clip-place", place)
+            pictures.append(self.browser.picture("#canvas"))
+        shares = [coloured(picture) / coloured(whole) for picture in pictures]
+        np.testing.assert_allclose(sorted([shares[0], shares[2]]), [0, 1], atol=0.02)
+        self.assertAlmostEqual(shares[1], 0.5, delta=0.2)
+        is_grey = (abs(pictures[1] - [0xb9, 0xc0, 0xc8]).max(axis=2) < 3).sum()
+        self.assertGreater(is_grey, 200)
+        self.browser.set_value("clip", "")
 
     def test_keys(self):
         self.open("motion")
