@@ -113,9 +113,12 @@ class Browser:
         self.settle()
 
     def picture(self, selector):
-        """What is drawn there, as numbers from 0 to 255 (rows x columns x 3)."""
+        """What is drawn there, as numbers from 0 to 255 (rows x columns x 3), without what lies over it: texts change with everything."""
+        others = "for (const one of document.querySelector(arguments[0]).parentElement.children) if (!one.matches(arguments[0]))"
+        self.run(others + "one.style.visibility = 'hidden'", selector)
         self.settle()
         png = self.find(selector).screenshot_as_png
+        self.run(others + "one.style.visibility = ''", selector)
         return np.round(255 * matplotlib.image.imread(io.BytesIO(png))[:, :, :3]).astype(int)
 
 
