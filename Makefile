@@ -10,7 +10,7 @@ PRESETS ?= release debug
 # Not empty: `make bench` takes less than three minutes instead of fifteen, and only small cases.
 QUICK ?=
 
-# Where `make report` has the results of the case, as `make run` has.
+# Where results of the case are by default. The page of an earlier run there is no result that the program replaces.
 OUTPUT = output/$(basename $(notdir $(PRM)))
 
 .PHONY: help run report test verify bench format check clean
@@ -28,9 +28,10 @@ help:
 run:
 	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
 	  cmake --build --preset release --target corotet'
+	@rm -f $(OUTPUT)/report.html
 	@$(TOOLCHAIN) build/release/corotet $(PRM) --set "Output/Overwrite = true" $(ARGUMENTS)
 
-# A run whose computation failed, or that was stopped, has a page, too. The page of an earlier run is no result that the program replaces.
+# A run whose computation failed, or that was stopped, has a page, too.
 report:
 	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
 	  cmake --build --preset release --target corotet'

@@ -106,11 +106,10 @@ def study_chart(rows, error, abscissa, label):
     groups = {}
     for row in rows:
         key = tuple((name, row[name]) for name in ("degree", "mass", "rotation", "refinements", "time_step") if name in row and name != varied)
-        reference = row.get(f"{error}_reference") or 0
-        value = row[f"{error}_error"] / reference if isinstance(reference, float) and reference else row[f"{error}_error"]
-        if isinstance(value, float) and value > 0 and row[abscissa] > 0:
-            groups.setdefault(key, []).append((row[abscissa], value))
-    is_relative = any(isinstance(row.get(f"{error}_reference"), float) and row[f"{error}_reference"] for row in rows)
+        value, x = row[f"{error}_error"], row[abscissa]
+        if isinstance(value, float) and isinstance(x, float) and value > 0 and x > 0:
+            groups.setdefault(key, []).append((x, value / (row.get(f"{error}_reference") or 1)))
+    is_relative = any(row.get(f"{error}_reference") for row in rows)
     series = [{"label": series_label(key), "x": [finite(x) for x, _ in group], "y": [finite(y) for _, y in group]} for key, group in groups.items()]
     title = ERRORS.get(error, f"error of {columns.name(error)}") + (", relative" if is_relative else "")
     return Chart(f"{error}-{abscissa}", title[0].upper() + title[1:], "-", label, columns.any_unit(abscissa), series, log=True, points=True,

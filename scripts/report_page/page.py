@@ -65,9 +65,9 @@ def status(run):
     reached = ""
     if run.kind == "simulation":
         reached = f" It reached t = {run.table['time'][-1]:.6g} s, step {run.table['step'][-1]:.0f}."
-    message = escape(summary.get("message", ""))
-    notices = {"failed": ("failed", f"The computation failed. {message or 'The log says why'}{'' if message.endswith('.') else '.'}{reached}"),
-               "stopped": ("open", f"The run was stopped{f': {message}' if message else ''}.{reached} It can go on by --restart."),
+    message = escape(summary.get("message", "")).rstrip(".")
+    notices = {"failed": ("failed", f"The computation failed: {message or 'the log says why'}.{reached}"),
+               "stopped": ("open", f"The run was stopped: {message or '--restart goes on with it'}.{reached}"),
                "unfinished": ("open", f"The study is not finished: {summary.get('finished_runs')} of {summary.get('runs')} runs are done."),
                "running": ("open", f"The run is under way.{reached} This page shows what there was on {run.date}."),
                "killed": ("open", f"The run has not come to an end: it was killed, or its results were copied while it went on.{reached}")}

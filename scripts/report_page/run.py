@@ -54,8 +54,15 @@ def read_text(path):
         raise ReportError(f"{path} cannot be read: {error.strerror}") from error
 
 
+def number_or_text(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def read_table(path):
-    """The columns of a table: numbers, or texts where not all are. A last row that is being written is left out."""
+    """The columns of a table, with numbers, and texts where there is none. A last row that is being written is left out."""
     try:
         names, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
     except (ValueError, csv.Error) as error:
@@ -64,20 +71,13 @@ def read_table(path):
     if short and short != [len(rows) - 1]:
         raise ReportError(f"{path} is damaged: row {short[0] + 1} has {len(rows[short[0]])} values instead of {len(names)}")
     rows = [row for row in rows if len(row) == len(names)]
-    columns = {}
-    for i, name in enumerate(names):
-        texts = [row[i] for row in rows]
-        try:
-            columns[name] = [float(text) for text in texts]
-        except ValueError:
-            columns[name] = texts
-    return columns
+    return {name: [number_or_text(row[i]) for row in rows] for i, name in enumerate(names)}
 
 
 def read_numbers(path):
     """A table of which all columns are numbers."""
     columns = read_table(path)
-    texts = [name for name, values in columns.items() if values and isinstance(values[0], str)]
+    texts = [name for name, values in columns.items() if any(isinstance(value, str) for value in values)]
     if texts:
         raise ReportError(f"{path} is damaged: column {texts[0]} has what is not a number")
     return columns

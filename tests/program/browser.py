@@ -26,7 +26,6 @@ class Browser:
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
-        self.set_size(1200, 900)
 
     def quit(self):
         self.driver.quit()
@@ -78,7 +77,7 @@ class Browser:
         found = self.run("return [...document.querySelectorAll('data[data-key]')].map((one) => [one.dataset.key, one.value, one.textContent])")
         return {key: (value, text) for key, value, text in found}
 
-    def press(self, *keys, shift=False):
+    def press(self, *keys, shift=False, settled=True):
         """Keys for what has the focus."""
         chain = ActionChains(self.driver)
         if shift:
@@ -88,7 +87,8 @@ class Browser:
         if shift:
             chain.key_up(Keys.SHIFT)
         chain.perform()
-        self.settle()
+        if settled:
+            self.settle()
 
     def set_value(self, name, value):
         """Of an input or a choice, as a person does it: with its events."""
@@ -113,9 +113,12 @@ class Browser:
         self.settle()
 
     def picture(self, selector):
-        """What is drawn there, as numbers from 0 to 255 (rows x columns x 3)."""
+        """What is drawn there, as numbers from 0 to 255 (rows x columns x 3), without what lies over it: texts change with everything."""
+        others = "for (const one of document.querySelector(arguments[0]).parentElement.children) if (!one.matches(arguments[0]))"
+        self.run(others + "one.style.visibility = 'hidden'", selector)
         self.settle()
         png = self.find(selector).screenshot_as_png
+        self.run(others + "one.style.visibility = ''", selector)
         return np.round(255 * matplotlib.image.imread(io.BytesIO(png))[:, :, :3]).astype(int)
 
 

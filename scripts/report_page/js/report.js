@@ -188,7 +188,9 @@ class Report {
     if (axis === null) { this.view.clip(null); return; }
     const [low, high] = this.reach();
     const isOther = byId('clip-flip').getAttribute('aria-pressed') === 'true';
-    this.view.clip(axis, low[axis] + (high[axis] - low[axis]) * Number(byId('clip-place').value) / 1000, this.isNearBelow !== isOther);
+    // From a little before to a little behind the body: flat ends are on one side.
+    const share = -0.002 + 1.004 * Number(byId('clip-place').value) / 1000;
+    this.view.clip(axis, low[axis] + (high[axis] - low[axis]) * share, this.isNearBelow !== isOther);
   }
 
   /** The point that was clicked stays in sight; none, or the same one: no longer. */
