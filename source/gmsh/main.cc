@@ -38,7 +38,7 @@ int
 main(const int argc, char **argv)
 {
   using namespace corotet;
-  if (argc != 10)
+  if (argc != 11)
     {
       std::fputs("corotet-gmsh is started by corotet, which reads meshes "
                  "through it.\n",
@@ -55,6 +55,7 @@ main(const int argc, char **argv)
   const std::uint64_t max_memory = std::strtoull(argv[7], nullptr, 10);
   request.format                 = argv[8];
   request.is_geometry            = argv[9][0] == '1';
+  request.feature_angle          = std::atof(argv[10]);
 
   // Whatever gmsh prints must not be taken for the result.
   const int result = dup(STDOUT_FILENO);

@@ -6,8 +6,10 @@
 #include <gmsh.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "shapes.h"
+#include "surfaces.h"
 
 namespace corotet::gmsh_program
 {
@@ -146,6 +148,33 @@ namespace corotet::gmsh_program
 
 
 
+    void
+    read_and_generate(const GmshRequest &request, GmshModel &model)
+    {
+      if (request.format == "surface")
+        try
+          {
+            read_surface(request);
+            generate(request.element_size);
+          }
+        catch (const std::runtime_error &error)
+          {
+            explain_surface(request, error);
+          }
+      else
+        {
+          if (request.format != "geo" && request.is_geometry)
+            model.groups = read_shapes(request);
+          else
+            gmsh::open(request.path);
+          // After the file, which may set the size, too.
+          if (request.is_geometry)
+            generate(request.element_size);
+        }
+    }
+
+
+
     std::size_t
     n_cells()
     {
@@ -164,16 +193,10 @@ namespace corotet::gmsh_program
   GmshModel
   make_model(const GmshRequest &request)
   {
-    GmshModel  model;
-    const bool has_shapes = request.is_geometry && request.format != "geo";
-    if (has_shapes)
-      model.groups = read_shapes(request);
-    else
-      gmsh::open(request.path);
+    GmshModel model;
+    read_and_generate(request, model);
     if (request.is_geometry)
       {
-        // After the file, which may set the size, too.
-        generate(request.element_size);
         model.is_too_large = n_cells() > request.max_n_cells;
         if (!model.is_too_large)
           {
@@ -188,7 +211,8 @@ namespace corotet::gmsh_program
     if (model.is_too_large)
       return model;
 
-    if (!has_shapes)
+    // Those of shapes and of surfaces are known elsewhere.
+    if (!request.is_geometry || request.format == "geo")
       for (const int dimension : {3, 2})
         {
           auto known = groups(dimension);

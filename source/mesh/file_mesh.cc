@@ -10,6 +10,7 @@
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
 #include <corotet/mesh/mesh_format.h>
+#include <corotet/mesh/surface_mesh.h>
 
 #include <fmt/format.h>
 
@@ -38,18 +39,30 @@ namespace corotet
     SerialMesh
     mesh_by_gmsh(const GmshRequest &request)
     {
-      const GmshModel model = run_gmsh(request);
-      if (model.is_too_large)
-        {
-          std::size_t n_cells = 0;
-          for (const GmshModel::ElementType &type : model.volume_types)
-            n_cells += type.n_elements;
-          check_number_of_cells(n_cells, request.n_refinements);
-        }
-      SerialMesh mesh = mesh_of_model(model, request.path, request.is_geometry);
-      if (request.is_geometry)
-        mesh.n_refinements = request.n_refinements;
-      return mesh;
+      return mesh_of_model(run_gmsh(request),
+                           request.path,
+                           request.is_geometry);
+    }
+
+
+
+    // Throws an InputError if a parameter is given that the format has no use
+    // for.
+    void
+    check_use(const bool         is_used,
+              const std::string &entry,
+              const std::string &path,
+              const double       value,
+              const double       unused,
+              const std::string &reason)
+    {
+      if (!is_used && value != unused)
+        throw InputError(entry,
+                         fmt::format("{}: found {} for '{}'; {} is allowed",
+                                     reason,
+                                     value,
+                                     path,
+                                     unused));
     }
   } // namespace
 
@@ -70,14 +83,22 @@ namespace corotet
       "A mesh or a geometry, relative to the folder of this file: of gmsh "
       "(.msh, version 2.2 to 4.1, ASCII or binary; .geo), Abaqus or CalculiX "
       "(.inp), Nastran (.bdf), UNV, VTK (legacy), Medit or CGNS, or STEP, IGES "
-      "and BREP of CAD programs. The format is known by the content.",
+      "and BREP of CAD programs, or a closed surface of triangles (STL, PLY, "
+      "OBJ, OFF). The format is known by the content.",
       dealii::Patterns::FileName());
     prm.add_parameter("Element size",
                       element_size,
                       "Target length of edges for a geometry [m, before "
-                      "scaling]; 0 leaves it to a .geo, and to the curvature "
-                      "and size of others. A mesh needs 0.",
+                      "scaling]; 0 leaves it to a .geo, keeps the triangles of "
+                      "a surface, and otherwise follows curvature and size. A "
+                      "mesh needs 0.",
                       dealii::Patterns::Double(0));
+    prm.add_parameter("Feature angle",
+                      feature_angle,
+                      "Where a surface of triangles has an edge, which ends a "
+                      "boundary and is kept with another Element size: between "
+                      "normals that differ by more [degree].",
+                      dealii::Patterns::Double(1, 180));
     prm.add_parameter(
       "Geometry degree",
       geometry_degree,
@@ -113,19 +134,24 @@ namespace corotet
       check_geo(path);
     else
       check_end(path, format.format);
-    if (element_size > 0 && !format.is_geometry)
-      throw InputError(section + "Element size",
-                       fmt::format("only a geometry can be given an element "
-                                   "size: found {} for the mesh '{}'; 0 is "
-                                   "allowed",
-                                   element_size,
-                                   path));
-    if (geometry_degree > 1 && !format.is_geometry)
-      throw InputError(section + "Geometry degree",
-                       fmt::format("a mesh has the degree of its cells: found "
-                                   "{} for '{}'; 1 is allowed",
-                                   geometry_degree,
-                                   path));
+    check_use(format.is_geometry,
+              section + "Element size",
+              path,
+              element_size,
+              0,
+              "only a geometry can be given an element size");
+    check_use(format.is_geometry,
+              section + "Geometry degree",
+              path,
+              geometry_degree,
+              1,
+              "a mesh has the degree of its cells");
+    check_use(!format.is_surface,
+              section + "Geometry degree",
+              path,
+              geometry_degree,
+              1,
+              "cells inside of a surface of triangles are straight");
     if (format.format == MeshFormat::abaqus)
       return serial_mesh(read_abaqus_file(path));
 
@@ -142,7 +168,12 @@ namespace corotet
     request.max_n_cells      = largest_number_of_cells(request.n_refinements);
     request.time_limit       = time_limit;
     request.time_limit_entry = section + "Time limit";
-    return mesh_by_gmsh(request);
+    request.feature_angle    = feature_angle;
+    SerialMesh mesh          = format.is_surface ?
+                                 mesh_of_surface(request, format.format) :
+                                 mesh_by_gmsh(request);
+    mesh.n_refinements       = request.n_refinements;
+    return mesh;
   }
 
 
@@ -150,7 +181,8 @@ namespace corotet
   SerialMesh
   read_mesh_file(const std::string &file,
                  const double       element_size,
-                 const unsigned int geometry_degree)
+                 const unsigned int geometry_degree,
+                 const double       feature_angle)
   {
     FileMesh                 source("file");
     dealii::ParameterHandler prm;
@@ -158,6 +190,7 @@ namespace corotet
     prm.set("File", file);
     prm.set("Element size", element_size);
     prm.set("Geometry degree", static_cast<long int>(geometry_degree));
+    prm.set("Feature angle", feature_angle);
     try
       {
         SerialMesh mesh = source.create("");

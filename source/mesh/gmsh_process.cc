@@ -3,20 +3,22 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/programs.h>
+#include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
+
+#include "scratch_folder.h"
 
 namespace corotet
 {
@@ -33,32 +35,16 @@ namespace corotet
         if (request.extension.empty() ||
             std::filesystem::path(path).extension() == request.extension)
           return;
-        std::string name =
-          (std::filesystem::temp_directory_path() / "corotet-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-          throw MachineError(name +
-                             ": cannot be made: " + std::strerror(errno));
-        folder = name;
-        path   = (folder / ("mesh" + request.extension)).string();
+        folder.emplace();
+        path = folder->path("mesh" + request.extension);
         std::filesystem::create_symlink(std::filesystem::absolute(request.path),
                                         path);
-      }
-
-      NamedInput(const NamedInput &) = delete;
-      NamedInput &
-      operator=(const NamedInput &) = delete;
-
-      ~NamedInput()
-      {
-        std::error_code error;
-        if (!folder.empty())
-          std::filesystem::remove_all(folder, error);
       }
 
       std::string path;
 
     private:
-      std::filesystem::path folder;
+      std::optional<ScratchFolder> folder;
     };
 
 
@@ -108,13 +94,15 @@ namespace corotet
 
 
     [[noreturn]] void
-    refuse_end(const GmshRequest &request, const ProgramEnd &end)
+    refuse_end(const GmshRequest &request,
+               const std::string &path,
+               const ProgramEnd  &end)
     {
       std::string what;
       if (end.has_exceeded)
         throw InputError(request.time_limit_entry,
                          fmt::format("{}: gmsh has not come to an end in {} s",
-                                     request.path,
+                                     path,
                                      request.time_limit));
       if (end.signal == SIGINT || end.signal == SIGTERM)
         what = "has been interrupted";
@@ -124,7 +112,7 @@ namespace corotet
       else
         what = fmt::format("has ended with status {} before it had a mesh",
                            end.status);
-      throw InputError("", fmt::format("{}: gmsh {}", request.path, what));
+      throw InputError("", fmt::format("{}: gmsh {}", path, what));
     }
 
 
@@ -215,9 +203,10 @@ namespace corotet
 
 
   GmshModel
-  run_gmsh(const GmshRequest &request)
+  run_gmsh(const GmshRequest &request, const std::string &origin)
   {
-    const std::string program = find_installed("libexec/corotet/corotet-gmsh");
+    const std::string &blamed  = origin.empty() ? request.path : origin;
+    const std::string  program = find_installed("libexec/corotet/corotet-gmsh");
     if (program.empty())
       throw MachineError(
         "libexec/corotet/corotet-gmsh, which reads meshes, is missing: it is "
@@ -236,17 +225,24 @@ namespace corotet
        request.format == "geo" ? folder : input.path,
        std::to_string(memory_limit(request.path, request.is_geometry)),
        request.format,
-       request.is_geometry ? "1" : "0"},
+       request.is_geometry ? "1" : "0",
+       fmt::format("{}", request.feature_angle)},
       request.time_limit);
     if (end.has_exceeded || end.signal != 0 || end.status != 0 ||
         end.output.empty())
-      refuse_end(request, end);
-    const GmshModel model = model_of_bytes(end.output, request.path);
+      refuse_end(request, blamed, end);
+    const GmshModel model = model_of_bytes(end.output, blamed);
     if (!model.error.empty())
       throw InputError(
         "",
-        message_of_gmsh(request.path,
-                        with_name(model.error, input.path, request.path)));
+        message_of_gmsh(blamed, with_name(model.error, input.path, blamed)));
+    if (model.is_too_large)
+      {
+        std::size_t n_cells = 0;
+        for (const GmshModel::ElementType &type : model.volume_types)
+          n_cells += type.n_elements;
+        check_number_of_cells(n_cells, request.n_refinements);
+      }
     return model;
   }
 } // namespace corotet

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -130,6 +132,40 @@ namespace corotet
 
 
 
+    // A binary file of STL begins with anything, but says how long it is: a
+    // header of 80 bytes, a number of triangles, 50 bytes for each.
+    bool
+    has_size_of_stl(const std::string &path, const std::string &bytes)
+    {
+      std::uint32_t n = 0;
+      if (bytes.size() < 84)
+        return false;
+      std::memcpy(&n, bytes.data() + 80, sizeof(n));
+      return std::filesystem::file_size(path) == 84 + 50 * std::uint64_t(n);
+    }
+
+
+
+    // The first line that is no comment is one of OBJ.
+    bool
+    begins_like_obj(const std::string &bytes)
+    {
+      std::istringstream lines(bytes);
+      for (std::string line; std::getline(lines, line);)
+        {
+          std::istringstream words(line);
+          std::string        word;
+          double             x = 0;
+          if (!(words >> word) || word[0] == '#')
+            continue;
+          return word == "mtllib" || word == "o" || word == "g" ||
+                 (word == "v" && words >> x >> x >> x);
+        }
+      return false;
+    }
+
+
+
     std::optional<MeshFormat>
     format_by_content(const std::string &bytes)
     {
@@ -140,6 +176,17 @@ namespace corotet
       if (begin != std::string::npos &&
           bytes.compare(begin, 11, "$MeshFormat") == 0)
         return MeshFormat::msh;
+      const std::string first =
+        begin == std::string::npos ?
+          "" :
+          first_word(bytes.substr(begin, bytes.find('\n', begin) - begin));
+      if (first == "SOLID" && has("facet", n_first_bytes))
+        return MeshFormat::stl;
+      if (bytes.compare(0, 4, "ply\n") == 0 ||
+          bytes.compare(0, 5, "ply\r\n") == 0)
+        return MeshFormat::ply;
+      if (first == "OFF" || first == "COFF" || first == "NOFF")
+        return MeshFormat::off;
       if (has("ISO-10303-21", 200))
         return MeshFormat::step;
       if (has("DBRep_DrawableShape", 200) || has("CASCADE Topology", 200))
@@ -156,8 +203,13 @@ namespace corotet
         return MeshFormat::unv;
       if (begins_like_nastran(bytes))
         return MeshFormat::nastran;
+      if (begins_like_obj(bytes))
+        return MeshFormat::obj;
       return {};
     }
+
+
+
     // The types of cells come last of what makes a mesh of VTK: their number,
     // and a number for each, as text or in four bytes.
     void
@@ -205,6 +257,10 @@ namespace corotet
       {MeshFormat::step, "step", ".step, .stp", "geometry, STEP", true},
       {MeshFormat::iges, "iges", ".iges, .igs", "geometry, IGES", true},
       {MeshFormat::brep, "brep", ".brep", "geometry of OpenCASCADE", true},
+      {MeshFormat::stl, "stl", ".stl", "closed surface, STL", true, true},
+      {MeshFormat::ply, "ply", ".ply", "closed surface, PLY", true, true},
+      {MeshFormat::obj, "obj", ".obj", "closed surface, OBJ", true, true},
+      {MeshFormat::off, "off", ".off", "closed surface, OFF", true, true},
       {MeshFormat::abaqus,
        "abaqus",
        ".inp",
@@ -226,9 +282,14 @@ namespace corotet
     std::string extension = std::filesystem::path(path).extension().string();
     for (char &c : extension)
       c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    const std::optional<MeshFormat> by_content =
-      extension == ".geo" ? MeshFormat::geo :
-                            format_by_content(first_bytes(path));
+    const std::string         bytes = first_bytes(path);
+    std::optional<MeshFormat> by_content;
+    if (extension == ".geo")
+      by_content = MeshFormat::geo;
+    else if (has_size_of_stl(path, bytes))
+      by_content = MeshFormat::stl;
+    else
+      by_content = format_by_content(bytes);
     std::vector<std::string> allowed;
     for (const MeshFormatDescription &format : mesh_formats())
       {

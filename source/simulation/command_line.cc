@@ -153,6 +153,12 @@ namespace corotet
                      mesh.geometry_degree,
                      "Of the cells' maps, for a geometry")
         ->check(CLI::Range(1, 3));
+      command
+        ->add_option("--feature-angle",
+                     mesh.feature_angle,
+                     "Where a surface of triangles has an edge: between "
+                     "normals that differ by more degrees (default: 40)")
+        ->check(CLI::Range(1., 180.));
       command->add_option("--out", mesh.out, "Write the mesh to this .msh file")
         ->type_name("FILE");
       return command;

@@ -33,7 +33,8 @@ namespace corotet
             check_msh_target(asked.out, asked.file);
           const SerialMesh mesh = read_mesh_file(asked.file,
                                                  asked.element_size,
-                                                 asked.geometry_degree);
+                                                 asked.geometry_degree,
+                                                 asked.feature_angle);
           std::cout << mesh_report(mesh);
           if (asked.out.empty())
             return;

@@ -11,6 +11,8 @@
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
 #include <corotet/mesh/mesh.h>
+#include <corotet/mesh/mesh_format.h>
+#include <corotet/mesh/triangle_surface.h>
 
 #include <mpi.h>
 
@@ -84,5 +86,27 @@ namespace fuzz
           mesh = corotet::serial_mesh(corotet::read_abaqus_file(path));
         }))
       use(mesh, 0, 2);
+  }
+
+  // A closed surface that has been accepted has two triangles at each edge, and
+  // all of it belongs to bodies. What is no other file is a binary STL file.
+  void
+  read_surface(const std::string &input)
+  {
+    const std::string path = write("surface", input);
+    is_accepted([&] {
+      const corotet::MeshFormatDescription format =
+        corotet::mesh_format(path, "");
+      corotet::TriangleSurface surface = corotet::read_triangle_file(
+        path, format.is_surface ? format.format : corotet::MeshFormat::stl);
+      corotet::mend_surface(surface);
+      corotet::check_intersections(surface);
+      const auto edges   = corotet::surface_edges(surface);
+      const auto shells  = corotet::surface_shells(surface, edges);
+      const auto patches = corotet::surface_patches(surface, edges, 40);
+      if (2 * edges.size() != 3 * surface.triangles.size() ||
+          shells.bodies.empty() || patches.size() != surface.triangles.size())
+        std::abort();
+    });
   }
 } // namespace fuzz

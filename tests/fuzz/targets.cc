@@ -28,6 +28,7 @@ namespace fuzz
       {"lists", read_list},
       {"mesh_files", read_mesh_file},
       {"parameters", read_parameters},
+      {"surfaces", read_surface},
       {"tables", read_table}};
     return all;
   }

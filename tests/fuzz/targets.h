@@ -50,6 +50,8 @@ namespace fuzz
   void
   read_parameters(const std::string &input);
   void
+  read_surface(const std::string &input);
+  void
   read_table(const std::string &input);
 
   /// Whether @p action comes to its end without refusing its input.

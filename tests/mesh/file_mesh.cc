@@ -182,7 +182,7 @@ TEST(FileMesh, AbaqusByContent)
   EXPECT_NEAR(mesh_quality(read_file(file)).volume, 1 / 6., 1e-15);
   EXPECT_EQ(refusal([&] { read_file(file, "1"); }),
             "Mesh/file/Element size: only a geometry can be given an element "
-            "size: found 1 for the mesh '" +
+            "size: found 1 for '" +
               file + "'; 0 is allowed");
 }
 
@@ -190,10 +190,12 @@ TEST(FileMesh, Refusals)
 {
   const TemporaryFolder folder;
   const std::string     text = folder.write("notes.txt", "Some text.\n");
-  EXPECT_EQ(refusal([&] { read_file(text); }),
-            "Mesh/file/File: the kind of mesh file is unknown: found '" + text +
-              "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, "
-              ".inp, .bdf, .nas, .unv, .vtk, .mesh, .cgns");
+  EXPECT_EQ(
+    refusal([&] { read_file(text); }),
+    "Mesh/file/File: the kind of mesh file is unknown: found '" + text +
+      "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, .stl, "
+      ".ply, .obj, .off, "
+      ".inp, .bdf, .nas, .unv, .vtk, .mesh, .cgns");
   // A file of another kind than its name says.
   const std::string step =
     folder.write("part.step", "ISO-10303-21;\nHEADER;\n");

@@ -182,11 +182,13 @@ TEST(GmshMesh, FileNames)
             "of a .msh or .geo file, say");
   EXPECT_EQ(refusal([] { read_gmsh("../c.msh", "/nowhere/b"); }),
             "Mesh/gmsh/File: there is no mesh file: found '/nowhere/c.msh'");
-  const std::string file = folder.write("x.stl", "");
-  EXPECT_EQ(message(file),
-            "Mesh/gmsh/File: the kind of mesh file is unknown: found '" + file +
-              "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, "
-              ".inp, .bdf, .nas, .unv, .vtk, .mesh, .cgns");
+  const std::string file = folder.write("x.mov", "");
+  EXPECT_EQ(
+    message(file),
+    "Mesh/gmsh/File: the kind of mesh file is unknown: found '" + file +
+      "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, .stl, "
+      ".ply, .obj, .off, "
+      ".inp, .bdf, .nas, .unv, .vtk, .mesh, .cgns");
 }
 
 // A mesh has its size; asking for another one must not be ignored silently.
@@ -196,7 +198,7 @@ TEST(GmshMesh, ElementSizeOfAMesh)
               read_gmsh("bracket.msh", COROTET_SOURCE_DIR "/meshes", "0.01");
             }),
             "Mesh/gmsh/Element size: only a geometry can be given an element "
-            "size: found 0.01 for the mesh '" COROTET_SOURCE_DIR
+            "size: found 0.01 for '" COROTET_SOURCE_DIR
             "/meshes/bracket.msh'; 0 is allowed");
 }
 

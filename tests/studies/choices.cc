@@ -83,5 +83,7 @@ TEST(Choices, Everything)
   EXPECT_EQ(line_with("Meshes ("), "Meshes (Mesh/Type): box, file, gmsh");
   for (const std::string &line : lines_of(list_choices()))
     if (line.starts_with("  "))
-      EXPECT_LE(line.size(), 120u) << line;
+      {
+        EXPECT_LE(line.size(), 120u) << line;
+      }
 }

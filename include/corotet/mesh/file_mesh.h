@@ -34,6 +34,7 @@ namespace corotet
     std::string  section;
     std::string  file;
     double       element_size    = 0;
+    double       feature_angle   = 40;
     unsigned int geometry_degree = 1;
     double       time_limit      = 3600;
   };
@@ -45,7 +46,8 @@ namespace corotet
   SerialMesh
   read_mesh_file(const std::string &file,
                  const double       element_size,
-                 const unsigned int geometry_degree);
+                 const unsigned int geometry_degree,
+                 const double       feature_angle);
 } // namespace corotet
 
 #endif

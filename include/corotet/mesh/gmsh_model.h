@@ -18,7 +18,9 @@ namespace corotet
   struct GmshRequest
   {
     std::string path;
-    /// By its name in mesh_formats().
+    /// By its name in mesh_formats(), or "surface": triangles of closed
+    /// surfaces in a file of gmsh, an entity for each, in the physical group of
+    /// the body that they are around.
     std::string format;
     /// The end of the file's name by which gmsh knows the format; empty if it
     /// knows it by its content.
@@ -26,7 +28,10 @@ namespace corotet
     /// Cells are made of a geometry; a mesh has them.
     bool is_geometry = false;
     /// Of the edges; 0 leaves it to the file.
-    double       element_size  = 0;
+    double element_size = 0;
+    /// Where the surface of triangles has an edge: between normals that differ
+    /// by more [degree].
+    double       feature_angle = 40;
     unsigned int degree        = 1;
     unsigned int n_refinements = 0;
     /// Before the refinements; with more, none are made.

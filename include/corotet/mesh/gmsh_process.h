@@ -13,10 +13,12 @@ namespace corotet
    * memory (of a mesh: ten times its file and 100 MB; of a geometry: that of
    * the machine) and on its time, reads no files outside of the file's folder,
    * writes none and starts no programs. Throws InputError if it fails there or
-   * ends by a signal, and MachineError if it cannot be started.
+   * ends by a signal, or if refinements would make too many cells, and
+   * MachineError if it cannot be started. Errors blame the
+   * file @p origin, which is that of the request if it is empty.
    */
   GmshModel
-  run_gmsh(const GmshRequest &request);
+  run_gmsh(const GmshRequest &request, const std::string &origin = "");
 
   /**
    * The model that such a process has handed back as @p bytes, which may be

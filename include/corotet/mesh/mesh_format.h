@@ -20,7 +20,11 @@ namespace corotet
     medit,
     msh,
     nastran,
+    obj,
+    off,
+    ply,
     step,
+    stl,
     unv,
     vtk
   };
@@ -35,6 +39,8 @@ namespace corotet
     std::string description;
     /// Whether cells are made of a geometry; a mesh has them.
     bool is_geometry;
+    /// Whether the geometry is a surface of triangles.
+    bool is_surface = false;
   };
 
   const std::vector<MeshFormatDescription> &

@@ -17,6 +17,7 @@ namespace corotet
   {
     std::string  file;
     double       element_size    = 0;
+    double       feature_angle   = 40;
     unsigned int geometry_degree = 1;
     /// The .msh file to write; empty: none.
     std::string out;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_source_mesh_surface_lines_h
+#define corotet_source_mesh_surface_lines_h
+
+#include <corotet/mesh/triangle_surface.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace corotet::surface_files
+{
+  /// A whole file in memory, line after line.
+  class Lines
+  {
+  public:
+    Lines(const std::string &path, const std::string &bytes);
+
+    /// Goes on to the next line that has words, without what follows a
+    /// @p comment character in it (0: there are no comments). Returns whether
+    /// there is one.
+    bool
+    next(const char comment = '#');
+
+    /// Of the present line.
+    const std::vector<std::string_view> &
+    words() const
+    {
+      return present;
+    }
+
+    /// What follows the first word, without blanks around it.
+    std::string
+    rest() const;
+
+    /// Where the next line begins [byte].
+    std::size_t
+    position() const
+    {
+      return begin_of_next;
+    }
+
+    /// The number that word @p i of the line is. Throws an InputError if it is
+    /// none, or not finite.
+    double
+    number(const std::size_t i) const;
+
+    /// The same for a whole number.
+    long long
+    integer(const std::size_t i) const;
+
+    /// Three numbers from word @p i on.
+    dealii::Point<3>
+    point(const std::size_t i) const;
+
+    /// Throws an InputError about the present line.
+    [[noreturn]] void
+    refuse(const std::string &message) const;
+
+    /// Throws an InputError about a file that ends too early.
+    [[noreturn]] void
+    refuse_end(const std::string &what) const;
+
+  private:
+    const std::string            &path;
+    const std::string            &bytes;
+    std::string_view              line;
+    std::size_t                   begin_of_next = 0;
+    std::size_t                   line_number   = 0;
+    std::vector<std::string_view> present;
+  };
+
+  void
+  read_stl(const std::string &bytes, TriangleSurface &surface);
+
+  void
+  read_ply(const std::string &bytes, TriangleSurface &surface);
+
+  void
+  read_obj(const std::string &bytes, TriangleSurface &surface);
+
+  void
+  read_off(const std::string &bytes, TriangleSurface &surface);
+
+  /// Adds the triangles of a polygon: its corners, of which there are at least
+  /// three.
+  void
+  add_polygon(TriangleSurface                 &surface,
+              const std::vector<unsigned int> &corners,
+              const unsigned int               group);
+
+  /// Checks that vertices of a file can have the numbers that are used here.
+  void
+  check_number_of_vertices(const TriangleSurface &surface);
+} // namespace corotet::surface_files
+
+#endif

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Closed surfaces of triangles: files, what is mended and what is refused.
+
+#include <gtest/gtest.h>
+
+#include "surfaces.h"
+
+namespace
+{
+  using namespace corotet;
+  using namespace corotet::tests;
+  using dealii::Point;
+
+  const Triangles unit_box = box_triangles({0, 0, 0}, {1, 1, 1});
+
+
+
+  struct SurfaceFiles : public testing::Test
+  {
+    TemporaryFolder folder;
+
+    // Of the triangles of an STL file.
+    TriangleSurface
+    mended(const Triangles &triangles) const
+    {
+      const std::string path = folder.write("mended.stl", stl_text(triangles));
+      TriangleSurface   surface = read_triangle_file(path, MeshFormat::stl);
+      mend_surface(surface);
+      check_intersections(surface);
+      return surface;
+    }
+
+    std::string
+    refusal_of(const Triangles &triangles) const
+    {
+      return refusal([&] { mended(triangles); });
+    }
+
+    static double
+    volume_inside(const TriangleSurface &surface)
+    {
+      Triangles triangles;
+      for (const auto &t : surface.triangles)
+        triangles.push_back({surface.vertices[t[0]],
+                             surface.vertices[t[1]],
+                             surface.vertices[t[2]]});
+      return tests::volume_inside(triangles);
+    }
+  };
+
+
+
+  // All of them say the same, whatever the files are called.
+  TEST_F(SurfaceFiles, Formats)
+  {
+    const Triangles box = box_triangles({-0.1, 0.25, 1. / 3}, {0.7, 1.5, 2});
+    const std::map<std::string, std::string> files{
+      {"stl", stl_text(box, "a box")},
+      {"stl binary", stl_bytes(box)},
+      {"ply", ply_bytes(box, "ascii")},
+      {"ply little", ply_bytes(box, "binary_little_endian")},
+      {"ply big", ply_bytes(box, "binary_big_endian")},
+      {"obj", obj_text(box)},
+      {"off", off_text(box)}};
+    for (const auto &[name, bytes] : files)
+      {
+        SCOPED_TRACE(name);
+        const std::string           path   = folder.write("surface", bytes);
+        const MeshFormatDescription format = mesh_format(path, "");
+        EXPECT_EQ(format.name, name.substr(0, 3));
+        EXPECT_TRUE(format.is_surface && format.is_geometry);
+        TriangleSurface surface = read_triangle_file(path, format.format);
+        EXPECT_EQ(surface.triangles.size(), 12u);
+        mend_surface(surface);
+        EXPECT_EQ(surface.vertices.size(), 8u);
+        EXPECT_TRUE(surface.remarks.empty());
+        // Numbers of binary STL files have seven digits.
+        EXPECT_NEAR(volume_inside(surface),
+                    0.8 * 1.25 * (2 - 1. / 3),
+                    name == "stl binary" ? 1e-7 : 1e-15);
+      }
+  }
+
+
+
+  // Polygons, indices from the end, names of several kinds.
+  TEST_F(SurfaceFiles, NamesOfObj)
+  {
+    const std::string path = folder.write(
+      "names.obj",
+      "o box\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n"
+      "v 1 1 1\nv 0 1 1\nusemtl steel\ng bottom\nf 4 3 2 1\ng top\n"
+      "f -4 -3 -2 -1\ng default\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n"
+      "f 4 1 5 8\n");
+    const TriangleSurface surface = read_triangle_file(path, MeshFormat::obj);
+    EXPECT_EQ(surface.triangles.size(), 12u);
+    const std::vector<std::vector<std::string>> names{
+      {"box", "bottom", "steel"}, {"box", "top", "steel"}, {"box", "steel"}};
+    EXPECT_EQ(surface.names, names);
+    EXPECT_EQ(std::count(surface.groups.begin(), surface.groups.end(), 2u), 8);
+    EXPECT_NEAR(volume_inside(surface), 1, 1e-15);
+  }
+
+
+
+  TEST_F(SurfaceFiles, Damage)
+  {
+    struct Damage
+    {
+      std::string format, bytes, message;
+    };
+    const std::vector<Damage> cases{
+      {"stl",
+       "solid\nfacet\nouter loop\nvertex 0 0 x\n",
+       ":4: a number is expected: found 'x'"},
+      {"stl",
+       "solid\nfacet\nouter loop\nvertex 0 0\n",
+       ":4: a number is missing"},
+      {"stl",
+       "solid\nfacet\nouter loop\nvertex 0 0 1e999\n",
+       ":4: a number is expected: found '1e999'"},
+      {"stl",
+       "solid\nfacet\nouter loop\nvertex 0 0 nan\n",
+       ":4: a number is expected: found 'nan'"},
+      {"stl",
+       "solid\nfacet\nouter\nvertex 0 0 0\nendloop\n",
+       ":5: 'vertex' is expected: found 'endloop'"},
+      {"stl", "solid x\nfacet\n", "the file ends before 'outer'"},
+      {"stl", "solid x\n", "the file ends before 'endsolid'"},
+      {"stl", "solid x\nendsolid\n", "the file has no triangle"},
+      {"stl", "short", "a binary STL file has at least 84 bytes: found 5"},
+      {"stl",
+       stl_bytes(unit_box).substr(0, 600),
+       "a binary STL file with 12 triangles has 684 bytes: found 600: is the rest missing?"},
+      {"off",
+       "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
+       ":6: no such vertex: found 3; allowed are 0 to 2"},
+      {"off",
+       "OFF\n3 1 0\n0 0 0\n1 0 0\n",
+       "the file ends before vertex 3 of 3"},
+      {"off", "OFF BINARY\n", ":1: binary files are not read"},
+      {"off",
+       "OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n",
+       ":6: a face has 3 to 1000 corners: found 2"},
+      {"obj",
+       "v 0 0 0\nf 1 2 3\n",
+       ":2: no such vertex: found '2'; allowed are 1 to 1"},
+      {"obj", "v 0 0 0\nf 1 1 0\n", ":2: no such vertex: found '0'"},
+      {"obj", "v 0 0 0\nf 1 1 a\n", ":2: no such vertex: found 'a'"},
+      {"obj", "v 0 0 0\ncurv 0 1 1 2\n", ":2: the keyword is unknown"},
+      {"ply",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n",
+       ":5: there are no elements 'vertex' with the properties x, y, z"},
+      {"ply",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+       "is this a cloud of points?"},
+      {"ply", "ply\nformat text\n", ":2: the format is unknown: found 'text'"},
+      {"ply",
+       "ply\nformat ascii 1.0\nproperty float x\n",
+       ":3: a property comes before the first element"},
+      {"ply",
+       "ply\nformat ascii 1.0\nelement vertex -1\n",
+       ":3: a number of elements is negative: found -1"},
+      {"ply",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty number x\n",
+       ":4: the type of a property is unknown: found 'number'"},
+      {"ply",
+       ply_bytes(unit_box, "binary_little_endian").substr(0, 300),
+       "the file ends before the last of its elements"}};
+    const std::map<std::string, MeshFormat> formats{{"stl", MeshFormat::stl},
+                                                    {"off", MeshFormat::off},
+                                                    {"obj", MeshFormat::obj},
+                                                    {"ply", MeshFormat::ply}};
+    for (const auto &[format, bytes, message] : cases)
+      {
+        const std::string path = folder.write("damaged", bytes);
+        const std::string said =
+          refusal([&] { read_triangle_file(path, formats.at(format)); });
+        EXPECT_NE(said.find(message), std::string::npos) << said;
+        EXPECT_EQ(said.find(path), 0u) << said;
+      }
+  }
+
+
+
+  // However much of a file is missing, that is said: only what follows its
+  // last triangle may go.
+  TEST_F(SurfaceFiles, CutOffAnywhere)
+  {
+    const std::map<MeshFormat, std::vector<std::string>> files{
+      {MeshFormat::stl, {stl_text(unit_box), stl_bytes(unit_box)}},
+      {MeshFormat::off, {off_text(unit_box)}},
+      {MeshFormat::ply,
+       {ply_bytes(unit_box, "ascii"),
+        ply_bytes(unit_box, "binary_little_endian")}}};
+    for (const auto &[format, texts] : files)
+      for (const std::string &bytes : texts)
+        for (std::size_t n = 1; n + 12 < bytes.size(); n += 7)
+          {
+            const std::string path = folder.write("cut", bytes.substr(0, n));
+            const std::string said = refusal(
+              [&, format = format] { read_triangle_file(path, format); });
+            EXPECT_NE(said, "nothing was refused") << n;
+          }
+  }
+
+
+
+  TEST_F(SurfaceFiles, Mending)
+  {
+    // Vertices that differ in the eighth digit, a triangle twice, one turned
+    // over, one that is an edge.
+    Triangles damaged = unit_box;
+    damaged[0][1][0] += 3e-8;
+    damaged[3][0][2] -= 3e-8;
+    damaged.push_back(unit_box[4]);
+    damaged.push_back({unit_box[5][1], unit_box[5][2], unit_box[5][0]});
+    std::swap(damaged[7][0], damaged[7][1]);
+    damaged.push_back({unit_box[0][0], unit_box[0][1], unit_box[0][1]});
+    const TriangleSurface surface = mended(damaged);
+    EXPECT_EQ(surface.vertices.size(), 8u);
+    EXPECT_EQ(surface.triangles.size(), 12u);
+    EXPECT_NEAR(volume_inside(surface), 1, 1e-7);
+    const std::vector<std::string> remarks{
+      "2 vertices of the surface that lie beside another were merged with it",
+      "1 triangles of the surface that are no more than an edge were left out",
+      "2 further copies of triangles of the surface were left out",
+      "1 triangles of the surface were turned over: they faced the other way "
+      "than their neighbours"};
+    EXPECT_EQ(surface.remarks, remarks);
+
+    // All face inwards: turned without a word, as a hollow would be.
+    const TriangleSurface turned =
+      mended(box_triangles({0, 0, 0}, {1, 1, 1}, true));
+    EXPECT_TRUE(turned.remarks.empty());
+    EXPECT_NEAR(volume_inside(turned), 1, 1e-15);
+  }
+
+
+
+  // A triangle whose corners lie on a line closes a gap that is none: the edge
+  // of a triangle beside two that have a vertex on it.
+  TEST_F(SurfaceFiles, FlatTriangles)
+  {
+    for (const double place : {0.5, 0.25, 1e-3})
+      {
+        // The edge from (0, 0, 0) to (1, 0, 0) has a vertex, for one of its
+        // neighbours.
+        const Point<3> middle(place, 0, 0);
+        Triangles      box = unit_box;
+        const auto     at =
+          std::find_if(box.begin(), box.end(), [](const Corners &t) {
+            const auto is = [&](const unsigned int i, const Point<3> &x) {
+              return t[i].distance(x) == 0;
+            };
+            return is(0, Point<3>()) && is(1, Point<3>(1, 0, 0));
+          });
+        ASSERT_NE(at, box.end());
+        const Corners t = *at;
+        *at             = {t[0], middle, t[2]};
+        box.push_back({middle, t[1], t[2]});
+        box.push_back({t[0], t[1], middle});
+        const TriangleSurface surface = mended(box);
+        EXPECT_EQ(surface.triangles.size(), 14u);
+        EXPECT_NEAR(volume_inside(surface), 1, 1e-15);
+        EXPECT_EQ(surface.remarks,
+                  std::vector<std::string>{
+                    "1 triangles of the surface without area were given to "
+                    "their neighbours"});
+      }
+  }
+
+
+
+  TEST_F(SurfaceFiles, Refusals)
+  {
+    const auto says = [&](const Triangles   &triangles,
+                          const std::string &message) {
+      const std::string said = refusal_of(triangles);
+      EXPECT_NE(said.find(message), std::string::npos) << said;
+    };
+    Triangles open = unit_box;
+    open.pop_back();
+    says(open,
+         "the surface is not closed: found 3 edges of one triangle, the first "
+         "at (");
+
+    // Boxes that share an edge.
+    says(unit_box + box_triangles({1, 1, 0}, {2, 2, 1}),
+         "the surface branches: found 1 edge of more than two triangles, the "
+         "first at (1, 1, 0.5)");
+    // That cross, that touch with a corner in a face, with a part of a face,
+    // with an edge in a face.
+    const std::string crosses = "the surface crosses or touches itself: found ";
+    says(unit_box + box_triangles({0.5, 0.3, 0.2}, {1.5, 1.2, 1.1}), crosses);
+    says(unit_box + box_triangles({1, 0.2, 0.3}, {2, 0.7, 0.6}), crosses);
+    says(unit_box + box_triangles({0.2, 0.3, 0.4}, {2, 0.7, 0.6}), crosses);
+    Triangles corner = box_triangles({0, 0, 0}, {1, 1, 1});
+    for (Corners &t : corner)
+      for (Point<3> &x : t)
+        // Seen along a diagonal, with a corner at (1, 0.3, 0.4).
+        x = Point<3>(1 + x[0] + x[1] + x[2],
+                     0.3 + x[0] - x[1],
+                     0.4 + x[0] + x[1] - 2 * x[2]);
+    says(unit_box + corner, crosses);
+    for (Corners &t : corner)
+      for (Point<3> &x : t)
+        x[0] += 1e-9;
+    EXPECT_NO_THROW(mended(unit_box + corner));
+
+    // A strip with one side.
+    Triangles          strip;
+    const unsigned int n     = 20;
+    const auto         point = [&](const unsigned int i, const double side) {
+      const double angle = 2 * 3.14159265358979 * i / n;
+      const double r     = 2 + side * std::cos(angle / 2);
+      return Point<3>(r * std::cos(angle),
+                      r * std::sin(angle),
+                      side * std::sin(angle / 2));
+    };
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const bool     last = i + 1 == n;
+        const Point<3> a = point(i, -1), b = point(i, 1),
+                       c = last ? point(0, 1) : point(i + 1, -1),
+                       d = last ? point(0, -1) : point(i + 1, 1);
+        strip.push_back({a, c, b});
+        strip.push_back({b, c, d});
+      }
+    says(strip, "the surface is not closed: found 40 edges");
+
+    // Nothing but edges.
+    says({{Point<3>(), Point<3>(), Point<3>(1, 0, 0)}},
+         "all triangles are without area");
+  }
+
+
+
+  TEST_F(SurfaceFiles, ShellsAndPatches)
+  {
+    const Triangles three = box_triangles({0.3, 0.3, 0.3}, {0.6, 0.6, 0.6}) +
+                            box_triangles({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}) +
+                            unit_box + box_triangles({2, 0, 0}, {3, 1, 1});
+    const TriangleSurface surface = mended(three);
+    const auto            edges   = surface_edges(surface);
+    EXPECT_EQ(edges.size(), 4 * 18u);
+    const SurfaceShells shells = surface_shells(surface, edges);
+    ASSERT_EQ(shells.bodies.size(), 3u);
+    // The innermost is a body in the hollow of the third.
+    EXPECT_EQ(shells.bodies[0].shells, std::vector<unsigned int>{0});
+    EXPECT_EQ(shells.bodies[1].shells, (std::vector<unsigned int>{2, 1}));
+    EXPECT_EQ(shells.bodies[2].shells, std::vector<unsigned int>{3});
+    const auto n_patches = [&](const double angle) {
+      const auto patches = surface_patches(surface, edges, angle);
+      return 1 + *std::max_element(patches.begin(), patches.end());
+    };
+    EXPECT_EQ(n_patches(40), 24u);
+    EXPECT_EQ(n_patches(89.9), 24u);
+    EXPECT_EQ(n_patches(90.1), 4u);
+  }
+} // namespace
