@@ -174,17 +174,19 @@ namespace corotet
            parameters.scale,
            comm,
            log,
-           element_degree)
+           element_degree,
+           parameters.selections)
   {}
 
 
 
-  Mesh::Mesh(SerialMesh         mesh,
-             const unsigned int n_refinements,
-             const double       scale,
-             const MPI_Comm     comm,
-             Log               &log,
-             const unsigned int element_degree)
+  Mesh::Mesh(SerialMesh                 mesh,
+             const unsigned int         n_refinements,
+             const double               scale,
+             const MPI_Comm             comm,
+             Log                       &log,
+             const unsigned int         element_degree,
+             const SelectionParameters &selections)
     : tria(comm)
     , region_names("region", {})
     , boundary_names("boundary", {})
@@ -209,6 +211,7 @@ namespace corotet
       log_quality(mesh, element_degree, log);
       for (const std::string &remark : mesh.remarks)
         log.line("  " + remark);
+      select(mesh, selections, log);
       regions    = regions_of(mesh);
       boundaries = boundaries_of(mesh);
     });

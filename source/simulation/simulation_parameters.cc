@@ -67,6 +67,9 @@ namespace corotet
       "vibration; 'convergence study', many runs of either kind, to see what "
       "their results converge to and how fast.");
     section(prm, "Mesh", [&] { mesh.declare_parameters(prm); });
+    section(prm, "Selections", [&] {
+      mesh.selections.declare_parameters(prm);
+    });
     section(prm, "Discretization", [&] {
       prm.add_parameter("Degree",
                         degree,

@@ -8,6 +8,7 @@
 #include <corotet/base/selectable.h>
 #include <corotet/mesh/mesh_names.h>
 #include <corotet/mesh/mesh_source.h>
+#include <corotet/mesh/selections.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -18,7 +19,7 @@ namespace corotet
 {
   /**
    * The parameters of section Mesh: the source, uniform refinements and a
-   * scale.
+   * scale; and those of section Selections, which declares its own.
    */
   struct MeshParameters
   {
@@ -30,6 +31,7 @@ namespace corotet
     Selectable<MeshSource> source;
     unsigned int           n_refinements = 0;
     double                 scale         = 1;
+    SelectionParameters    selections;
   };
 
   /**
@@ -53,12 +55,13 @@ namespace corotet
          const unsigned int    element_degree = 3);
 
     /// The same for a mesh that is already made (it is read on rank 0 only).
-    Mesh(SerialMesh         mesh,
-         const unsigned int n_refinements,
-         const double       scale,
-         const MPI_Comm     comm,
-         Log               &log,
-         const unsigned int element_degree = 3);
+    Mesh(SerialMesh                 mesh,
+         const unsigned int         n_refinements,
+         const double               scale,
+         const MPI_Comm             comm,
+         Log                       &log,
+         const unsigned int         element_degree = 3,
+         const SelectionParameters &selections     = {});
 
     /// Cells carry the region as material id and the surface's faces the
     /// boundary as boundary id, or unnamed_boundary (triangulation.h) where

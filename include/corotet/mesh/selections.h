@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_selections_h
+#define corotet_mesh_selections_h
+
+#include <corotet/base/log.h>
+#include <corotet/mesh/serial_mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace corotet
+{
+  /**
+   * The parameters of section Selections, as text: lists "name: selection".
+   *
+   * A selection combines shapes by "and", "or", "not" and parentheses:
+   * - box x y z x y z: between two corners [m],
+   * - sphere x y z r: around a point [m],
+   * - cylinder x y z x y z r: around the axis between two points [m],
+   * - plane x y z nx ny nz: through a point, with a normal,
+   * - normal nx ny nz [angle]: where the outer normal has this direction,
+   *   within an angle [degree],
+   * - patch x y z [angle]: the smooth patch of the surface that is nearest to a
+   *   point, up to edges where normals differ by more than an angle [degree],
+   * - a name that the mesh has.
+   *
+   * A face is inside of a shape if all its corners are, a cell if its centre
+   * is, both within a millionth of the body's diagonal.
+   */
+  struct SelectionParameters
+  {
+    void
+    declare_parameters(dealii::ParameterHandler &prm);
+
+    std::string boundaries;
+    std::string regions;
+  };
+
+  /**
+   * Gives names to what is selected in a mesh, in addition to those that there
+   * are, and logs how much it is. Throws InputError if a text is no selection,
+   * and if nothing is selected, with the distance of what is nearest.
+   */
+  void
+  select(SerialMesh &mesh, const SelectionParameters &parameters, Log &log);
+} // namespace corotet
+
+#endif

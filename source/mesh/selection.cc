@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include "selection.h"
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace corotet::selections
+{
+  namespace
+  {
+    // More parentheses or nots in each other than anybody writes.
+    constexpr unsigned int max_depth = 100;
+
+    // Reads a selection from left to right; "not" binds closest, then "and".
+    class Parser
+    {
+    public:
+      Parser(const std::string &text,
+             const Members     &members,
+             const std::string &entry)
+        : text(text)
+        , members(members)
+        , entry(entry)
+      {
+        std::string spaced;
+        for (const char c : text)
+          spaced +=
+            c == '(' || c == ')' ? std::string{' ', c, ' '} : std::string(1, c);
+        std::size_t end = 0;
+        for (std::size_t begin = 0;
+             (begin = spaced.find_first_not_of(" \t\n", end)) !=
+             std::string::npos;)
+          {
+            end = std::min(spaced.find_first_of(" \t\n", begin), spaced.size());
+            words.push_back(spaced.substr(begin, end - begin));
+          }
+      }
+
+      Selected
+      parse()
+      {
+        Selected result;
+        result.is_member = any_of();
+        if (next < words.size())
+          refuse("'and' or 'or' is expected");
+        result.shapes = shapes;
+        return result;
+      }
+
+    private:
+      const std::string       &text;
+      const Members           &members;
+      const std::string       &entry;
+      std::vector<std::string> words;
+      std::size_t              next  = 0;
+      unsigned int             depth = 0;
+      std::vector<Shape>       shapes;
+
+      bool
+      is(const std::string &word) const
+      {
+        return next < words.size() && words[next] == word;
+      }
+
+      [[noreturn]] void
+      refuse(const std::string &what) const
+      {
+        const std::string found = next < words.size() ?
+                                    "'" + shortened(words[next], 40) + "'" :
+                                    "the end";
+        throw InputError(
+          entry,
+          fmt::format("{} in '{}': found {}", what, shortened(text), found));
+      }
+
+      std::vector<bool>
+      any_of()
+      {
+        std::vector<bool> result = all_of();
+        while (is("or"))
+          {
+            ++next;
+            const std::vector<bool> other = all_of();
+            for (std::size_t i = 0; i < result.size(); ++i)
+              result[i] = result[i] || other[i];
+          }
+        return result;
+      }
+
+      std::vector<bool>
+      all_of()
+      {
+        std::vector<bool> result = single();
+        while (is("and"))
+          {
+            ++next;
+            const std::vector<bool> other = single();
+            for (std::size_t i = 0; i < result.size(); ++i)
+              result[i] = result[i] && other[i];
+          }
+        return result;
+      }
+
+      std::vector<bool>
+      single()
+      {
+        if (++depth > max_depth)
+          throw InputError(entry,
+                           fmt::format("a selection has more than {} "
+                                       "parentheses or nots in each other",
+                                       max_depth));
+        std::vector<bool> result;
+        if (is("not"))
+          {
+            ++next;
+            result = single();
+            result.flip();
+          }
+        else if (is("("))
+          {
+            ++next;
+            result = any_of();
+            if (!is(")"))
+              refuse("')' is expected");
+            ++next;
+          }
+        else
+          result = shape();
+        --depth;
+        return result;
+      }
+
+      std::vector<bool>
+      shape()
+      {
+        if (next == words.size() || is("and") || is("or") || is(")"))
+          refuse("a shape or a name is expected");
+        std::vector<std::string> own;
+        while (next < words.size() && !is("and") && !is("or") && !is("(") &&
+               !is(")"))
+          own.push_back(words[next++]);
+        if (!is_shape(own[0]))
+          return members.with_name(join(own, " "));
+        const Shape &measured =
+          shapes.emplace_back(measure(own, members, entry));
+        std::vector<bool> result(measured.distances.size());
+        for (std::size_t i = 0; i < result.size(); ++i)
+          result[i] = measured.distances[i] <= 0;
+        return result;
+      }
+    };
+  } // namespace
+
+
+
+  Selected
+  select(const std::string &text,
+         const Members     &members,
+         const std::string &entry)
+  {
+    return Parser(text, members, entry).parse();
+  }
+} // namespace corotet::selections

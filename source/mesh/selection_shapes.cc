@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
+#include <corotet/base/text.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "nearest_triangle.h"
+#include "selection.h"
+
+namespace corotet::selections
+{
+  namespace
+  {
+    using dealii::Point;
+    using Vector  = dealii::Tensor<1, 3>;
+    using Numbers = std::vector<double>;
+
+    struct Kind
+    {
+      /// How many numbers, and how many more there may be.
+      std::size_t n_numbers, n_optional;
+      std::string allowed;
+    };
+
+    const std::map<std::string, Kind> kinds{
+      {"box", {6, 0, "box x y z x y z"}},
+      {"sphere", {4, 0, "sphere x y z radius"}},
+      {"cylinder", {7, 0, "cylinder x y z x y z radius"}},
+      {"plane", {6, 0, "plane x y z nx ny nz"}},
+      {"normal", {3, 1, "normal nx ny nz [angle]"}},
+      {"patch", {3, 1, "patch x y z [angle]"}}};
+
+    // Of normals around a direction, and across the edges of a patch [degree].
+    constexpr double default_angle = 5, default_feature_angle = 40;
+
+
+
+    // Of a whole word, finite.
+    bool
+    parse(const std::string &word, double &number)
+    {
+      const auto [end, error] =
+        std::from_chars(word.data(), word.data() + word.size(), number);
+      return error == std::errc() && end == word.data() + word.size() &&
+             std::isfinite(number);
+    }
+
+
+
+    Point<3>
+    point(const Numbers &numbers, const std::size_t i)
+    {
+      return {numbers[i], numbers[i + 1], numbers[i + 2]};
+    }
+
+
+
+    // The greatest distance of a member's points.
+    template <typename Distance>
+    std::vector<double>
+    of_farthest_point(const Members &members, const Distance &distance)
+    {
+      std::vector<double> result;
+      result.reserve(members.points.size());
+      for (const auto &points : members.points)
+        {
+          double farthest = std::numeric_limits<double>::lowest();
+          for (const Point<3> &x : points)
+            farthest = std::max(farthest, distance(x));
+          result.push_back(farthest - members.tolerance);
+        }
+      return result;
+    }
+
+
+
+    double
+    distance_from_box(const Point<3> &x, const Point<3> &a, const Point<3> &b)
+    {
+      Vector outside;
+      for (unsigned int d = 0; d < 3; ++d)
+        outside[d] = std::max(
+          {0., std::min(a[d], b[d]) - x[d], x[d] - std::max(a[d], b[d])});
+      return outside.norm();
+    }
+
+
+
+    double
+    distance_from_cylinder(const Point<3> &x,
+                           const Point<3> &from,
+                           const Point<3> &to,
+                           const double    radius)
+    {
+      const Vector axis   = (to - from) / to.distance(from);
+      const double along  = (x - from) * axis;
+      const double beyond = std::max({0., -along, along - to.distance(from)});
+      const double aside  = ((x - from) - along * axis).norm() - radius;
+      return std::hypot(beyond, std::max(0., aside));
+    }
+
+
+
+    double
+    degrees_between(const Vector &a, const Vector &b)
+    {
+      return std::atan2(dealii::cross_product_3d(a, b).norm(), a * b) * 180 /
+             std::numbers::pi;
+    }
+
+
+
+    // Of faces in the patch zero, of others how far they are from the point.
+    std::vector<double>
+    distances_from_patch(const Members  &faces,
+                         const Point<3> &x,
+                         const double    angle)
+    {
+      std::vector<double> result;
+      for (const auto &p : faces.points)
+        result.push_back(distance_from_triangle(x, {{p[0], p[1], p[2]}}));
+      if (result.empty())
+        return result;
+      const std::size_t nearest =
+        std::min_element(result.begin(), result.end()) - result.begin();
+      std::vector<unsigned int> patch{static_cast<unsigned int>(nearest)};
+      std::vector<bool>         is_known(result.size(), false);
+      is_known[nearest] = true;
+      for (std::size_t i = 0; i < patch.size(); ++i)
+        {
+          const unsigned int f = patch[i];
+          result[f]            = 0;
+          for (const unsigned int other : faces.neighbours[f])
+            if (!is_known[other] &&
+                degrees_between(faces.normals[f], faces.normals[other]) <=
+                  angle)
+              {
+                is_known[other] = true;
+                patch.push_back(other);
+              }
+        }
+      // One that touches the point but is no part of the patch is outside.
+      for (std::size_t f = 0; f < result.size(); ++f)
+        if (!is_known[f])
+          result[f] = std::max(result[f], std::numeric_limits<double>::min());
+      return result;
+    }
+  } // namespace
+
+
+
+  bool
+  is_shape(const std::string &word)
+  {
+    return kinds.contains(word);
+  }
+
+
+
+  Shape
+  measure(const std::vector<std::string> &words,
+          const Members                  &members,
+          const std::string              &entry)
+  {
+    const std::string &name = words[0];
+    const Kind        &kind = kinds.at(name);
+    Numbers            n;
+    const auto         refuse = [&](const std::string &what) {
+      throw InputError(entry,
+                       fmt::format("{}: found '{}'; allowed is '{}'",
+                                   what,
+                                   shortened(join(words, " ")),
+                                   kind.allowed));
+    };
+    for (std::size_t i = 1; i < words.size(); ++i)
+      if (double number = 0; parse(words[i], number))
+        n.push_back(number);
+      else
+        refuse("a shape has a word that is no number");
+    if (n.size() < kind.n_numbers ||
+        n.size() > kind.n_numbers + kind.n_optional)
+      refuse("a shape has another number of numbers");
+    Shape      shape{join(words, " "), "m", {}};
+    const auto set_distances = [&](const auto &distance) {
+      shape.distances = of_farthest_point(members, distance);
+    };
+    if ((name == "normal" || name == "patch") && members.normals.empty())
+      refuse(
+        fmt::format("a {} has no normal and is on no patch", members.kind));
+    if ((name == "plane" && point(n, 3).norm() == 0) ||
+        (name == "normal" && point(n, 0).norm() == 0))
+      refuse("a direction is zero");
+    if (name == "cylinder" && point(n, 0) == point(n, 3))
+      refuse("an axis has no length");
+    if ((name == "sphere" || name == "cylinder") && n.back() <= 0)
+      refuse("a radius is not positive");
+
+    if (name == "box")
+      set_distances([&](const Point<3> &x) {
+        return distance_from_box(x, point(n, 0), point(n, 3));
+      });
+    else if (name == "sphere")
+      set_distances(
+        [&](const Point<3> &x) { return x.distance(point(n, 0)) - n[3]; });
+    else if (name == "cylinder")
+      set_distances([&](const Point<3> &x) {
+        return distance_from_cylinder(x, point(n, 0), point(n, 3), n[6]);
+      });
+    else if (name == "plane")
+      set_distances([&](const Point<3> &x) {
+        return std::abs((x - point(n, 0)) * point(n, 3)) / point(n, 3).norm();
+      });
+    else if (name == "normal")
+      {
+        shape.unit = "degrees";
+        for (const Vector &normal : members.normals)
+          shape.distances.push_back(degrees_between(normal, point(n, 0)) -
+                                    (n.size() > 3 ? n[3] : default_angle));
+      }
+    else
+      shape.distances =
+        distances_from_patch(members,
+                             point(n, 0),
+                             n.size() > 3 ? n[3] : default_feature_angle);
+    return shape;
+  }
+} // namespace corotet::selections
