@@ -14,6 +14,25 @@
 
 namespace corotet::abaqus
 {
+  /// A part, which instances are copies of.
+  struct Part
+  {
+    Place place;
+    Model model;
+    Scope scope;
+  };
+
+  /// A copy of a part in the assembly.
+  struct Instance
+  {
+    Place       place;
+    std::string name;
+    const Part *part = nullptr;
+    /// A shift, and a turn: two points of the axis and the angle in degrees.
+    std::vector<std::vector<double>> motion;
+    bool                             is_placed = false;
+  };
+
   /// Reads a file, keyword by keyword, into a Model.
   class Reader
   {
@@ -25,23 +44,6 @@ namespace corotet::abaqus
     mesh() const;
 
   private:
-    struct Part
-    {
-      Place place;
-      Model model;
-      Scope scope;
-    };
-
-    struct Instance
-    {
-      Place       place;
-      std::string name;
-      const Part *part = nullptr;
-      /// A shift, and a turn: two points of the axis and the angle in degrees.
-      std::vector<std::vector<double>> motion;
-      bool                             is_placed = false;
-    };
-
     Model &
     current_model();
 
