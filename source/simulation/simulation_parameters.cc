@@ -22,6 +22,17 @@ namespace corotet
       declare_entries();
       prm.leave_subsection();
     }
+
+
+
+    void
+    declare_mesh_parameters(dealii::ParameterHandler &prm, MeshParameters &mesh)
+    {
+      section(prm, "Mesh", [&] { mesh.declare_parameters(prm); });
+      section(prm, "Selections", [&] {
+        mesh.selections.declare_parameters(prm);
+      });
+    }
   } // namespace
 
   SimulationParameters::SimulationParameters()
@@ -66,10 +77,7 @@ namespace corotet
       "load steps; 'modes', its lowest natural frequencies and shapes of "
       "vibration; 'convergence study', many runs of either kind, to see what "
       "their results converge to and how fast.");
-    section(prm, "Mesh", [&] { mesh.declare_parameters(prm); });
-    section(prm, "Selections", [&] {
-      mesh.selections.declare_parameters(prm);
-    });
+    declare_mesh_parameters(prm, mesh);
     section(prm, "Discretization", [&] {
       prm.add_parameter("Degree",
                         degree,
