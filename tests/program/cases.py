@@ -32,7 +32,7 @@ SHORTER = {
     "elastica": (*LOAD_STEPS, "Boundary conditions/Traction = x-max: 0; 0; -800"),
     "gravity_corotational": (*LOAD_STEPS, "Loads/Gravity = 0; 0; -1"),
     "gravity_linear": LOAD_STEPS,
-    "gyroid": ("Mesh/file/Element size = 2",),
+    "gyroid": (*LOAD_STEPS, "Mesh/file/Element size = 2",),
     "lame_sphere": LOAD_STEPS,
     "machine_foundation": ("Time integration/End time = 0.02",),
     "plate_modes": ("Mesh/box/Cells = 4, 4, 1", "Modes/Number = 6"),

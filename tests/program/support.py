@@ -8,7 +8,9 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -74,6 +76,47 @@ def launcher(ranks):
     return ["env", f"TMPDIR={session}", *shlex.split(os.environ["COROTET_MPIRUN"])[:-1], str(ranks)]
 
 
+class ForkServer:
+    """Runs the program on one rank, many times, in children of one process (fork_server.cc), which has loaded its libraries."""
+
+    def __init__(self, server):
+        self.process = subprocess.Popen([server], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.files = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+
+    def run(self, arguments, folder, timeout, memory):
+        """A CompletedProcess with bytes, and the processor time in seconds."""
+        output, errors = (pathlib.Path(self.files.name) / name for name in ("output", "errors"))
+        arguments = [os.environ["COROTET_PROGRAM"], *arguments]
+        request = {"arguments": arguments, "folder": str(folder), "output": str(output), "errors": str(errors), "timeout": timeout, "memory": memory}
+        print(json.dumps(request), file=self.process.stdin, flush=True)
+        answer = json.loads(self.process.stdout.readline())
+        if answer["status"] == -signal.SIGALRM:
+            raise subprocess.TimeoutExpired(arguments, timeout)
+        return subprocess.CompletedProcess(arguments, answer["status"], output.read_bytes(), errors.read_bytes()), answer["seconds"]
+
+
+@functools.cache
+def fork_server():
+    """The one of this process, or None: without COROTET_FORK_SERVER each run is a process of its own from the beginning."""
+    server = os.environ.get("COROTET_FORK_SERVER")
+    return ForkServer(server) if server else None
+
+
+def run_alone(arguments, folder, timeout=600, memory=0):
+    """Runs the program on one rank, with so many bytes of memory (0: any). A CompletedProcess with bytes, and the processor time in
+    seconds."""
+    if fork_server():
+        return fork_server().run([*map(str, arguments)], folder, timeout, memory)
+
+    def limit_memory():
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    run = subprocess.run([os.environ["COROTET_PROGRAM"], *map(str, arguments)], cwd=folder, capture_output=True, timeout=timeout, check=False,
+                         preexec_fn=limit_memory if memory else None)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return run, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
 @functools.cache
 def has_preconditioner(name):
     """Whether this program has it: some need optional parts of the build."""
@@ -95,10 +138,14 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *arguments, status=0, ranks=1):
         """Runs the program; its exit status must be @p status (None: any)."""
-        command = [*launcher(ranks), os.environ["COROTET_PROGRAM"], *map(str, arguments)]
-        run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=600, check=False)
+        if ranks == 1:
+            run, _ = run_alone(arguments, self.folder)
+            run.stdout, run.stderr = run.stdout.decode(), run.stderr.decode()
+        else:
+            command = [*launcher(ranks), os.environ["COROTET_PROGRAM"], *map(str, arguments)]
+            run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=600, check=False)
         if status is not None:
-            self.assertEqual(run.returncode, status, f"exit status of {shlex.join(command)}\n{run.stdout}\n{run.stderr}")
+            self.assertEqual(run.returncode, status, f"exit status of {shlex.join(run.args)}\n{run.stdout}\n{run.stderr}")
         if status == 0 and ranks == 1:
             self.assertEqual(run.stderr, "")
         return run

@@ -12,13 +12,12 @@ With --every N only each N-th row is run, with --only TEXT those whose name has 
 """
 
 import argparse
-import os
 import pathlib
-import resource
 import subprocess
 import sys
 import tempfile
 
+from support import run_alone
 from wrong_input_rows import all_rows
 
 
@@ -29,19 +28,10 @@ def write_files(row, folder):
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
 
 
-def used_seconds():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
 def start(row, folder):
     """Runs the program; the exit status, what it has said, and the processor time."""
-    def limit_memory():
-        resource.setrlimit(resource.RLIMIT_AS, (row.memory, row.memory))
-    before = used_seconds()
-    command = [os.environ["COROTET_PROGRAM"], *row.arguments]
-    run = subprocess.run(command, cwd=folder, capture_output=True, timeout=60, check=False, preexec_fn=limit_memory if row.memory else None)
-    return run.returncode, run.stdout, run.stderr.decode(errors="backslashreplace"), used_seconds() - before
+    run, used = run_alone(row.arguments, folder, 60, row.memory)
+    return run.returncode, run.stdout, run.stderr.decode(errors="backslashreplace"), used
 
 
 def mistakes_of(row, seconds):
