@@ -22,7 +22,7 @@ import subprocess
 import time
 import unittest
 
-from support import ProgramTest, launcher, parameter_text, read_history, read_summary
+from support import ProgramTest, launcher, parameter_text, read_history, read_summary, run_on
 
 BEAM = {"Mesh/Type": "box", "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "8, 1, 1", "Discretization/Degree": "2",
         "Material/Young's modulus": "1e6", "Material/Poisson's ratio": "0.3", "Material/Density": "1000", "Boundary conditions/Fixed": "x-min",
@@ -83,9 +83,8 @@ class Run:
 
     def finish(self, *arguments, ranks=None):
         """Status, what it printed, and its errors."""
-        process = self.start(*arguments, ranks=ranks)
-        out, errors = process.communicate(timeout=300)
-        return process.returncode, out, errors
+        run = run_on(ranks or self.ranks, ["case.prm", *arguments], self.folder, 300)
+        return run.returncode, run.stdout, run.stderr
 
     def kill(self, process):
         """Kills the run: mpirun, if it was started by that, and all ranks, which it does not take along.
@@ -131,8 +130,9 @@ class Checkpoints(ProgramTest):
     def undisturbed(self, kind, ranks=1, entries=None):
         run = Run(self.folder / f"{kind} {ranks} undisturbed".replace(" ", "_"), kind, ranks, entries)
         start = time.monotonic()
-        status, out, errors = run.finish()
-        self.assertEqual(status, 0, out + errors)
+        process = run.start()
+        out, errors = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 0, out + errors)
         return run, time.monotonic() - start
 
     def kill_and_restart(self, kind, undisturbed, seconds, moments, name):
@@ -234,9 +234,7 @@ class Checkpoints(ProgramTest):
                        "COROTET_TEST_FROM": "1", "ASAN_OPTIONS": "verify_asan_link_order=0"}
         for suffix in (".json", ".h5"):
             with self.subTest(suffix=suffix):
-                process = subprocess.run(["env", *(f"{name}={value}" for name, value in environment.items()),
-                                          f"COROTET_TEST_FILES=000032{suffix}", os.environ["COROTET_PROGRAM"], "case.prm", "--restart"],
-                                         cwd=run.folder, capture_output=True, text=True, timeout=60, check=False)
+                process = run_on(1, ["case.prm", "--restart"], run.folder, 60, COROTET_TEST_FILES=f"000032{suffix}", **environment)
                 self.assertEqual(process.returncode, 3, process.stdout + process.stderr)
                 self.assertRegex(process.stderr, "^corotet: error: run/checkpoint/step_000032.*\n$")
                 mark = run.output / ".corotet"

@@ -31,7 +31,7 @@ import sys
 import tempfile
 import unittest
 
-from support import ROOT, ProgramTest, has_preconditioner, launcher, parameter_text, read_history
+from support import ROOT, ProgramTest, has_preconditioner, parameter_text, read_history, run_on
 
 EPSILON = 2.0**-52
 N_SEEDS_IN_CI = 30
@@ -216,10 +216,9 @@ def run(seed, folder):
         file = folder / f"{seed}_{name}.prm"
         file.write_text(parameter_text({**combination.entries, **solver}), encoding="utf-8")
         output = folder / f"{seed}_{name}"
-        command = [*launcher(ranks), os.environ["COROTET_PROGRAM"], str(file), "--output", str(output), "--quiet",
-                   "--set", "Output/Time between results = 1e300"]
+        arguments = [file, "--output", output, "--quiet", "--set", "Output/Time between results = 1e300"]
         try:
-            result = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+            result = run_on(ranks, arguments, folder, 120)
         except subprocess.TimeoutExpired:
             return [f"{name}: no end within 120 s"]
         if result.returncode != 0:

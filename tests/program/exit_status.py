@@ -64,7 +64,7 @@ class ExitStatus(ProgramTest):
         self.assertFalse((self.folder / "ranks_1" / "verification.csv").exists())
 
     def test_failed_computation_on_two_ranks(self):
-        run = self.run_small("Newton/Maximum iterations = 1", "Loads/Gravity = 0; 0; -1e3", status=2, ranks=2)
+        run = self.run_small("Newton/Maximum iterations = 1", "Loads/Gravity = 0; 0; -1e12", status=2, ranks=2)
         # Once, not once per rank; mpirun adds words of its own.
         self.assertEqual(run.stderr.count("corotet: error: "), 1, run.stderr)
         self.assertEqual(read_summary(self.folder / "results")["status"], "failed")

@@ -13,7 +13,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import ROOT, ProgramTest, launcher, read_summary
+from support import ROOT, ProgramTest, launcher, read_summary, run_on
 
 # Two steps of a beam with all kinds of results; the factorisation is on rank 0.
 SETTINGS = ("Mesh/box/Cells = 6, 1, 1", "Discretization/Degree = 2", "Time integration/End time = 0.02", "Output/Stress = both",
@@ -27,11 +27,9 @@ MESSAGE = re.compile("corotet: error: (.*)")
 
 class FailingRanks(ProgramTest):
 
-    def start(self, command, ranks, **environment):
+    def start(self, arguments, ranks, **environment):
         """Exit status and messages of a run."""
-        variables = [f"{name}={value}" for name, value in environment.items()]
-        run = subprocess.run([*launcher(ranks), "env", *variables, *map(str, command)], cwd=self.folder, capture_output=True, text=True,
-                             timeout=60, check=False)
+        run = run_on(ranks, arguments, self.folder, 60, **environment)
         return run.returncode, MESSAGE.findall(run.stderr), run.stderr
 
     def check(self, run, status, text=""):
@@ -45,9 +43,10 @@ class FailingRanks(ProgramTest):
         for kind, ranks, rank in (("machine", 2, 0), ("machine", 2, 1), ("machine", 2, "all"), ("machine", 3, 2), ("input", 2, 1),
                                   ("computation", 3, 0), ("memory", 2, 1), ("bug", 2, 1), ("bug", 3, "all"), ("number", 2, 0)):
             with self.subTest(kind=kind, ranks=ranks, rank=rank):
-                run = self.start([os.environ["COROTET_LONELY_ERROR"], rank, kind], ranks)
+                command = [*launcher(ranks), os.environ["COROTET_LONELY_ERROR"], str(rank), kind]
+                run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
                 status, text = kinds[kind]
-                self.check(run, status, text.format(0 if rank == "all" else rank))
+                self.check((run.returncode, MESSAGE.findall(run.stderr), run.stderr), status, text.format(0 if rank == "all" else rank))
 
     def fail_everywhere(self, settings, ranks, rank, n_runs):
         """The first failure at each of @p n_runs operations, evenly from the first to the last."""
@@ -55,7 +54,7 @@ class FailingRanks(ProgramTest):
                    "ASAN_OPTIONS": "verify_asan_link_order=0"}
         directory = self.folder / "results"
         overrides = [word for setting in settings for word in ("--set", setting)]
-        command = [os.environ["COROTET_PROGRAM"], ROOT / "parameters" / "cantilever.prm", *overrides, "--output", directory, "--quiet"]
+        command = [ROOT / "parameters" / "cantilever.prm", *overrides, "--output", directory, "--quiet"]
         count = self.folder / "count"
         shutil.rmtree(directory, ignore_errors=True)
         run = self.start(command, ranks, COROTET_TEST_FROM=10**6, COROTET_TEST_MODE="from", COROTET_TEST_COUNT=count, **preload)
@@ -85,7 +84,7 @@ class FailingRanks(ProgramTest):
         # Rank 0 reads for all: that others cannot does not matter.
         (self.folder / "table.csv").write_text("0, 0\n1, 1\n", encoding="utf-8")
         (self.folder / "case.prm").write_text("subsection Tables\n  set Linear = f: table.csv\nend\n", encoding="utf-8")
-        program = [os.environ["COROTET_PROGRAM"], "case.prm", "--validate", "--quiet"]
+        program = ["case.prm", "--validate", "--quiet"]
         for file, status in (("case.prm", 1), ("table.csv", 3)):
             for ranks, rank, expected in ((2, 0, status), (2, 1, 0), (2, "all", status), (3, 2, 0)):
                 with self.subTest(file=file, ranks=ranks, rank=rank):

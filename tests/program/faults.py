@@ -19,7 +19,7 @@ import subprocess
 import sys
 import unittest
 
-from support import ProgramTest, launcher, parameter_text, read_summary
+from support import ProgramTest, parameter_text, read_summary, run_on
 from checkpoints import IMPLICIT, different, results_of, rows_without_time
 
 CASE = {**IMPLICIT, "Mesh/box/Cells": "2, 1, 1", "Discretization/Degree": "1", "Time integration/End time": "0.16",
@@ -33,11 +33,9 @@ MESSAGE = re.compile(r"corotet: error: (.*)")
 class Faults(ProgramTest):
 
     def start(self, ranks, *arguments, **environment):
-        variables = [f"{name}={value}" for name, value in environment.items()]
-        command = [*launcher(ranks), "env", *variables, os.environ["COROTET_PROGRAM"], "case.prm", "--output", str(self.folder / "results"),
-                   "--quiet", *arguments]
+        arguments = ["case.prm", "--output", str(self.folder / "results"), "--quiet", *arguments]
         try:
-            run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
+            run = run_on(ranks, arguments, self.folder, 60, **environment)
         except subprocess.TimeoutExpired:
             self.fail(f"a run hangs: {environment}")
         return run.returncode, run.stderr

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Runs the program as often as it is asked to, each time in a new child of this process, which has loaded the program's some two
-// hundred libraries once: that takes most of the time of a short run. Nothing else has happened before in a child, so it is what the
-// program itself would be.
+// Runs the program as often as it is asked to, each time in a new child of this
+// process, which has loaded the program's some two hundred libraries once: that
+// takes most of the time of a short run. Nothing else has happened before in a
+// child, so it is what the program itself would be.
 //
-// Requests are lines of JSON on standard input: "arguments" (the first is the program's name), "folder" (where to run), "output" and
-// "errors" (files for the child's standard output and errors), "timeout" in seconds, "memory", a limit in bytes or 0. The answer to each is a line of JSON on standard
-// output: "status", the exit status, or minus the signal that ended the child, and "seconds" of processor time. support.py asks.
+// Requests are lines of JSON on standard input: "arguments" (the first is the
+// program's name), "folder" (where to run), "output" and "errors" (files for
+// the child's standard output and errors), "timeout" in seconds, "memory", a
+// limit in bytes or 0, "environment" (further variables). The answer to each is
+// a line of JSON on standard output: "status", the exit status, or minus the
+// signal that ended the child, and "seconds" of processor time. support.py
+// asks.
 
 #include <corotet/studies/program.h>
 
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -44,6 +49,8 @@ namespace
     redirect(request.at("errors"), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
     if (chdir(request.at("folder").get<std::string>().c_str()) != 0)
       _exit(127);
+    for (const auto &[name, value] : request.at("environment").items())
+      setenv(name.c_str(), value.get<std::string>().c_str(), 1);
     if (const rlim_t memory = request.at("memory"); memory != 0)
       {
         const rlimit limit{memory, memory};
@@ -51,12 +58,13 @@ namespace
       }
     alarm(request.at("timeout").get<unsigned int>());
 
-    static auto         words = request.at("arguments").get<std::vector<std::string>>();
+    static auto words = request.at("arguments").get<std::vector<std::string>>();
     std::vector<char *> arguments;
     for (std::string &word : words)
       arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    std::exit(corotet::run_program(static_cast<int>(words.size()), arguments.data()));
+    std::exit(
+      corotet::run_program(static_cast<int>(words.size()), arguments.data()));
   }
 } // namespace
 
@@ -75,9 +83,12 @@ main()
       rusage usage{};
       if (child < 0 || wait4(child, &status, 0, &usage) != child)
         return 1;
-      const double seconds = usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
-                             1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-      const int    end     = WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
-      std::cout << nlohmann::json{{"status", end}, {"seconds", seconds}}.dump() << std::endl;
+      const double seconds =
+        usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
+        1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+      const int end =
+        WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+      std::cout << nlohmann::json{{"status", end}, {"seconds", seconds}}.dump()
+                << std::endl;
     }
 }

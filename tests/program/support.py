@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What the tests of the program share. The environment says what to run: COROTET_PROGRAM, COROTET_MPIRUN (words)."""
+"""What the tests of the program share. The environment says what to run: COROTET_PROGRAM, COROTET_MPIRUN (words), and, if
+short runs are to share the loading of libraries, COROTET_FORK_SERVER."""
 
 import csv
 import functools
@@ -79,15 +80,17 @@ def launcher(ranks):
 class ForkServer:
     """Runs the program on one rank, many times, in children of one process (fork_server.cc), which has loaded its libraries."""
 
-    def __init__(self, server):
-        self.process = subprocess.Popen([server], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    def __init__(self, server, preloaded):
+        environment = {**os.environ, "LD_PRELOAD": preloaded} if preloaded else None
+        self.process = subprocess.Popen([server], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
         self.files = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 
-    def run(self, arguments, folder, timeout, memory):
+    def run(self, arguments, folder, timeout, memory, environment):
         """A CompletedProcess with bytes, and the processor time in seconds."""
         output, errors = (pathlib.Path(self.files.name) / name for name in ("output", "errors"))
-        arguments = [os.environ["COROTET_PROGRAM"], *arguments]
-        request = {"arguments": arguments, "folder": str(folder), "output": str(output), "errors": str(errors), "timeout": timeout, "memory": memory}
+        arguments = [os.environ["COROTET_PROGRAM"], *map(str, arguments)]
+        request = {"arguments": arguments, "folder": str(folder), "output": str(output), "errors": str(errors), "timeout": timeout, "memory": memory,
+                   "environment": {name: str(value) for name, value in environment.items()}}
         print(json.dumps(request), file=self.process.stdin, flush=True)
         answer = json.loads(self.process.stdout.readline())
         if answer["status"] == -signal.SIGALRM:
@@ -96,25 +99,37 @@ class ForkServer:
 
 
 @functools.cache
-def fork_server():
-    """The one of this process, or None: without COROTET_FORK_SERVER each run is a process of its own from the beginning."""
-    server = os.environ.get("COROTET_FORK_SERVER")
-    return ForkServer(server) if server else None
+def fork_server(preloaded=None):
+    """The one of this process that was started with that library."""
+    return ForkServer(os.environ["COROTET_FORK_SERVER"], preloaded)
 
 
-def run_alone(arguments, folder, timeout=600, memory=0):
-    """Runs the program on one rank, with so many bytes of memory (0: any). A CompletedProcess with bytes, and the processor time in
-    seconds."""
-    if fork_server():
-        return fork_server().run([*map(str, arguments)], folder, timeout, memory)
+def run_alone(arguments, folder, timeout=600, memory=0, **environment):
+    """Runs the program on one rank, with so many bytes of memory (0: any) and further variables of the environment. A
+    CompletedProcess with bytes, and the processor time in seconds. Without COROTET_FORK_SERVER each run is a process of its own
+    from the beginning."""
+    if "COROTET_FORK_SERVER" in os.environ:
+        return fork_server(environment.pop("LD_PRELOAD", None)).run(arguments, folder, timeout, memory, environment)
 
     def limit_memory():
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     run = subprocess.run([os.environ["COROTET_PROGRAM"], *map(str, arguments)], cwd=folder, capture_output=True, timeout=timeout, check=False,
+                         env={**os.environ, **{name: str(value) for name, value in environment.items()}},
                          preexec_fn=limit_memory if memory else None)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return run, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def run_on(ranks, arguments, folder, timeout=600, **environment):
+    """Runs the program on so many ranks, with further variables of the environment. A CompletedProcess with text."""
+    if ranks == 1:
+        run, _ = run_alone(arguments, folder, timeout, **environment)
+        run.stdout, run.stderr = (text.decode(errors="backslashreplace") for text in (run.stdout, run.stderr))
+        return run
+    variables = ["env", *(f"{name}={value}" for name, value in environment.items())]
+    command = [*launcher(ranks), *variables, os.environ["COROTET_PROGRAM"], *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=timeout, check=False)
 
 
 @functools.cache
@@ -138,12 +153,7 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *arguments, status=0, ranks=1):
         """Runs the program; its exit status must be @p status (None: any)."""
-        if ranks == 1:
-            run, _ = run_alone(arguments, self.folder)
-            run.stdout, run.stderr = run.stdout.decode(), run.stderr.decode()
-        else:
-            command = [*launcher(ranks), os.environ["COROTET_PROGRAM"], *map(str, arguments)]
-            run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=600, check=False)
+        run = run_on(ranks, arguments, self.folder)
         if status is not None:
             self.assertEqual(run.returncode, status, f"exit status of {shlex.join(run.args)}\n{run.stdout}\n{run.stderr}")
         if status == 0 and ranks == 1:
