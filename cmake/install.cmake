@@ -27,6 +27,10 @@ install(DIRECTORY parameters meshes DESTINATION ${data} COMPONENT ${runtime})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${runtime})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT ${runtime})
 install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT ${runtime})
+install(FILES doc/corotet.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${runtime})
+install(FILES scripts/completion/corotet.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME corotet COMPONENT ${runtime})
+install(FILES scripts/completion/_corotet DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT ${runtime})
+install(FILES scripts/completion/corotet.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT ${runtime})
 # The tutorial's project.
 install(DIRECTORY tests/external/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT ${development})
 

@@ -5,6 +5,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/base/parameter_file.h>
 #include <corotet/base/parameter_listing.h>
+#include <corotet/base/parameter_schema.h>
 #include <corotet/base/text.h>
 
 #include <deal.II/base/utilities.h>
@@ -270,6 +271,8 @@ namespace corotet
       print_json(tree(), out);
     else if (style == "markdown")
       print_markdown(tree(), out);
+    else if (style == "schema")
+      print_schema(tree(), out);
     else
       {
         Assert(style == "prm", dealii::ExcMessage("Unknown style " + style));

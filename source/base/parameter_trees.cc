@@ -295,6 +295,10 @@ namespace corotet
       }
     if (!tree.is_object())
       refuse_statement(path, "it must be one JSON object, {...}");
+    // Names the file's schema, for editors.
+    if (const auto schema = tree.find("$schema");
+        schema != tree.end() && schema->is_string())
+      tree.erase(schema);
     Statements statements;
     collect(tree, "", path, statements);
     return statements;

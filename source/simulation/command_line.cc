@@ -18,7 +18,10 @@ namespace corotet
 {
   namespace
   {
-    const std::vector<std::string> styles = {"prm", "json", "markdown"};
+    const std::vector<std::string> styles = {"prm",
+                                             "json",
+                                             "markdown",
+                                             "schema"};
 
     [[noreturn]] void
     fail(const std::string &message)
@@ -113,7 +116,7 @@ namespace corotet
             command_line.print_parameters,
             "List every entry: default, allowed values, units, meaning")
           ->expected(0, 1)
-          ->type_name("[prm|json|markdown]");
+          ->type_name("[prm|json|markdown|schema]");
       app.add_flag(
         "--restart",
         command_line.restart,

@@ -5,6 +5,7 @@
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/programs.h>
+#include <corotet/base/unused_entries.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
 #include <corotet/output/history_writer.h>
@@ -23,6 +24,8 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace corotet
 {
@@ -89,6 +92,8 @@ namespace corotet
                            "--restart: found 'modes'; allowed: 'simulation', "
                            "or 'convergence study', whose finished runs are "
                            "kept");
+        for (const std::string &line : unused_entries())
+          log.warning(line);
         directory = parameters.output.directory_of_run(command.parameter_file);
         // Before the work starts; nothing is removed before all input is
         // checked.
@@ -117,6 +122,17 @@ namespace corotet
       }
 
     private:
+      std::vector<std::string>
+      unused_entries() const
+      {
+        std::vector<std::string> used;
+        // As its description says.
+        const nlohmann::ordered_json solver = file.values().at("Linear solver");
+        if (solver.at("p-multigrid").at("Coarse solver") == "amg")
+          used.push_back("Linear solver/amg");
+        return find_unused_entries(file, used);
+      }
+
       void
       compute()
       {

@@ -183,7 +183,7 @@ def command_line_rows():
             ("control characters", ("--\x1b[2J",), "command line: ", "\\x1b[2J"))):
         yield Row(f"command line: {name}", list(parts[1:]), parts[0], ["case.prm", "--quiet", "--output", "results", "--validate", *arguments], {"case.prm": text})
     yield Row("command line: no file", ["a parameter file is needed"], "command line: ", ["--validate"], {})
-    yield Row("command line: style", ["prm, json, markdown"], "command line: ", ["--print-parameters", "yaml"], {})
+    yield Row("command line: style", ["prm, json, markdown, schema"], "command line: ", ["--print-parameters", "yaml"], {})
 
 
 def output_rows():

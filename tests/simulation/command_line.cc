@@ -179,7 +179,7 @@ TEST(CommandLine, RefusesAnUnknownStyle)
 {
   EXPECT_EQ(command_line_refusal({"--print-parameters", "xlm"}),
             "command line: \"xlm\" is no style of --print-parameters; allowed "
-            "are prm, json, markdown");
+            "are prm, json, markdown, schema");
 }
 
 TEST(CommandLine, RefusesAnOptionWithoutItsValue)

@@ -57,6 +57,18 @@ namespace corotet
     std::string
     location(const std::string &entry) const;
 
+    /// Whether the file or the command line has set "Section/Subsection/Entry".
+    bool
+    is_set(const std::string &entry) const
+    {
+      return places.contains(entry);
+    }
+
+    /// All declared entries with their present values, as ParameterHandler
+    /// prints them; parameter_listing.h knows its nodes.
+    nlohmann::ordered_json
+    tree() const;
+
     /// The text of every entry as used: an object per section.
     nlohmann::ordered_json
     values() const;
@@ -72,7 +84,7 @@ namespace corotet
     std::string
     folder() const;
 
-    /// Lists all entries. @p style: "prm", "json" or "markdown".
+    /// Lists all entries. @p style: "prm", "json", "markdown" or "schema".
     void
     print(std::ostream &out, const std::string &style) const;
 
@@ -85,10 +97,6 @@ namespace corotet
     write_effective(const std::string &path) const;
 
   private:
-    // All declared entries, with their present values.
-    nlohmann::ordered_json
-    tree() const;
-
     void
     apply(const ParameterStatement     &statement,
           const nlohmann::ordered_json &declared);
