@@ -68,7 +68,7 @@ mathjax2_config = {
     "jax": ["input/TeX", "output/SVG"],
     "extensions": ["tex2jax.js"],
     "TeX": {"extensions": ["AMSmath.js", "AMSsymbols.js", "noErrors.js", "noUndefined.js"]},
-    "SVG": {"font": "TeX", "linebreaks": {"automatic": True}},
+    "SVG": {"font": "TeX", "scale": 90},
     "tex2jax": {"inlineMath": [["\\(", "\\)"]], "displayMath": [["\\[", "\\]"]], "processClass": "math", "ignoreClass": ".*"},
     "showMathMenu": False,
     "messageStyle": "none",

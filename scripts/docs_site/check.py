@@ -18,11 +18,12 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self, path):
         super().__init__()
-        self.links, self.loaded, self.places = [], [], set()
+        self.links, self.loaded, self.places, self.n_modules = [], [], set(), 0
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag, attrs):
         attributes = dict(attrs)
+        self.n_modules += tag == "script" and attributes.get("type") == "module" and "src" in attributes
         self.places |= {attributes[name] for name in ("id", "name") if attributes.get(name)}
         for name in ("href", "src"):
             target = attributes.get(name)
@@ -62,6 +63,7 @@ def mistakes(site, without=()):
     found = []
     for path, page in pages.items():
         found += broken_links(site, path, page, pages, without)
+        found += [f"{path.relative_to(site)}: a module of JavaScript, which browsers do not load from a folder" for _ in range(page.n_modules)]
         found += [f"{path.relative_to(site)}: {target} is loaded from a network" for target in page.loaded if not is_local(target) and
                   not target.startswith("data:")]
     here = {str(ROOT), str(pathlib.Path.home())} - {"/"}

@@ -39,7 +39,7 @@ def sections(program):
 
 def example(section):
     """Its text and its lines."""
-    comment, lines = re.match(r"((?:#.*\n)+)\n*(.*)", (EXAMPLES / f"{slug(section)}.prm").read_text(encoding="utf-8"), re.DOTALL).groups()
+    comment, lines = re.match(r"((?:#[^\n]*\n)+)\n*(.*)", (EXAMPLES / f"{slug(section)}.prm").read_text(encoding="utf-8"), re.DOTALL).groups()
     return re.sub(r"^# ?", "", comment, flags=re.MULTILINE), lines
 
 
