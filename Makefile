@@ -23,7 +23,7 @@ help:
 	@echo 'make test                        build and test: Release and Debug'
 	@echo 'make verify                      compare cases with known answers; status 1 if one is off'
 	@echo 'make bench [QUICK=1]             measure; status 1 if a required ratio is not reached'
-	@echo 'make docs [GALLERY=no]            the documentation as a site with search: build/docs/index.html'
+	@echo 'make docs [GALLERY=no]           the documentation as a site with search: build/docs/index.html'
 	@echo 'make format                      format the C++ files'
 	@echo 'make check                       check formatting, layering, the lines of the documentation, and what has changed by clang-tidy'
 	@echo 'make clean                       remove what was built (not results)'

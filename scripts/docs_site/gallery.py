@@ -68,7 +68,8 @@ def write(program, pages, run=True):
         copy(f"parameters/{name}.prm", pages)
         changes = "; ".join(f"`{setting}`" for setting in settings)
         texts += [f"## {name}", "", title(text) + "." + (f" Shortened by {changes}." if changes else ""), "",
-                  "    " + f"make report PRM=parameters/{name}.prm", "", f"The [parameter file](parameters/{name}.prm):", "", "```prm", text.rstrip("\n"), "```", ""]
+                  f"    make report PRM=parameters/{name}.prm", "", f"The [parameter file](parameters/{name}.prm):", "",
+                  "```prm", text.rstrip("\n"), "```", ""]
     shorter = "Some were shortened for this page, as said below." if run else "This site was made without the pages of runs."
     grid = ['<div class="gallery">', *cards, "</div>", ""] if cards else []
     write_page(pages, "gallery.md", HEAD.format(n=len(CASES), shorter=shorter) + "\n".join([*grid, "", *texts]))

@@ -4,15 +4,18 @@
 """scripts/docs makes a site whose links lead somewhere and that wants no network; and its check of that finds what is wrong.
 
 The site is made without gallery and API, which take longer and have nothing of pages in them. What it must have is what its pages say: a page for each
-section of parameters with the entries that the program has, equations, links from keys to references, an index for the search.
+section of parameters with the entries that the program has, equations, links from keys to references. In a browser, from the folder and so without any
+network: equations are drawn, the search finds the pages that have a word, the colours are those that the system asks for, and what is loaded is in the site.
 """
 
 import os
 import re
 import subprocess
 import sys
+import time
 import unittest
 
+from browser import Browser
 from support import ROOT, ProgramTest
 
 sys.path.insert(0, str(ROOT / "scripts"))
@@ -45,12 +48,42 @@ class DocsSite(ProgramTest):
         self.has(site / "_static" / "scripts" / "furo.js", "root.Gumshoe", "cycleThemeOnce")
         # Commands of README.md are on the page that the site begins with.
         self.has(site / "index.html", "make run")
+        self.check_in_browser(site)
         # A folder of something else is not replaced.
         other = self.folder / "other"
         other.mkdir()
         (other / "kept.txt").write_text("kept", encoding="utf-8")
         self.assertIn("no site", self.make("--out", other, status=1).stderr)
         self.assertEqual((other / "kept.txt").read_text(encoding="utf-8"), "kept")
+
+    def check_in_browser(self, site):
+        browser = Browser()
+        self.addCleanup(browser.quit)
+        browser.set_size(400, 800)
+        browser.set_media(prefers_color_scheme="dark")
+
+        def wait_for(script):
+            end = time.monotonic() + 30
+            while not browser.run(script):
+                self.assertLess(time.monotonic(), end, script)
+                time.sleep(0.05)
+
+        browser.driver.get((site / "doc" / "physics.html").as_uri())
+        wait_for("return document.querySelectorAll('.MathJax_SVG').length >= document.querySelectorAll('.math').length")
+        self.assertGreater(browser.run("return document.querySelectorAll('.math').length"), 100)
+        self.assertEqual(browser.messages(), [])
+        self.assertEqual([url for url in browser.requests() if not url.startswith(site.as_uri())], [])
+        # Nothing is wider than the screen; the ground is dark, and light when the reader wants it.
+        self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), 400)
+        ground = "return parseInt(getComputedStyle(document.body).backgroundColor.match(/[0-9]+/)[0])"
+        self.assertLess(browser.run(ground), 60)
+        browser.run("[...document.querySelectorAll('.theme-toggle')].find((one) => one.offsetParent).click()")
+        self.assertGreater(browser.run(ground), 200)
+
+        browser.driver.get((site / "search.html").as_uri() + "?q=dashpots")
+        # Results appear one after another.
+        found = "const found = [...document.querySelectorAll('#search-results li a')].map((one) => one.textContent);"
+        wait_for(f"{found} return ['Equations', 'Supports'].every((title) => found.includes(title))")
 
     def test_check(self):
         # One mistake of each kind, and what looks like one.
@@ -60,7 +93,8 @@ class DocsSite(ProgramTest):
         (self.folder / "b.html").write_text('<p id="there"></p>', encoding="utf-8")
         self.assertEqual(check.mistakes(self.folder), [])
         (self.folder / "b.html").write_text('<p><a href="none.html">1</a><a href="a.html#nowhere">2</a><a href="../out.html">3</a>'
-                                            f'<script src="https://example.org/a.js"></script><script type="module" src="a.html"></script>{ROOT}/build</p>', encoding="utf-8")
+                                            f'<script src="https://example.org/a.js"></script><script type="module" src="a.html"></script>{ROOT}/build</p>',
+                                            encoding="utf-8")
         found = check.mistakes(self.folder)
         for words in ("none.html does not exist", "a.html#nowhere: that page has no such place", "../out.html does not exist",
                       "https://example.org/a.js is loaded from a network", "has a path of this machine", "a module of JavaScript"):
