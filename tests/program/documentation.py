@@ -36,6 +36,21 @@ class Documentation(ProgramTest):
                 path = page.parent / "".join(target)
                 self.assertTrue(path.exists(), f"{page.name} refers to {path}")
 
+    def test_names_of_files(self):
+        # Files of the project, headers by their folder, and targets of make that pages name are there.
+        targets = re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+        missing = []
+        for page in PAGES:
+            text = page.read_text(encoding="utf-8")
+            for name in re.findall(r"`(?:scripts/toolchain )?((?:scripts|benchmarks|tests|parameters|meshes|doc|cmake)/[\w./-]+)", text):
+                if not re.search("NAME|SECTION|LAYER", name) and not (ROOT / name).exists():
+                    missing.append((page.name, name))
+            for name in re.findall(r"`([a-z_]+/\w+\.h)`", text):
+                if not any((ROOT / folder / name).exists() for folder in ("include/corotet", "include", "tests", ".")):
+                    missing.append((page.name, name))
+            missing += [(page.name, f"make {target}") for target in re.findall(r"`make ([a-z]+)", text) if target not in targets]
+        self.assertEqual(missing, [])
+
     def test_contents_of_site(self):
         # The site has all pages.
         self.assertEqual(sorted(tree.files()), sorted(str(page.relative_to(ROOT)) for page in [*PAGES, ROOT / "CHANGELOG.md"]
