@@ -9,11 +9,13 @@ ARGUMENTS ?=
 PRESETS ?= release debug
 # Not empty: `make bench` takes less than three minutes instead of fifteen, and only small cases.
 QUICK ?=
+# no: `make docs` leaves out the gallery, whose cases take most of its time.
+GALLERY ?= yes
 
 # Where results of the case are by default. The page of an earlier run there is no result that the program replaces.
 OUTPUT = output/$(basename $(notdir $(PRM)))
 
-.PHONY: help run report test verify bench format check clean
+.PHONY: help run report test verify bench docs format check clean
 
 help:
 	@echo 'make run [PRM=parameters/x.prm]  build the program and run a case; its results replace those of the last run'
@@ -21,6 +23,7 @@ help:
 	@echo 'make test                        build and test: Release and Debug'
 	@echo 'make verify                      compare cases with known answers; status 1 if one is off'
 	@echo 'make bench [QUICK=1]             measure; status 1 if a required ratio is not reached'
+	@echo 'make docs [GALLERY=no]           the documentation as a site with search: build/docs/index.html'
 	@echo 'make format                      format the C++ files'
 	@echo 'make check                       check formatting, layering, the lines of the documentation, and what has changed by clang-tidy'
 	@echo 'make clean                       remove what was built (not results)'
@@ -55,6 +58,11 @@ bench:
 	@$(TOOLCHAIN) sh -ec 'cmake -G Ninja -B build/bench -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCOROTET_TESTS=OFF -DCOROTET_BENCHMARKS=ON; \
 	  cmake --build build/bench --target bench_machine bench_kernels bench_case'
 	@$(TOOLCHAIN) benchmarks/run_benchmarks.py $(if $(QUICK),--quick)
+
+docs:
+	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
+	  cmake --build --preset release --target corotet'
+	@$(TOOLCHAIN) scripts/docs $(if $(filter no,$(GALLERY)),--no-gallery)
 
 format:
 	@$(TOOLCHAIN) scripts/check_format --fix

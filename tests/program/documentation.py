@@ -4,10 +4,14 @@
 """The documentation is true where a program can tell: parameters, columns, links, citations, the list of cases."""
 
 import re
+import sys
 import unittest
 
 from support import (CASES, COLUMNS, COLUMNS_AFTER_PROBES, MODES_COLUMNS, MODES_SUMMARY_KEYS, ROOT, SUMMARY_KEYS, ProgramTest,
                      has_preconditioner)
+
+sys.path.insert(0, str(ROOT / "scripts"))
+from docs_site import parameter_pages, tree  # pylint: disable=wrong-import-position
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "meshes" / "README.md", *sorted((ROOT / "doc").rglob("*.md"))]
 
@@ -31,6 +35,37 @@ class Documentation(ProgramTest):
             for target in re.findall(r"\]\(([^)#:]+)[^):]*\)|src=\"([^\"]+)\"", page.read_text(encoding="utf-8")):
                 path = page.parent / "".join(target)
                 self.assertTrue(path.exists(), f"{page.name} refers to {path}")
+
+    def test_names_of_files(self):
+        # Files of the project, headers by their folder, and targets of make that pages name are there.
+        targets = re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+        missing = []
+        for page in PAGES:
+            text = page.read_text(encoding="utf-8")
+            for name in re.findall(r"`(?:scripts/toolchain )?((?:scripts|benchmarks|tests|parameters|meshes|doc|cmake)/[\w./-]+)", text):
+                if not re.search("NAME|SECTION|LAYER", name) and not (ROOT / name).exists():
+                    missing.append((page.name, name))
+            for name in re.findall(r"`([a-z_]+/\w+\.h)`", text):
+                if not any((ROOT / folder / name).exists() for folder in ("include/corotet", "include", "tests", ".")):
+                    missing.append((page.name, name))
+            missing += [(page.name, f"make {target}") for target in re.findall(r"`make ([a-z]+)", text) if target not in targets]
+        self.assertEqual(missing, [])
+
+    def test_contents_of_site(self):
+        # The site has all pages.
+        self.assertEqual(sorted(tree.files()), sorted(str(page.relative_to(ROOT)) for page in [*PAGES, ROOT / "CHANGELOG.md"]
+                                                      if str(page.relative_to(ROOT)) != "doc/parameters.md"))
+
+    def test_examples(self):
+        # Each section has one, which the program accepts and which sets something in the section; there are no others.
+        sections = re.findall(r"^## ([^/\n]*)$", (ROOT / "doc" / "parameters.md").read_text(encoding="utf-8"), re.MULTILINE)
+        files = [parameter_pages.EXAMPLES / f"{parameter_pages.slug(section)}.prm" for section in sections]
+        self.assertEqual(sorted(parameter_pages.EXAMPLES.iterdir()), sorted(files))
+        for section, file in zip(sections, files):
+            text = file.read_text(encoding="utf-8")
+            self.assertRegex(text, r"\A# ")
+            self.assertRegex(text, rf"(?m)^subsection {section}$" if section != "Top level" else "(?m)^set ")
+            self.run_program(file, "--validate", "--quiet")
 
     def test_tutorial(self):
         """Code on the library's page is that of the project which a test builds and runs."""

@@ -40,8 +40,8 @@ namespace corotet
   std::string
   shortened(const std::string &text, const std::size_t most = 80);
 
-  /// A message for a terminal: control characters as \xNN, those that end lines
-  /// and tabs, too, unless @p keep_lines; and no more than a few thousand
+  /// A message for a terminal: control characters as \\xNN, those that end
+  /// lines and tabs, too, unless @p keep_lines; and no more than a few thousand
   /// characters.
   std::string
   printable(const std::string &message, const bool keep_lines = false);

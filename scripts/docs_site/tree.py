@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Which pages the site has, in the order of its contents: the one list to add a page to."""
+
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+# Caption of a part of the contents, and its pages. README.md is the page that the site begins with.
+PARTS = {
+    "First steps": ["doc/installation.md", "doc/tutorial.md", "gallery.md"],
+    "Use": ["doc/command_line.md", "doc/parameter_files.md", "doc/parameters.md", "doc/meshes.md", "meshes/README.md", "doc/results.md",
+            "doc/report.md", "doc/pictures.md", "doc/modes.md", "doc/studies.md", "doc/limits.md"],
+    "Theory": ["doc/physics.md", "doc/rotations.md", "doc/curved.md", "doc/algorithms.md", "doc/references.md"],
+    "Evidence": ["doc/verification.md", "doc/measurements.md", "doc/degrees.md", "doc/dynamics.md", "doc/stress.md", "doc/reliability.md"],
+    "Extend": ["doc/library.md", "CONTRIBUTING.md", "api.md", "CHANGELOG.md"],
+}
+
+# Pages below a page, by their folder.
+BELOW = {"doc/tutorial.md": "doc/tutorial", "doc/verification.md": "doc/verification", "doc/parameters.md": "doc/parameters"}
+
+# Pages that are not files of the project: who writes them is in this folder. API is a heading before Doxygen's pages.
+WRITTEN = {"gallery.md", "doc/parameters.md", "doc/references.md", "api.md"}
+
+
+def files():
+    """Paths of all pages that are files of the project, README.md among them."""
+    pages = ["README.md", *(page for part in PARTS.values() for page in part if page not in WRITTEN)]
+    for page, folder in BELOW.items():
+        if page not in WRITTEN:
+            pages += [str(path.relative_to(ROOT)) for path in sorted((ROOT / folder).glob("*.md"))]
+    return pages
+
+
+def toctree(pages, caption=None):
+    """What tells Sphinx about pages, as text of a page; paths from the top."""
+    lines = ["", "```{toctree}", ":hidden:", *([f":caption: {caption}"] if caption else []), "", *(f"/{page}" for page in pages), "```", ""]
+    return "\n".join(lines)
