@@ -152,6 +152,9 @@ namespace corotet
           for (const unsigned int i : places.faces[face.number])
             state[nodes[i]] = on_face;
         }
+      // Most sets are whole faces.
+      if (std::find(state.begin(), state.end(), inside) == state.end())
+        return result;
       for (const SurfaceFace &face : surface)
         for (unsigned int e = 0; e < 6; ++e)
           {
