@@ -25,15 +25,17 @@ namespace corotet
     prm.add_parameter(
       "Fixed",
       fixed,
-      "Boundaries that do not move: 'name, name'. 'name & name' "
-      "is the edge where two meet, a third name makes it a "
-      "corner.");
+      "Boundaries, edges and corners that do not move: 'name, name'. 'name & "
+      "name' is the edge where two boundaries meet, a third name makes it a "
+      "corner; an edge and a boundary meet in points.");
     prm.add_parameter(
       "Displacement",
       displacement,
       "Displacement [m] of boundaries: 'name: x; y; z, name: x; y; z', each "
       "component an expression in x, y, z, t or 'free'; edges and corners as "
-      "in Fixed. Supports move with the expression's own velocity and "
+      "in Fixed. A component that one place leaves free is what another one "
+      "with the same node says; where two say something, it must be the same. "
+      "Supports move with the expression's own velocity and "
       "acceleration, its exact derivatives; at a kink those of what follows. "
       "Let it have none, like smooth_step and cubic tables that begin and end "
       "at rest.");
@@ -52,9 +54,9 @@ namespace corotet
 
   BoundaryConditions::BoundaryConditions(
     const BoundaryConditionParameters &parameters,
-    const MeshNames                   &boundaries,
+    const PlaceNames                  &names,
     const TableFunctions              &tables)
-    : names(boundaries)
+    : names(names)
   {
     std::string entry = section + "Fixed";
     if (!dealii::Utilities::trim(parameters.fixed).empty())
@@ -64,7 +66,7 @@ namespace corotet
           Displacement condition{find(name, entry), {}, entry};
           for (unsigned int a = 0; a < 3; ++a)
             {
-              claim(condition.boundaries, a, entry);
+              claim(condition.places, a, entry);
               condition.components[a].emplace("0", 1, entry);
             }
           displacements.push_back(condition);
@@ -79,15 +81,16 @@ namespace corotet
           split_outside_brackets(value, ';');
         if (components.size() != 3)
           throw InputError(entry,
-                           fmt::format("found {} components for boundary "
-                                       "'{}'; allowed: 'x; y; z', three "
+                           fmt::format("found {} components for {} '{}'; "
+                                       "allowed: 'x; y; z', three "
                                        "expressions or 'free'",
                                        components.size(),
+                                       kind(condition.places),
                                        name));
         for (unsigned int a = 0; a < 3; ++a)
           if (components[a] != "free")
             {
-              claim(condition.boundaries, a, entry);
+              claim(condition.places, a, entry);
               condition.components[a].emplace(components[a], 1, entry, tables);
             }
         displacements.push_back(condition);
@@ -96,77 +99,107 @@ namespace corotet
     entry = section + "Traction";
     for (const auto &[name, value] : named_values(parameters.traction, entry))
       {
-        add(tractions, name, Expression(value, 3, entry, tables), entry);
+        add(tractions,
+            "a traction",
+            name,
+            Expression(value, 3, entry, tables),
+            entry);
         const auto components = split_outside_brackets(value, ';');
         for (unsigned int a = 0; a < 3; ++a)
           if (!Expression(components[a], 1, entry, tables).is_zero())
-            claim(find(name, entry), a, entry);
+            claim(
+              {Place{names.boundary_ids(name, entry, "a traction"), {}, {}}},
+              a,
+              entry);
       }
 
     entry = section + "Pressure";
     for (const auto &[name, value] : named_values(parameters.pressure, entry))
       {
-        add(pressures, name, Expression(value, 1, entry, tables), entry);
+        add(pressures,
+            "a pressure",
+            name,
+            Expression(value, 1, entry, tables),
+            entry);
         for (unsigned int a = 0; a < 3; ++a)
-          claim(find(name, entry), a, entry);
+          claim({Place{names.boundary_ids(name, entry, "a pressure"), {}, {}}},
+                a,
+                entry);
       }
   }
 
   std::string
-  BoundaryConditions::name(
-    const std::set<std::vector<unsigned int>> &boundaries) const
+  BoundaryConditions::name(const std::set<Place> &places) const
   {
     std::vector<std::string> words;
-    for (const std::vector<unsigned int> &boundary : boundaries)
-      words.push_back(names.name(boundary));
+    for (const Place &place : places)
+      words.push_back(names.name(place));
     return join(words, " & ");
   }
 
-  std::set<std::vector<unsigned int>>
+  std::string
+  BoundaryConditions::kind(const std::set<Place> &places)
+  {
+    std::set<std::string> kinds;
+    for (const Place &place : places)
+      kinds.insert(PlaceNames::kind(place));
+    return kinds.size() == 1 ? *kinds.begin() : "place";
+  }
+
+  std::set<Place>
   BoundaryConditions::find(const std::string &text,
                            const std::string &entry) const
   {
-    std::set<std::vector<unsigned int>> boundaries;
+    std::set<Place> places;
     for (const std::string &name : split_outside_brackets(text, '&'))
-      boundaries.insert(names.ids(dealii::Utilities::trim(name), entry));
-    return boundaries;
+      places.insert(names.find(dealii::Utilities::trim(name), entry));
+    return places;
   }
 
   void
   BoundaryConditions::add(std::vector<SurfaceLoad> &loads,
+                          const std::string        &what,
                           const std::string        &name,
                           const Expression         &value,
                           const std::string        &entry) const
   {
-    for (const unsigned int boundary : names.ids(name, entry))
+    for (const unsigned int boundary : names.boundary_ids(name, entry, what))
       {
         for (const SurfaceLoad &other : loads)
           if (other.boundary == boundary)
-            refuse_second_boundary(entry, names.name(boundary));
+            refuse_second_boundary(entry, names.boundaries.name(boundary));
         loads.push_back({boundary, value});
       }
   }
 
   void
-  BoundaryConditions::claim(
-    const std::set<std::vector<unsigned int>> &boundaries,
-    const unsigned int                         component,
-    const std::string                         &entry)
+  BoundaryConditions::claim(const std::set<Place> &places,
+                            const unsigned int     component,
+                            const std::string     &entry)
   {
-    if (boundaries.size() == 1 && boundaries.begin()->size() > 1)
+    if (places.size() == 1)
       {
-        for (const unsigned int id : *boundaries.begin())
-          claim({{id}}, component, entry);
-        return;
+        const auto &[boundaries, edges, corners] = *places.begin();
+        if (boundaries.size() + edges.size() + corners.size() > 1)
+          {
+            for (const unsigned int id : boundaries)
+              claim({Place{{id}, {}, {}}}, component, entry);
+            for (const unsigned int id : edges)
+              claim({Place{{}, {id}, {}}}, component, entry);
+            for (const unsigned int id : corners)
+              claim({Place{{}, {}, {id}}}, component, entry);
+            return;
+          }
       }
-    std::string &owner = claims[boundaries][component];
+    std::string &owner = claims[places][component];
     if (!owner.empty())
       throw InputError(
         entry,
-        fmt::format("component {} of boundary '{}' has two conditions: found "
-                    "'{}' and '{}', allowed is one",
+        fmt::format("component {} of {} '{}' has two conditions: found '{}' "
+                    "and '{}', allowed is one",
                     "xyz"[component],
-                    name(boundaries),
+                    kind(places),
+                    name(places),
                     owner.substr(section.size()),
                     entry.substr(section.size())));
     owner = entry;

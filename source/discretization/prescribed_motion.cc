@@ -11,13 +11,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace corotet
 {
   namespace
   {
     const std::string blamed_entry = "Boundary conditions/Displacement";
-  }
+
+    std::string
+    plural(const std::string &kind)
+    {
+      return kind == "boundary" ? "boundaries" : kind + "s";
+    }
+  } // namespace
 
   PrescribedMotion::PrescribedMotion(const Discretization     &discretization,
                                      const ReferenceElement   &reference,
@@ -58,6 +66,37 @@ namespace corotet
       }
   }
 
+  void
+  PrescribedMotion::mark(Vector                 &marks,
+                         const ReferenceElement &reference,
+                         const Place            &place) const
+  {
+    const auto contains = [](const std::vector<unsigned int> &ids,
+                             const unsigned int               id) {
+      return std::binary_search(ids.begin(), ids.end(), id);
+    };
+    const auto mark_nodes = [&](const unsigned int               cell,
+                                const std::vector<unsigned int> &nodes) {
+      for (const unsigned int i : nodes)
+        marks.local_element(3 * discretization.cell_nodes(cell)[i]) = 1;
+    };
+    for (const BoundaryFace &face : discretization.boundary_faces())
+      if (contains(place.boundaries, face.boundary))
+        mark_nodes(face.cell, reference.face_nodes[face.face]);
+    if (place.edges.empty() && place.corners.empty())
+      return;
+    std::vector<unsigned int> local_cells(
+      discretization.mesh().triangulation().n_active_cells());
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      local_cells[discretization.active_cell_index(c)] = c;
+    for (const auto &[cell, edge, id] : discretization.mesh().named_edges())
+      if (contains(place.edges, id))
+        mark_nodes(local_cells[cell], reference.edge_nodes[edge]);
+    for (const auto &[cell, vertex, id] : discretization.mesh().named_corners())
+      if (contains(place.corners, id))
+        mark_nodes(local_cells[cell], {vertex});
+  }
+
   std::vector<unsigned char>
   PrescribedMotion::common_nodes(
     const ReferenceElement                 &reference,
@@ -66,19 +105,13 @@ namespace corotet
     std::vector<unsigned char> is_common(discretization.n_local_nodes(), 1);
     Vector                     marks;
     discretization.initialize_vector(marks);
-    for (const std::vector<unsigned int> &boundary : condition.boundaries)
+    for (const Place &place : condition.places)
       {
         // A node may lie on a boundary with none of the owned cells that touch
         // it having a face there: mark through the vector, whose exchange
         // brings the news from the rank that has the face.
         marks = 0;
-        for (const BoundaryFace &face : discretization.boundary_faces())
-          if (std::binary_search(boundary.begin(),
-                                 boundary.end(),
-                                 face.boundary))
-            for (const unsigned int i : reference.face_nodes[face.face])
-              marks.local_element(3 * discretization.cell_nodes(face.cell)[i]) =
-                1;
+        mark(marks, reference, place);
         marks.compress(dealii::VectorOperation::add);
         marks.update_ghost_values();
         for (unsigned int n = 0; n < is_common.size(); ++n)
@@ -90,10 +123,11 @@ namespace corotet
     if (dealii::Utilities::MPI::max(any ? 1 : 0,
                                     discretization.communicator()) == 0)
       throw InputError(condition.entry,
-                       fmt::format("boundaries have no node in common: found "
-                                   "'{}'; allowed are those that meet in an "
-                                   "edge or a corner",
-                                   conditions.name(condition.boundaries)));
+                       fmt::format("{} have no node in common: found '{}'; "
+                                   "allowed are those that meet in an edge or "
+                                   "a corner",
+                                   plural(conditions.kind(condition.places)),
+                                   conditions.name(condition.places)));
     return is_common;
   }
 
@@ -118,20 +152,22 @@ namespace corotet
         if (std::abs(u - w) >
             1e-12 * (std::abs(u) + std::abs(w) + length_scale))
           {
-            const auto name = [&](const Entry &entry) {
-              return conditions.name(
-                conditions.displacements[entry.condition].boundaries);
+            const auto places = [&](const Entry &entry) {
+              return conditions.displacements[entry.condition].places;
             };
+            std::set<Place> both = places(entries[first]);
+            both.merge(places(other));
             const dealii::Point<3> x =
               discretization.node_position(other.unknown / 3);
             throw InputError(
               blamed_entry,
-              fmt::format("boundaries '{}' and '{}' prescribe different "
+              fmt::format("{} '{}' and '{}' prescribe different "
                           "displacements in {} at their common point ({}, {}, "
                           "{}) at t = {}: found {} and {}, allowed are equal "
                           "ones",
-                          name(entries[first]),
-                          name(other),
+                          plural(conditions.kind(both)),
+                          conditions.name(places(entries[first])),
+                          conditions.name(places(other)),
                           "xyz"[other.unknown % 3],
                           x[0],
                           x[1],

@@ -3,6 +3,7 @@
 
 #include <corotet/discretization/finite_element.h>
 #include <corotet/discretization/reference_element.h>
+#include <corotet/mesh/edges.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/reference_cell.h>
@@ -99,6 +100,17 @@ namespace corotet
           if (std::abs(normal * (fe.unit_support_point(i) - v[0])) < 1e-10)
             face_nodes[f].push_back(i);
       }
+
+    for (unsigned int e = 0; e < 6; ++e)
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        {
+          // The sum of the barycentric coordinates of the ends is one on the
+          // edge, and less elsewhere.
+          const dealii::Point<3> x = fe.unit_support_point(i);
+          const double b[4]        = {1 - x[0] - x[1] - x[2], x[0], x[1], x[2]};
+          if (b[ends_of_edges[e][0]] + b[ends_of_edges[e][1]] > 1 - 1e-10)
+            edge_nodes[e].push_back(i);
+        }
 
     // Products of shape functions: 2p, with bubbles 8.
     const dealii::QWitherdenVincentSimplex<3> products(

@@ -191,13 +191,14 @@ namespace corotet
                               const Direction    direction,
                               const auto        &add) {
       const std::string      entry = "Supports/" + name;
-      const MeshNames       &names = context.discretization.mesh().boundaries();
+      const PlaceNames      &names = context.discretization.mesh().places();
       std::set<unsigned int> known;
       for (const auto &[boundary, value] : named_values(text, entry))
-        for (const unsigned int id : names.ids(boundary, entry))
+        for (const unsigned int id : names.boundary_ids(
+               boundary, entry, "an elastic support or a dashpot"))
           {
             if (!known.insert(id).second)
-              refuse_second_boundary(entry, names.name(id));
+              refuse_second_boundary(entry, names.boundaries.name(id));
             SurfaceCoefficient coefficient(
               context, id, value, direction, entry);
             if (!coefficient.is_zero())

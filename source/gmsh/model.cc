@@ -6,6 +6,7 @@
 #include <gmsh.h>
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "shapes.h"
@@ -95,6 +96,26 @@ namespace corotet::gmsh_program
             if (!nodes.empty())
               result.push_back({entity, type, {nodes.begin(), nodes.end()}});
           }
+      return result;
+    }
+
+
+
+    // Those of entities that belong to a group.
+    std::vector<GmshModel::Elements>
+    elements_of_groups(const std::vector<GmshModel::Group> &groups,
+                       const int                            dimension,
+                       const std::vector<int>              &types)
+    {
+      std::set<int> entities;
+      for (const GmshModel::Group &group : groups)
+        if (group.dimension == dimension)
+          entities.insert(group.entities.begin(), group.entities.end());
+      std::vector<GmshModel::Elements> result;
+      if (!entities.empty())
+        for (GmshModel::Elements &found : elements(dimension, types))
+          if (entities.contains(found.entity))
+            result.push_back(std::move(found));
       return result;
     }
 
@@ -213,12 +234,12 @@ namespace corotet::gmsh_program
 
     // Those of shapes and of surfaces are known elsewhere.
     if (!request.is_geometry || request.format == "geo")
-      for (const int dimension : {3, 2})
+      for (const int dimension : {3, 2, 1, 0})
         {
           auto known = groups(dimension);
           // Other programs number properties and references, which become
           // gmsh's entities.
-          if (known.empty() && request.format != "msh" &&
+          if (known.empty() && dimension >= 2 && request.format != "msh" &&
               request.format != "geo")
             known = entities_as_groups(dimension);
           for (const GmshModel::Group &group : known)
@@ -228,6 +249,9 @@ namespace corotet::gmsh_program
     // Triangles with 3, 6 and 10 nodes.
     model.surfaces        = elements(2, std::vector<int>{2, 9, 21});
     model.curved_surfaces = curved_surfaces();
+    // Lines with 2, 3 and 4 nodes, and points.
+    model.curves = elements_of_groups(model.groups, 1, {1, 8, 26});
+    model.points = elements_of_groups(model.groups, 0, {15});
     std::vector<std::size_t> tags;
     std::vector<double>      parameters;
     gmsh::model::mesh::getNodes(tags, model.coordinates, parameters);

@@ -5,6 +5,7 @@
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/check_surface.h>
 #include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/edges.h>
 #include <corotet/mesh/mesh_quality.h>
 
 #include <fmt/format.h>
@@ -61,6 +62,10 @@ namespace corotet
       for (const SerialMesh::Face &face : mesh.faces)
         check(face.vertices,
               "face of boundary " + boundary_name(mesh, face.boundary));
+      for (const SerialMesh::Edge &edge : mesh.edges)
+        check(edge.vertices, "named edge");
+      for (const SerialMesh::Corner &corner : mesh.corners)
+        check(std::array<unsigned int, 1>{{corner.vertex}}, "named corner");
     }
 
 
@@ -312,5 +317,6 @@ namespace corotet
     const Triangles triangles = check_neighbours(mesh);
     check_surface(mesh, triangles.surface);
     check_faces(mesh, triangles);
+    check_edges_and_corners(mesh);
   }
 } // namespace corotet

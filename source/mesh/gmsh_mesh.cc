@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -102,6 +104,16 @@ namespace corotet
         return number->second;
       }
 
+      // Of a node that a vertex is, already.
+      std::optional<unsigned int>
+      known_vertex(const std::size_t tag) const
+      {
+        const auto found = numbers.find(tag);
+        if (found == numbers.end())
+          return {};
+        return found->second;
+      }
+
     private:
       const std::vector<double>                    &coordinates;
       std::unordered_map<std::size_t, std::size_t>  positions;
@@ -183,6 +195,91 @@ namespace corotet
                                   group->second});
         }
     }
+
+
+
+    // Hands the ends of each line of the physical curves, or each physical
+    // point, to @p add, and the group's id. Those of which some node is no
+    // vertex of a cell are counted by a remark.
+    template <typename Add>
+    void
+    read_parts(SerialMesh                             &mesh,
+               const GmshModel                        &model,
+               const std::vector<GmshModel::Elements> &all,
+               const UsedNodes                        &nodes,
+               const int                               dimension,
+               const Add                              &add)
+    {
+      // By their types: points, and lines of degree 1, 2, 3, whose ends come
+      // first.
+      const std::map<int, std::size_t> n_nodes{{15, 1},
+                                               {1, 2},
+                                               {8, 3},
+                                               {26, 4}};
+      const std::size_t                last = dimension == 1 ? 1 : 0;
+      std::multimap<int, const GmshModel::Elements *> of_entity;
+      for (const GmshModel::Elements &elements : all)
+        of_entity.emplace(elements.entity, &elements);
+      NamedSets &named = dimension == 1 ? mesh.edge_names : mesh.corner_names;
+      for (const GmshModel::Group &group : model.groups)
+        {
+          if (group.dimension != dimension)
+            continue;
+          named.names[group.id]  = group.name;
+          std::size_t n_left_out = 0;
+          for (const int entity :
+               std::set<int>(group.entities.begin(), group.entities.end()))
+            for (auto [part, end] = of_entity.equal_range(entity); part != end;
+                 ++part)
+              {
+                const auto       &tags = part->second->nodes;
+                const std::size_t n    = n_nodes.at(part->second->type);
+                for (std::size_t i = 0; i + n <= tags.size(); i += n)
+                  {
+                    const auto a = nodes.known_vertex(tags[i]);
+                    const auto b = nodes.known_vertex(tags[i + last]);
+                    if (a && b)
+                      add(*a, *b, group.id);
+                    else
+                      ++n_left_out;
+                  }
+              }
+          if (n_left_out > 0)
+            mesh.remarks.push_back(
+              fmt::format("{} {} of '{}' are not in the cells; they are left "
+                          "out",
+                          n_left_out,
+                          dimension == 1 ? "lines" : "points",
+                          group.name.empty() ? std::to_string(group.id) :
+                                               group.name));
+        }
+    }
+
+
+
+    void
+    read_edges_and_corners(SerialMesh      &mesh,
+                           const GmshModel &model,
+                           const UsedNodes &nodes)
+    {
+      read_parts(mesh,
+                 model,
+                 model.curves,
+                 nodes,
+                 1,
+                 [&](const unsigned int a, const unsigned int b, const int id) {
+                   mesh.edges.push_back(
+                     {{{a, b}}, static_cast<unsigned int>(id)});
+                 });
+      read_parts(mesh,
+                 model,
+                 model.points,
+                 nodes,
+                 0,
+                 [&](const unsigned int a, const unsigned int, const int id) {
+                   mesh.corners.push_back({a, static_cast<unsigned int>(id)});
+                 });
+    }
   } // namespace
 
 
@@ -204,6 +301,7 @@ namespace corotet
     UsedNodes nodes(model);
     read_cells(mesh, model, nodes, kind, volumes);
     read_faces(mesh, model, nodes, surfaces);
+    read_edges_and_corners(mesh, model, nodes);
     if (kind.degree > 1)
       return mesh;
     std::set<unsigned int> curved;

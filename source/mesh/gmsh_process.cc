@@ -118,10 +118,13 @@ namespace corotet
 
 
     // Elements of gmsh that a model consists of, by its number of their type:
-    // how many nodes they have. Tetrahedra and triangles of degree 1, 2, 3.
+    // how many nodes they have. Tetrahedra, triangles and lines of degree 1, 2,
+    // 3, and points.
     using NodeNumbers = std::map<int, std::size_t>;
     const NodeNumbers tetrahedron_nodes{{4, 4}, {11, 10}, {29, 20}};
     const NodeNumbers triangle_nodes{{2, 3}, {9, 6}, {21, 10}};
+    const NodeNumbers line_nodes{{1, 2}, {8, 3}, {26, 4}};
+    const NodeNumbers point_nodes{{15, 1}};
 
 
 
@@ -144,7 +147,7 @@ namespace corotet
     fits_together(const GmshModel &model)
     {
       const auto is_group = [](const GmshModel::Group &group) {
-        return (group.dimension == 2 || group.dimension == 3) && group.id >= 0;
+        return group.dimension >= 0 && group.dimension <= 3 && group.id >= 0;
       };
       const auto has_whole_nodes = [](const GmshModel::ElementType &type) {
         const auto found = tetrahedron_nodes.find(type.type);
@@ -166,6 +169,8 @@ namespace corotet
                          is_announced) &&
              have_all_nodes(model.volumes, tetrahedron_nodes) &&
              have_all_nodes(model.surfaces, triangle_nodes) &&
+             have_all_nodes(model.curves, line_nodes) &&
+             have_all_nodes(model.points, point_nodes) &&
              model.coordinates.size() == 3 * model.node_tags.size();
     }
 

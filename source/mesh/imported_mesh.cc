@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/edges.h>
 #include <corotet/mesh/imported_mesh.h>
 
 #include <deal.II/base/numbers.h>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace corotet
 {
@@ -77,64 +79,141 @@ namespace corotet
       return surface;
     }
 
-    // Places of the nodes on the faces of a tetrahedron.
-    std::array<std::vector<unsigned int>, 4>
-    nodes_of_faces(const unsigned int degree)
+    // Places of the nodes on the faces and on the edges of a tetrahedron.
+    struct NodePlaces
     {
-      std::array<std::vector<unsigned int>, 4> result;
-      const std::vector<dealii::Point<3>>      points = map_points(degree);
-      for (unsigned int i = 0; i < points.size(); ++i)
-        {
-          const dealii::Point<3> &x = points[i];
-          // Barycentric coordinates, which are zero on the opposite face.
-          const double coordinates[] = {1 - x[0] - x[1] - x[2],
-                                        x[0],
-                                        x[1],
-                                        x[2]};
-          for (unsigned int k = 0; k < 4; ++k)
-            if (std::abs(coordinates[k]) < 1e-10)
-              result[k].push_back(i);
-        }
-      return result;
-    }
+      explicit NodePlaces(const unsigned int degree)
+        : points(map_points(degree))
+      {
+        for (unsigned int i = 0; i < points.size(); ++i)
+          {
+            const dealii::Point<3> &x = points[i];
+            // Barycentric coordinates, which are zero on the opposite face.
+            const double b[] = {1 - x[0] - x[1] - x[2], x[0], x[1], x[2]};
+            for (unsigned int k = 0; k < 4; ++k)
+              if (std::abs(b[k]) < 1e-10)
+                faces[k].push_back(i);
+            for (unsigned int e = 0; e < 6; ++e)
+              if (b[ends_of_edges[e][0]] + b[ends_of_edges[e][1]] > 1 - 1e-10)
+                edges[e].push_back(i);
+          }
+      }
 
-    // The faces of the surface whose nodes are all in the set; others are
-    // counted by a remark.
-    std::vector<ImportedFace>
-    faces_of_nodes(const ImportedMesh              &imported,
-                   const std::string               &name,
-                   const std::vector<unsigned int> &set,
-                   const std::vector<SurfaceFace>  &surface,
-                   std::vector<std::string>        &remarks)
+      std::vector<dealii::Point<3>>            points;
+      std::array<std::vector<unsigned int>, 4> faces;
+      std::array<std::vector<unsigned int>, 6> edges;
+    };
+
+    // What a set of nodes consists of, on the surface: faces that have all
+    // their nodes in it; edges that have, unless these are on such faces; and
+    // vertices besides.
+    struct PartsOfSet
     {
-      const auto                 places  = nodes_of_faces(imported.degree);
-      const std::size_t          n_nodes = map_points(imported.degree).size();
-      std::vector<unsigned char> state(imported.nodes.size());
+      std::vector<ImportedFace>             faces;
+      std::set<std::array<unsigned int, 2>> edges;
+      std::set<unsigned int>                vertices;
+    };
+
+    PartsOfSet
+    parts_of_set(const ImportedMesh              &imported,
+                 const std::string               &name,
+                 const std::vector<unsigned int> &set,
+                 const std::vector<SurfaceFace>  &surface,
+                 std::vector<std::string>        &remarks)
+    {
+      enum State : unsigned char
+      {
+        outside,
+        inside,
+        on_edge,
+        on_face,
+        vertex
+      };
+      const NodePlaces           places(imported.degree);
+      const std::size_t          n_nodes = places.points.size();
+      std::vector<unsigned char> state(imported.nodes.size(), outside);
       for (const unsigned int node : set)
-        state[node] = 1;
-      std::vector<ImportedFace> result;
+        state[node] = inside;
+      const auto is_whole = [&](const unsigned int              *nodes,
+                                const std::vector<unsigned int> &of_part) {
+        return std::all_of(of_part.begin(),
+                           of_part.end(),
+                           [&](const unsigned int i) {
+                             return state[nodes[i]] != outside;
+                           });
+      };
+      PartsOfSet result;
       for (const SurfaceFace &face : surface)
         {
           const unsigned int *nodes = nodes_of(imported, n_nodes, face.cell);
-          const std::vector<unsigned int> &of_face = places[face.number];
-          if (!std::all_of(of_face.begin(),
-                           of_face.end(),
-                           [&](const unsigned int i) {
-                             return state[nodes[i]] > 0;
-                           }))
+          if (!is_whole(nodes, places.faces[face.number]))
             continue;
-          result.push_back(face.corners);
-          for (const unsigned int i : of_face)
-            state[nodes[i]] = 2;
+          result.faces.push_back(face.corners);
+          for (const unsigned int i : places.faces[face.number])
+            state[nodes[i]] = on_face;
         }
-      const auto n_left_out = std::count(state.begin(), state.end(), 1);
+      // Most sets are whole faces.
+      if (std::find(state.begin(), state.end(), inside) == state.end())
+        return result;
+      for (const SurfaceFace &face : surface)
+        for (unsigned int e = 0; e < 6; ++e)
+          {
+            const auto &[a, b]        = ends_of_edges[e];
+            const unsigned int *nodes = nodes_of(imported, n_nodes, face.cell);
+            const auto         &of_edge = places.edges[e];
+            if (a == face.number || b == face.number ||
+                !is_whole(nodes, of_edge) ||
+                std::all_of(of_edge.begin(),
+                            of_edge.end(),
+                            [&](const unsigned int i) {
+                              return state[nodes[i]] == on_face;
+                            }))
+              continue;
+            result.edges.insert(ascending_ends(nodes[a], nodes[b]));
+            for (const unsigned int i : of_edge)
+              if (state[nodes[i]] == inside)
+                state[nodes[i]] = on_edge;
+          }
+      for (const SurfaceFace &face : surface)
+        for (const unsigned int node : face.corners)
+          if (state[node] == inside)
+            {
+              result.vertices.insert(node);
+              state[node] = vertex;
+            }
+      const auto n_left_out = std::count(state.begin(), state.end(), inside);
       if (n_left_out > 0)
         remarks.push_back(
-          fmt::format("{} nodes of the set '{}' are on no face of the surface "
-                      "that has all its nodes in the set; they are left out",
+          fmt::format("{} nodes of the set '{}' are no corners of tetrahedra "
+                      "on the surface, and on no face or edge there that has "
+                      "all its nodes in the set; they are left out",
                       n_left_out,
                       name));
       return result;
+    }
+
+    // Names the edges and vertices of a set of nodes, if there are any.
+    void
+    add_edges_and_corners(SerialMesh                      &mesh,
+                          const std::string               &name,
+                          const PartsOfSet                &parts,
+                          const std::vector<unsigned int> &vertex_of_node)
+    {
+      if (!parts.edges.empty())
+        {
+          const unsigned int id     = mesh.edge_names.names.size();
+          mesh.edge_names.names[id] = name;
+          for (const auto &[a, b] : parts.edges)
+            mesh.edges.push_back(
+              {{{vertex_of_node[a], vertex_of_node[b]}}, id});
+        }
+      if (!parts.vertices.empty())
+        {
+          const unsigned int id       = mesh.corner_names.names.size();
+          mesh.corner_names.names[id] = name;
+          for (const unsigned int node : parts.vertices)
+            mesh.corners.push_back({vertex_of_node[node], id});
+        }
     }
 
     // Returns the vertex that each node is, if any.
@@ -244,10 +323,14 @@ namespace corotet
             mesh.remarks.push_back("the set of nodes '" + name +
                                    "' is left out, as a set of faces has that "
                                    "name");
-          else if (auto faces = faces_of_nodes(
-                     imported, name, nodes, surface, mesh.remarks);
-                   !faces.empty())
-            sets[name] = std::move(faces);
+          else
+            {
+              PartsOfSet parts =
+                parts_of_set(imported, name, nodes, surface, mesh.remarks);
+              add_edges_and_corners(mesh, name, parts, vertex_of_node);
+              if (!parts.faces.empty())
+                sets[name] = std::move(parts.faces);
+            }
       }
     add_boundaries(mesh, vertex_of_node, sets);
     return mesh;

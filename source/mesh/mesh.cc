@@ -94,6 +94,21 @@ namespace corotet
 
 
 
+    // Of edges or of corners.
+    template <typename Part>
+    NamedSets
+    used_names(NamedSets named, const std::vector<Part> &parts)
+    {
+      std::vector<unsigned int> ids;
+      ids.reserve(parts.size());
+      for (const Part &part : parts)
+        ids.push_back(part.id);
+      named.restrict_to(ids);
+      return named;
+    }
+
+
+
     std::string
     list(const MeshNames &names)
     {
@@ -189,9 +204,9 @@ namespace corotet
              const SelectionParameters &selections)
     : tria(comm)
     , region_names("region", {})
-    , boundary_names("boundary", {})
+    , place_names({})
   {
-    NamedSets regions, boundaries;
+    NamedSets regions, boundaries, edges, corners;
     on_root(comm, [&] {
       check_mesh(mesh, element_degree);
       const unsigned int n_left = n_refinements - mesh.n_refinements;
@@ -214,6 +229,8 @@ namespace corotet
       select(mesh, selections, log);
       regions    = regions_of(mesh);
       boundaries = boundaries_of(mesh);
+      edges      = used_names(mesh.edge_names, mesh.edges);
+      corners    = used_names(mesh.corner_names, mesh.corners);
     });
 
     const auto broadcast = [](const MPI_Comm comm, const NamedSets &named) {
@@ -221,12 +238,22 @@ namespace corotet
       return NamedSets{broadcast(comm, named.names, 0),
                        broadcast(comm, named.sets, 0)};
     };
-    region_names   = MeshNames("region", broadcast(comm, regions));
-    boundary_names = MeshNames("boundary", broadcast(comm, boundaries));
-    log.line("  regions: " + list(region_names) +
-             "; boundaries: " + list(boundary_names));
+    region_names      = MeshNames("region", broadcast(comm, regions));
+    boundaries        = broadcast(comm, boundaries);
+    edges             = broadcast(comm, edges);
+    corners           = broadcast(comm, corners);
+    place_names       = PlaceNames(boundaries, edges, corners);
+    std::string names = "  regions: " + list(region_names) +
+                        "; boundaries: " + list(place_names.boundaries);
+    if (!edges.names.empty())
+      names += "; edges: " + list(place_names.edges);
+    if (!corners.names.empty())
+      names += "; corners: " + list(place_names.corners);
+    log.line(names);
     distribute(mesh, tria);
     distribute_curved_nodes(mesh);
+    if (!edges.names.empty() || !corners.names.empty())
+      distribute_edges_and_corners(mesh);
   }
 
 
@@ -270,5 +297,50 @@ namespace corotet
           for (unsigned int i = 0; i < n; ++i, next += 3)
             nodes_of_curves.emplace_back(next[0], next[1], next[2]);
         }
+  }
+
+
+
+  void
+  Mesh::distribute_edges_and_corners(const SerialMesh &mesh)
+  {
+    using namespace dealii::Utilities;
+    const MPI_Comm comm = communicator();
+    // Cells are numbered on rank 0, and known by these numbers elsewhere.
+    std::vector<unsigned int> cells, active_indices;
+    for (const auto &cell : tria.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cells.push_back(cell->id().get_coarse_cell_id());
+          active_indices.push_back(cell->active_cell_index());
+        }
+    // Of each rank those of edges and those of corners, three numbers each.
+    std::vector<std::vector<std::vector<unsigned int>>> parts_of_ranks;
+    const PartsOfCells                                  parts(mesh);
+    for (const auto &cells_of_rank : MPI::gather(comm, cells))
+      {
+        std::vector<CellPart> edges, corners;
+        for (unsigned int c = 0; c < cells_of_rank.size(); ++c)
+          {
+            const SerialMesh::Cell &cell = mesh.cells[cells_of_rank[c]];
+            parts.add_edges(edges, cell, c);
+            parts.add_corners(corners, cell, c);
+          }
+        auto &numbers = parts_of_ranks.emplace_back();
+        for (const auto *found : {&edges, &corners})
+          {
+            numbers.emplace_back();
+            for (const auto &[cell, number, id] : *found)
+              numbers.back().insert(numbers.back().end(), {cell, number, id});
+          }
+      }
+    const auto received = MPI::scatter(comm, parts_of_ranks);
+    for (const auto &[numbers, result] :
+         {std::pair(&received[0], &edges_of_cells),
+          std::pair(&received[1], &corners_of_cells)})
+      for (std::size_t i = 0; i + 3 <= numbers->size(); i += 3)
+        result->push_back({active_indices[(*numbers)[i]],
+                           (*numbers)[i + 1],
+                           (*numbers)[i + 2]});
   }
 } // namespace corotet

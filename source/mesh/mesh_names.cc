@@ -159,7 +159,7 @@ namespace corotet
 
 
   std::vector<unsigned int>
-  MeshNames::ids(const std::string &name_or_id, const std::string &entry) const
+  MeshNames::find(const std::string &name_or_id) const
   {
     if (const std::vector<unsigned int> found = named.ids(name_or_id);
         !found.empty())
@@ -167,16 +167,136 @@ namespace corotet
     for (const auto &[id, own] : named.names)
       if (std::to_string(id) == name_or_id)
         return {id};
+    return {};
+  }
 
+
+
+  std::string
+  MeshNames::listed() const
+  {
     const std::vector<std::string> names = known();
-    const std::string plural  = kind == "boundary" ? "boundaries" : kind + "s";
-    const std::string similar = nearest(name_or_id, names);
+    const std::string plural = kind == "boundary" ? "boundaries" : kind + "s";
+    return names.empty() ? "no " + plural :
+                           "the " + plural + ": " + join(names);
+  }
+
+
+
+  std::vector<unsigned int>
+  MeshNames::ids(const std::string &name_or_id, const std::string &entry) const
+  {
+    std::vector<unsigned int> found = find(name_or_id);
+    if (found.empty())
+      refuse(name_or_id, entry, {this});
+    return found;
+  }
+
+
+
+  void
+  MeshNames::refuse(const std::string                    &name_or_id,
+                    const std::string                    &entry,
+                    const std::vector<const MeshNames *> &all)
+  {
+    std::string              kinds, lists;
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        kinds += (i == 0 ? "" : i + 1 < all.size() ? ", " : " or ");
+        kinds += all[i]->kind;
+        lists += (i == 0 ? "" : "; ") + all[i]->listed();
+        for (const std::string &name : all[i]->known())
+          known.push_back(name);
+      }
+    const std::string similar = nearest(name_or_id, known);
     throw InputError(entry,
-                     "no such " + kind + ": found '" + shortened(name_or_id) +
-                       "'; the mesh has " +
-                       (names.empty() ? "no " + plural :
-                                        "the " + plural + ": " + join(names)) +
+                     "no such " + kinds + ": found '" + shortened(name_or_id) +
+                       "'; the mesh has " + lists +
                        (similar.empty() ? "" :
                                           "; did you mean '" + similar + "'?"));
+  }
+
+
+
+  PlaceNames::PlaceNames(const NamedSets &boundaries,
+                         const NamedSets &edges,
+                         const NamedSets &corners)
+    : boundaries("boundary", boundaries)
+    , edges("edge", edges)
+    , corners("corner", corners)
+  {}
+
+
+
+  Place
+  PlaceNames::find(const std::string &name_or_id,
+                   const std::string &entry) const
+  {
+    Place place{boundaries.find_name(name_or_id),
+                edges.find_name(name_or_id),
+                corners.find_name(name_or_id)};
+    if (place != Place())
+      return place;
+    for (const auto &[names, ids] : {std::pair(&boundaries, &place.boundaries),
+                                     std::pair(&edges, &place.edges),
+                                     std::pair(&corners, &place.corners)})
+      if (*ids = names->find(name_or_id); !ids->empty())
+        return place;
+    std::vector<const MeshNames *> all{&boundaries};
+    for (const MeshNames *names : {&edges, &corners})
+      if (!names->known().empty())
+        all.push_back(names);
+    MeshNames::refuse(name_or_id, entry, all);
+  }
+
+
+
+  std::vector<unsigned int>
+  PlaceNames::boundary_ids(const std::string &name_or_id,
+                           const std::string &entry,
+                           const std::string &what) const
+  {
+    std::vector<unsigned int> found = boundaries.find(name_or_id);
+    if (!found.empty())
+      return found;
+    for (const auto &[names, kind] :
+         {std::pair(&edges, "an edge"), std::pair(&corners, "a corner")})
+      if (!names->find(name_or_id).empty())
+        throw InputError(entry,
+                         what + " acts on an area: found '" +
+                           shortened(name_or_id) + "', which is " + kind +
+                           "; allowed are boundaries, and the mesh has " +
+                           boundaries.listed());
+    return boundaries.ids(name_or_id, entry);
+  }
+
+
+
+  std::string
+  PlaceNames::name(const Place &place) const
+  {
+    std::vector<std::string> words;
+    for (const auto &[names, ids] : {std::pair(&boundaries, &place.boundaries),
+                                     std::pair(&edges, &place.edges),
+                                     std::pair(&corners, &place.corners)})
+      if (!ids->empty())
+        if (const std::string name = names->name(*ids);
+            std::find(words.begin(), words.end(), name) == words.end())
+          words.push_back(name);
+    return join(words);
+  }
+
+
+
+  std::string
+  PlaceNames::kind(const Place &place)
+  {
+    const bool has_boundaries = !place.boundaries.empty();
+    const bool has_edges      = !place.edges.empty();
+    const bool has_corners    = !place.corners.empty();
+    if (has_boundaries + has_edges + has_corners > 1)
+      return "place";
+    return has_boundaries ? "boundary" : has_edges ? "edge" : "corner";
   }
 } // namespace corotet

@@ -136,6 +136,7 @@ namespace corotet
     table(const std::string                       &title,
           const MeshNames                         &names,
           const std::map<unsigned int, NamedPart> &parts,
+          const bool                               with_size,
           const bool                               with_normal)
     {
       std::string result = title + "\n";
@@ -147,11 +148,11 @@ namespace corotet
           NamedPart part;
           for (const unsigned int id : names.ids(name, ""))
             part.add(parts.at(id));
-          result += fmt::format("  {:{}}  {:>12.6g} {:>8}  ({:.4g}, {:.4g}, "
-                                "{:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
-                                name,
-                                width,
-                                part.size,
+          result += fmt::format("  {:{}}  ", name, width);
+          if (with_size)
+            result += fmt::format("{:>12.6g} ", part.size);
+          result += fmt::format("{:>8}  ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, "
+                                "{:.4g}, {:.4g})",
                                 part.n,
                                 part.lower[0],
                                 part.lower[1],
@@ -207,6 +208,7 @@ namespace corotet
       return table("Regions: volume, cells, extent" + note_on_curves(mesh),
                    MeshNames("region", named),
                    parts,
+                   true,
                    false);
     }
 
@@ -259,7 +261,70 @@ namespace corotet
                table("Boundaries: area, faces, extent" + note_on_curves(mesh),
                      MeshNames("boundary", named),
                      parts,
+                     true,
                      true);
+    }
+
+
+
+    // Names of edges or of corners, unless there are none.
+    template <typename Part, typename Add>
+    std::string
+    parts_with_names(const std::string       &title,
+                     const std::string       &kind,
+                     NamedSets                named,
+                     const std::vector<Part> &all,
+                     const bool               with_size,
+                     const Add               &add)
+    {
+      std::map<unsigned int, NamedPart> parts;
+      std::vector<unsigned int>         ids;
+      for (const Part &part : all)
+        {
+          ++parts[part.id].n;
+          add(parts[part.id], part);
+          ids.push_back(part.id);
+        }
+      named.restrict_to(ids);
+      return ids.empty() ?
+               "" :
+               table(title, MeshNames(kind, named), parts, with_size, false);
+    }
+
+
+
+    std::string
+    edges(const SerialMesh &mesh)
+    {
+      return parts_with_names(
+        "Edges: length, edges of cells, extent" + note_on_curves(mesh),
+        "edge",
+        mesh.edge_names,
+        mesh.edges,
+        true,
+        [&](NamedPart &part, const SerialMesh::Edge &edge) {
+          const Point<3> &a = mesh.vertices[edge.vertices[0]];
+          const Point<3> &b = mesh.vertices[edge.vertices[1]];
+          part.size += a.distance(b);
+          part.add(a);
+          part.add(b);
+        });
+    }
+
+
+
+    std::string
+    corners(const SerialMesh &mesh)
+    {
+      return parts_with_names("Corners: vertices, extent",
+                              "corner",
+                              mesh.corner_names,
+                              mesh.corners,
+                              false,
+                              [&](NamedPart                &part,
+                                  const SerialMesh::Corner &corner) {
+                                part.add(mesh.vertices[corner.vertex]);
+                              });
     }
   } // namespace
 
@@ -284,6 +349,7 @@ namespace corotet
                                   }));
     for (const std::string &remark : mesh.remarks)
       result += remark + '\n';
-    return result + shapes(mesh) + regions(mesh) + boundaries(mesh);
+    return result + shapes(mesh) + regions(mesh) + boundaries(mesh) +
+           edges(mesh) + corners(mesh);
   }
 } // namespace corotet

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,7 +25,8 @@ namespace corotet
     using Text = std::back_insert_iterator<std::string>;
 
     // gmsh's numbers of these types.
-    constexpr int triangle_types[]{2, 9, 21}, tetrahedron_types[]{4, 11, 29};
+    constexpr int line_types[]{1, 8, 26}, triangle_types[]{2, 9, 21},
+      tetrahedron_types[]{4, 11, 29};
 
     struct ElementType
     {
@@ -51,8 +53,8 @@ namespace corotet
       }
     };
 
-    // Entities of gmsh of one dimension, by the ids of regions or boundaries,
-    // and their physical groups.
+    // Entities of gmsh of one dimension, by the ids of regions, boundaries,
+    // edges or corners, and their physical groups.
     struct Entities
     {
       std::map<unsigned int, Extent>           extents;
@@ -108,14 +110,39 @@ namespace corotet
       }
     };
 
+    // Those of a mesh, by their dimension.
+    using AllEntities = std::array<Entities, 4>;
+
+    AllEntities
+    entities_of(const SerialMesh &mesh)
+    {
+      AllEntities all;
+      const auto &x = mesh.vertices;
+      for (const SerialMesh::Cell &cell : mesh.cells)
+        for (const unsigned int v : cell.vertices)
+          all[3].extents[cell.region].add(x[v]);
+      for (const SerialMesh::Face &face : mesh.faces)
+        for (const unsigned int v : face.vertices)
+          all[2].extents[face.boundary].add(x[v]);
+      for (const SerialMesh::Edge &edge : mesh.edges)
+        for (const unsigned int v : edge.vertices)
+          all[1].extents[edge.id].add(x[v]);
+      for (const SerialMesh::Corner &corner : mesh.corners)
+        all[0].extents[corner.id].add(x[corner.vertex]);
+      all[3].add_groups(mesh.regions);
+      all[2].add_groups(mesh.boundaries);
+      all[1].add_groups(mesh.edge_names);
+      all[0].add_groups(mesh.corner_names);
+      return all;
+    }
+
     void
-    write_names(Text text, const Entities &volumes, const Entities &surfaces)
+    write_names(Text text, const AllEntities &all)
     {
       std::size_t n = 0;
       std::string lines;
-      for (const auto &[dimension, entities] :
-           {std::pair{2, &surfaces}, std::pair{3, &volumes}})
-        for (const auto &[group, name] : entities->names)
+      for (unsigned int dimension = 0; dimension < 4; ++dimension)
+        for (const auto &[group, name] : all[dimension].names)
           if (!name.empty())
             {
               ++n;
@@ -129,26 +156,43 @@ namespace corotet
     }
 
     void
-    write_entities(Text text, const Entities &volumes, const Entities &surfaces)
+    write_groups(Text text, const Entities &entities, const unsigned int id)
+    {
+      const auto groups = entities.groups_of_id.find(id);
+      if (groups == entities.groups_of_id.end())
+        fmt::format_to(text, " 0");
+      else
+        fmt::format_to(text,
+                       " {} {}",
+                       groups->second.size(),
+                       fmt::join(groups->second, " "));
+    }
+
+    // A point has one place: each corner is an entity of its own.
+    void
+    write_entities(Text text, const AllEntities &all, const SerialMesh &mesh)
     {
       fmt::format_to(text,
-                     "$Entities\n0 0 {} {}\n",
-                     surfaces.extents.size(),
-                     volumes.extents.size());
-      for (const Entities *entities : {&surfaces, &volumes})
-        for (const auto &[id, extent] : entities->extents)
+                     "$Entities\n{} {} {} {}\n",
+                     mesh.corners.size(),
+                     all[1].extents.size(),
+                     all[2].extents.size(),
+                     all[3].extents.size());
+      int tag = 0;
+      for (const auto &[vertex, id] : mesh.corners)
+        {
+          const Point<3> &x = mesh.vertices[vertex];
+          fmt::format_to(text, "{} {} {} {}", ++tag, x[0], x[1], x[2]);
+          write_groups(text, all[0], id);
+          fmt::format_to(text, "\n");
+        }
+      for (unsigned int dimension = 1; dimension < 4; ++dimension)
+        for (const auto &[id, extent] : all[dimension].extents)
           {
             fmt::format_to(text, "{}", Entities::tag(id));
             for (const Point<3> &x : {extent.low, extent.high})
               fmt::format_to(text, " {} {} {}", x[0], x[1], x[2]);
-            const auto groups = entities->groups_of_id.find(id);
-            if (groups == entities->groups_of_id.end())
-              fmt::format_to(text, " 0");
-            else
-              fmt::format_to(text,
-                             " {} {}",
-                             groups->second.size(),
-                             fmt::join(groups->second, " "));
+            write_groups(text, all[dimension], id);
             // The entities around it are not told.
             fmt::format_to(text, " 0\n");
           }
@@ -207,32 +251,37 @@ namespace corotet
   {
     const unsigned int q = mesh.geometry_degree - 1;
     const MshNodes     nodes(mesh);
-    Entities           volumes, surfaces;
-    for (const SerialMesh::Cell &cell : mesh.cells)
-      for (const unsigned int v : cell.vertices)
-        volumes.extents[cell.region].add(mesh.vertices[v]);
-    for (const SerialMesh::Face &face : mesh.faces)
-      for (const unsigned int v : face.vertices)
-        surfaces.extents[face.boundary].add(mesh.vertices[v]);
-    volumes.add_groups(mesh.regions);
-    surfaces.add_groups(mesh.boundaries);
+    const AllEntities  all = entities_of(mesh);
 
     std::string result = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
     Text        text(result);
-    write_names(text, volumes, surfaces);
-    write_entities(text, volumes, surfaces);
+    write_names(text, all);
+    write_entities(text, all, mesh);
     write_nodes(text,
                 nodes,
-                Entities::tag(volumes.extents.empty() ?
-                                0 :
-                                volumes.extents.begin()->first));
-    const std::size_t n = mesh.faces.size() + mesh.cells.size();
+                Entities::tag(
+                  all[3].extents.empty() ? 0 : all[3].extents.begin()->first));
+    const std::size_t n = mesh.corners.size() + mesh.edges.size() +
+                          mesh.faces.size() + mesh.cells.size();
     fmt::format_to(text,
                    "$Elements\n{} {} 1 {}\n",
-                   surfaces.extents.size() + volumes.extents.size(),
+                   mesh.corners.size() + all[1].extents.size() +
+                     all[2].extents.size() + all[3].extents.size(),
                    n,
                    n);
     std::size_t tag = 0;
+    for (const SerialMesh::Corner &corner : mesh.corners)
+      {
+        ++tag;
+        fmt::format_to(text, "0 {} 15 1\n{} {}\n", tag, tag, corner.vertex + 1);
+      }
+    write_blocks(
+      text,
+      mesh.edges,
+      [](const SerialMesh::Edge &edge) { return edge.id; },
+      {1, line_types[q], line_nodes[q]},
+      nodes,
+      tag);
     write_blocks(
       text,
       mesh.faces,

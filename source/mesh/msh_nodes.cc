@@ -5,6 +5,9 @@
 
 namespace corotet
 {
+  const std::vector<MshNode> line_nodes[]{{{0}, {1}},
+                                          {{0}, {1}, {0, 1}},
+                                          {{0}, {1}, {0, 0, 1}, {0, 1, 1}}};
   const std::vector<MshNode> triangle_nodes[]{
     {{0}, {1}, {2}},
     {{0}, {1}, {2}, {0, 1}, {1, 2}, {2, 0}},

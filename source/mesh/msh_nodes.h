@@ -20,7 +20,8 @@ namespace corotet
   using MshNode = std::vector<unsigned int>;
 
   // Of degree 1, 2 and 3, in gmsh's order.
-  extern const std::vector<MshNode> triangle_nodes[3], tetrahedron_nodes[3];
+  extern const std::vector<MshNode> line_nodes[3], triangle_nodes[3],
+    tetrahedron_nodes[3];
 
   // A node of the mesh: the vertices whose mean it would be on straight
   // cells, ascending.

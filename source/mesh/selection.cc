@@ -4,6 +4,7 @@
 #include "selection.h"
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 
 #include <fmt/format.h>
@@ -145,7 +146,7 @@ namespace corotet::selections
         while (next < words.size() && !is("and") && !is("or") && !is("(") &&
                !is(")"))
           own.push_back(words[next++]);
-        if (!is_shape(own[0]))
+        if (!is_shape(own[0], members))
           return members.with_name(join(own, " "));
         const Shape &measured =
           shapes.emplace_back(measure(own, members, entry));
@@ -155,6 +156,31 @@ namespace corotet::selections
         return result;
       }
     };
+
+
+
+    [[noreturn]] void
+    refuse_nothing(const std::string &name,
+                   const Selected    &selected,
+                   const Members     &members,
+                   const std::string &entry)
+    {
+      std::string reasons;
+      for (const Shape &shape : selected.shapes)
+        {
+          const double nearest =
+            *std::min_element(shape.distances.begin(), shape.distances.end());
+          reasons +=
+            fmt::format("; the nearest to '{}' is {}",
+                        shape.text,
+                        nearest <= 0 ?
+                          "inside" :
+                          fmt::format("{:.4g} {} away", nearest, shape.unit));
+        }
+      throw InputError(
+        entry,
+        fmt::format("selection '{}' has no {}{}", name, members.kind, reasons));
+    }
   } // namespace
 
 
@@ -165,5 +191,39 @@ namespace corotet::selections
          const std::string &entry)
   {
     return Parser(text, members, entry).parse();
+  }
+
+
+
+  void
+  select_by_names(
+    const std::string                                           &text,
+    const std::string                                           &entry,
+    const Members                                               &members,
+    const std::function<bool(const std::string &)>              &is_taken,
+    const std::function<void(const std::string &,
+                             const std::vector<std::size_t> &)> &give_name,
+    Log                                                         &log)
+  {
+    for (const auto &[name, selection] :
+         named_values(text, entry, "'name: selection, name: selection'"))
+      {
+        if (is_taken(name))
+          throw InputError(entry,
+                           fmt::format("the mesh has this name, or another "
+                                       "selection: found '{}'; give another "
+                                       "one",
+                                       name));
+        const Selected           selected = select(selection, members, entry);
+        std::vector<std::size_t> chosen;
+        for (std::size_t i = 0; i < selected.is_member.size(); ++i)
+          if (selected.is_member[i])
+            chosen.push_back(i);
+        if (chosen.empty())
+          refuse_nothing(name, selected, members, entry);
+        give_name(name, chosen);
+        log.line(fmt::format(
+          "  selection '{}': {} {}s", name, chosen.size(), members.kind));
+      }
   }
 } // namespace corotet::selections

@@ -38,9 +38,11 @@ namespace corotet::selections
       {"cylinder", {7, 0, "cylinder x y z x y z radius"}},
       {"plane", {6, 0, "plane x y z nx ny nz"}},
       {"normal", {3, 1, "normal nx ny nz [angle]"}},
-      {"patch", {3, 1, "patch x y z [angle]"}}};
+      {"patch", {3, 1, "patch x y z [angle]"}},
+      {"sharp", {0, 1, "sharp [angle]"}}};
 
-    // Of normals around a direction, and across the edges of a patch [degree].
+    // Of normals around a direction, and across the edges of a patch, or sharp
+    // ones [degree].
     constexpr double default_angle = 5, default_feature_angle = 40;
 
 
@@ -111,15 +113,6 @@ namespace corotet::selections
 
 
 
-    double
-    degrees_between(const Vector &a, const Vector &b)
-    {
-      return std::atan2(dealii::cross_product_3d(a, b).norm(), a * b) * 180 /
-             std::numbers::pi;
-    }
-
-
-
     // Of faces in the patch zero, of others how far they are from the point.
     std::vector<double>
     distances_from_patch(const Members  &faces,
@@ -155,14 +148,41 @@ namespace corotet::selections
           result[f] = std::max(result[f], std::numeric_limits<double>::min());
       return result;
     }
+
+
+
+    // Of edges and corners: they are where one of their faces is.
+    Shape
+    of_nearest_face(const Shape &of_faces, const Members &members)
+    {
+      Shape shape{of_faces.text, of_faces.unit, {}};
+      for (const std::vector<unsigned int> &faces : members.faces)
+        {
+          double distance = std::numeric_limits<double>::infinity();
+          for (const unsigned int f : faces)
+            distance = std::min(distance, of_faces.distances[f]);
+          shape.distances.push_back(distance);
+        }
+      return shape;
+    }
   } // namespace
 
 
 
-  bool
-  is_shape(const std::string &word)
+  double
+  degrees_between(const Vector &a, const Vector &b)
   {
-    return kinds.contains(word);
+    return std::atan2(dealii::cross_product_3d(a, b).norm(), a * b) * 180 /
+           std::numbers::pi;
+  }
+
+
+
+  bool
+  is_shape(const std::string &word, const Members &members)
+  {
+    return kinds.contains(word) &&
+           (word != "sharp" || members.surface != nullptr);
   }
 
 
@@ -194,9 +214,14 @@ namespace corotet::selections
     const auto set_distances = [&](const auto &distance) {
       shape.distances = of_farthest_point(members, distance);
     };
-    if ((name == "normal" || name == "patch") && members.normals.empty())
+    const bool is_of_faces = name == "normal" || name == "patch";
+    if (is_of_faces && members.surface != nullptr)
+      return of_nearest_face(measure(words, *members.surface, entry), members);
+    if (is_of_faces && members.normals.empty())
       refuse(
         fmt::format("a {} has no normal and is on no patch", members.kind));
+    if (name == "sharp" && members.angles.empty())
+      refuse(fmt::format("a {} is not between two faces", members.kind));
     if ((name == "plane" && point(n, 3).norm() == 0) ||
         (name == "normal" && point(n, 0).norm() == 0))
       refuse("a direction is zero");
@@ -220,6 +245,13 @@ namespace corotet::selections
       set_distances([&](const Point<3> &x) {
         return std::abs((x - point(n, 0)) * point(n, 3)) / point(n, 3).norm();
       });
+    else if (name == "sharp")
+      {
+        shape.unit = "degrees";
+        for (const double angle : members.angles)
+          shape.distances.push_back((n.empty() ? default_feature_angle : n[0]) -
+                                    angle);
+      }
     else if (name == "normal")
       {
         shape.unit = "degrees";

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/edges.h>
 #include <corotet/mesh/triangulation.h>
 
 #include <deal.II/base/utilities.h>
@@ -167,6 +168,8 @@ namespace corotet
     SerialMesh refined = make_serial_mesh(tria);
     if (mesh.geometry_degree > 1)
       inherit_curves(mesh, tria, refined);
+    // Vertices keep their numbers, so corners stay as they are.
+    mesh.edges        = parts_of_edges(mesh, tria);
     mesh.vertices     = std::move(refined.vertices);
     mesh.cells        = std::move(refined.cells);
     mesh.faces        = std::move(refined.faces);
@@ -201,6 +204,11 @@ namespace corotet
     for (SerialMesh::Face &face : mesh.faces)
       for (unsigned int &v : face.vertices)
         v = new_number[v];
+    for (SerialMesh::Edge &edge : mesh.edges)
+      for (unsigned int &v : edge.vertices)
+        v = new_number[v];
+    for (SerialMesh::Corner &corner : mesh.corners)
+      corner.vertex = new_number[corner.vertex];
   }
 
 

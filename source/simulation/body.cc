@@ -56,7 +56,7 @@ namespace corotet
     , materials(parameters.material.materials(mesh.regions()))
     , law(purpose == Purpose::motion ? parameters.material.law() : linear_law())
     , conditions(problem.boundary_conditions(mesh.boundaries()),
-                 mesh.boundaries(),
+                 mesh.places(),
                  tables)
     , mass(discretization, reference, densities(materials), parameters.mass)
     , elasticity(discretization, reference, materials, law)

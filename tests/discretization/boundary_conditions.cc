@@ -15,8 +15,9 @@ using namespace corotet::tests;
 
 namespace
 {
-  const MeshNames names("boundary",
-                        {{{0, "left"}, {1, "right"}, {2, "top"}}, {}});
+  const PlaceNames names({{{0, "left"}, {1, "right"}, {2, "top"}}, {}},
+                         {{{0, "line"}, {1, "right"}, {7, ""}}, {}},
+                         {{{0, "point"}}, {}});
 
   std::string
   condition_refusal(
@@ -78,12 +79,57 @@ TEST(BoundaryConditions, DifferentComponentsMayDiffer)
             "nothing was refused");
 }
 
+// Edges and corners have conditions like boundaries have, each of its own; but
+// nothing acts on their area. Where several things have a name, it means all of
+// them; a number means a boundary before it means an edge.
+TEST(BoundaryConditions, EdgesAndCorners)
+{
+  EXPECT_EQ(condition_refusal(
+              {{"Fixed", "line, point, 7"}, {"Displacement", "left: 0; 0; 0"}}),
+            "nothing was refused");
+  EXPECT_EQ(condition_refusal(
+              {{"Fixed", "line"}, {"Displacement", "line: free; 0; 0"}}),
+            "Boundary conditions/Displacement: component y of edge 'line' has "
+            "two conditions: found 'Fixed' and 'Displacement', allowed is one");
+  EXPECT_EQ(condition_refusal({{"Fixed", "7, 7"}}),
+            "Boundary conditions/Fixed: component x of edge '7' has two "
+            "conditions: found 'Fixed' and 'Fixed', allowed is one");
+  EXPECT_EQ(condition_refusal({{"Fixed", "line & left"},
+                               {"Displacement", "left & line: 0; 0; 0"}}),
+            "Boundary conditions/Displacement: component x of place 'line & "
+            "left' has two conditions: found 'Fixed' and 'Displacement', "
+            "allowed is one");
+  EXPECT_EQ(condition_refusal({{"Displacement", "point: 0; 0"}}),
+            "Boundary conditions/Displacement: found 2 components for corner "
+            "'point'; allowed: 'x; y; z', three expressions or 'free'");
+  EXPECT_EQ(
+    condition_refusal({{"Traction", "line: 1; 0; 0"}}),
+    "Boundary conditions/Traction: a traction acts on an area: found "
+    "'line', which is an edge; allowed are boundaries, and the mesh has "
+    "the boundaries: left, right, top");
+  EXPECT_EQ(condition_refusal({{"Pressure", "point: 1"}}),
+            "Boundary conditions/Pressure: a pressure acts on an area: found "
+            "'point', which is a corner; allowed are boundaries, and the mesh "
+            "has the boundaries: left, right, top");
+  // The boundary of this name has an area.
+  EXPECT_EQ(condition_refusal({{"Pressure", "right: 1"}}),
+            "nothing was refused");
+  EXPECT_EQ(condition_refusal({{"Fixed", "pont"}}),
+            "Boundary conditions/Fixed: no such boundary, edge or corner: "
+            "found 'pont'; the mesh has the boundaries: left, right, top; the "
+            "edges: line, right, 7; the corners: point; did you mean 'point'?");
+  using Ids = std::vector<unsigned int>;
+  EXPECT_EQ(names.find("right", ""), (Place{Ids{1}, Ids{1}, {}}));
+  EXPECT_EQ(names.find("1", ""), (Place{Ids{1}, {}, {}}));
+  EXPECT_EQ(names.find("7", ""), (Place{{}, Ids{7}, {}}));
+  EXPECT_EQ(names.name(names.find("right", "")), "right");
+}
+
 // A name of several boundaries is a condition on each of them.
 TEST(BoundaryConditions, NamesOfSeveralBoundaries)
 {
-  const MeshNames             several("boundary",
-                                      {{{0, "left"}, {1, "right"}, {2, "top"}},
-                                       {{"sides", {0, 1}}}});
+  const PlaceNames several(
+    {{{0, "left"}, {1, "right"}, {2, "top"}}, {{"sides", {0, 1}}}});
   BoundaryConditionParameters parameters;
   parameters.fixed    = "sides & top";
   parameters.pressure = "sides: 3";
@@ -92,8 +138,7 @@ TEST(BoundaryConditions, NamesOfSeveralBoundaries)
   EXPECT_EQ(conditions.pressures[0].boundary, 0u);
   EXPECT_EQ(conditions.pressures[1].boundary, 1u);
   ASSERT_EQ(conditions.displacements.size(), 1u);
-  EXPECT_EQ(conditions.name(conditions.displacements[0].boundaries),
-            "sides & top");
+  EXPECT_EQ(conditions.name(conditions.displacements[0].places), "sides & top");
   const auto message = [&](const std::string &fixed,
                            const std::string &pressure) {
     parameters.fixed    = fixed;

@@ -244,7 +244,10 @@ TEST(GmshProcess, OtherModels)
     [](GmshModel &changed) { changed.surfaces = {{1, 2, {1, 2}}}; },
     [](GmshModel &changed) { changed.coordinates.pop_back(); },
     [](GmshModel &changed) { changed.groups = {{3, -1, "a", {1}}}; },
-    [](GmshModel &changed) { changed.groups = {{1, 1, "a", {1}}}; }};
+    [](GmshModel &changed) { changed.groups = {{4, 1, "a", {1}}}; },
+    [](GmshModel &changed) { changed.curves = {{1, 1, {1, 2, 3}}}; },
+    [](GmshModel &changed) { changed.curves = {{1, 15, {1}}}; },
+    [](GmshModel &changed) { changed.points = {{1, 1, {1, 2}}}; }};
   for (const auto &change : changes)
     {
       GmshModel changed = model;

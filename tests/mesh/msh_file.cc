@@ -80,6 +80,29 @@ namespace
     return result;
   }
 
+  // Each with its names.
+  std::set<std::pair<Coordinates, Names>>
+  edges_and_corners_of(const SerialMesh &mesh)
+  {
+    std::set<std::pair<Coordinates, Names>> result;
+    for (const auto &[ends, id] : mesh.edges)
+      {
+        std::vector<Coordinates> x(2);
+        for (unsigned int k = 0; k < 2; ++k)
+          append(x[k], mesh.vertices[ends[k]]);
+        std::sort(x.begin(), x.end());
+        x[0].insert(x[0].end(), x[1].begin(), x[1].end());
+        result.emplace(x[0], names_of("edge", mesh.edge_names, id));
+      }
+    for (const auto &[vertex, id] : mesh.corners)
+      {
+        Coordinates x;
+        append(x, mesh.vertices[vertex]);
+        result.emplace(x, names_of("corner", mesh.corner_names, id));
+      }
+    return result;
+  }
+
   void
   expect_the_same_again(const SerialMesh &mesh)
   {
@@ -91,6 +114,7 @@ namespace
     EXPECT_TRUE(cells_of(again) == cells_of(mesh));
     EXPECT_EQ(faces_of(again).size(), mesh.faces.size());
     EXPECT_TRUE(faces_of(again) == faces_of(mesh));
+    EXPECT_EQ(edges_and_corners_of(again), edges_and_corners_of(mesh));
     EXPECT_EQ(again.vertices.size(), mesh.vertices.size());
   }
 
@@ -156,6 +180,27 @@ TEST(MshFile, NumbersWithoutNames)
                                         "1");
   EXPECT_EQ(region_volumes(mesh).count(7), 1u);
   expect_the_same_again(mesh);
+}
+
+// Names of edges and corners that overlap, with and without names, of cells of
+// all degrees.
+TEST(MshFile, EdgesAndCorners)
+{
+  for (const std::string degree : {"1", "2", "3"})
+    {
+      const SerialMesh mesh =
+        from_geometry("Cylinder(1) = {0, 0, 0, 0, 0, 1, 1};\n"
+                      "Physical Volume(\"body\") = {1};\n"
+                      "Physical Curve(\"a line, with blanks\") = {1, 2};\n"
+                      "Physical Curve(\"other\") = {2, 3};\n"
+                      "Physical Curve(12) = {3};\n"
+                      "Physical Point(\"both\") = {1, 2};\n"
+                      "Physical Point(3) = {2};\n",
+                      degree);
+      EXPECT_EQ(mesh.edge_names.names.size(), 3u);
+      EXPECT_EQ(mesh.corners.size(), 3u);
+      expect_the_same_again(mesh);
+    }
 }
 
 // A body of one region that has no name.

@@ -74,10 +74,33 @@ def boundary_rows():
             ("on rollers", (STATIC, f"{FIXED} =", f"{DISPLACEMENT} = z-min: free; free; 0"), "move along x and y")):
         settings = sorted(settings, key=lambda setting: setting.startswith(FIXED))
         yield wrong(f"statics {name}", settings, "statics needs a body that cannot move without strain", said, by_option=False)
+    yield from place_rows()
     yield wrong("initial displacement off a support", "Initial conditions/Displacement = 1; 0; 0", "contradicts a support", "found 1 m in x", "0 m")
     yield wrong("initial displacement inside out", (f"{FIXED} =", "Initial conditions/Displacement = -2*x; 0; 0"), "inside out", "det F = -1")
     yield wrong("initial displacement off a moving support", (f"{DISPLACEMENT} = x-max: 0.1*cos(t); 0; 0", "Initial conditions/Displacement = 0.2*x; 0; 0"),
                 "contradicts a support", "0.1 m")
+
+
+def place_rows():
+    """Edges and corners, by their names."""
+    edge, corner = "Selections/Edges = rim: x-max and z-max", "Selections/Corners = tip: x-max and y-max and z-max"
+    for entry, selection, kind in ((TRACTION, edge, "an edge"), (PRESSURE, corner, "a corner"), ("Supports/Elastic", corner, "a corner"),
+                                   ("Supports/Elastic normal", edge, "an edge"), ("Supports/Dashpots", edge, "an edge")):
+        name = "rim" if selection == edge else "tip"
+        value = "1" if entry in (PRESSURE, "Supports/Elastic normal") else "0; 0; 1"
+        yield wrong(f"{entry}, on {kind}", (selection, f"{entry} = {name}: {value}"), f"which is {kind}", "allowed are boundaries")
+    yield wrong("edge held twice", (edge, f"{FIXED} = rim, rim"), "component x of edge 'rim' has two conditions")
+    yield wrong("edge that is misspelt", (edge, f"{FIXED} = x-min, rimm"), "no such boundary or edge: found 'rimm'", "did you mean 'rim'?")
+    yield wrong("edge and side that part", (edge, f"{DISPLACEMENT} = x-max: 0; 0; t, rim: free; free; 0"), "places 'x-max' and 'rim'", "at t = 0.5")
+    yield wrong("edge and corner that do not meet", (edge, "Selections/Corners = tip: x-min and z-min", f"{FIXED} = rim & tip"), "places have no node in common")
+    for name, setting, *parts in (
+            ("edges nowhere", "Edges = rim: sphere 0 0 9 1", "selection 'rim' has no edge", "m away"),
+            ("corners nowhere", "Corners = tip: plane 7 0 0 1 0 0", "selection 'tip' has no corner", "is 6 m away"),
+            ("edges too sharp", "Edges = rim: sharp 91", "the nearest to 'sharp 91' is 1 degrees away"),
+            ("sharp corner", "Corners = tip: sharp", "a corner is not between two faces"), ("sharp face", "Boundaries = top: sharp", "no such boundary: found 'sharp'"),
+            ("edges of a name that is taken", "Edges = x-min: sharp", "the mesh has this name"), ("edges without colon", "Edges = sharp", "allowed: 'name: selection"),
+            ("edges of an unknown name", "Edges = rim: x-mix", "found 'x-mix'", "did you mean 'x-min'?")):
+        yield wrong(name, f"Selections/{setting}", *parts)
 
 
 def point_rows():

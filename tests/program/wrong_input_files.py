@@ -91,6 +91,8 @@ def mesh_rows():
                  groups=((3, 1, "held"), (3, 2, "loose"), (2, 3, "base")))
     yield mesh_row("statics of two bodies", apart, "the part at (5.25, 0.25, 0.25) of region 'loose' can move in any direction",
                    settings=("Time integration/Type = static", "Discretization/Degree = 1", "Boundary conditions/Fixed = base"), place="case.prm:")
+    yield mesh_row("line beside the body", mesh([GOOD, (1, 5, 1, 1, 5), (2, 3, 1, 1, 2, 3)], groups=((1, 5, "wire"), (2, 3, "base"))),
+                   "no such boundary: found 'wire'; the mesh has the boundaries: base", settings=("Boundary conditions/Fixed = wire",), place="case.prm:")
     yield mesh_row("names with control characters", apart.replace("base", "a\x1b[2J\x07b"), "\\x1b[2J\\x07b", settings=("Boundary conditions/Fixed = base",),
                    place="case.prm:")
     for name, settings, *parts in (

@@ -35,18 +35,18 @@ namespace corotet
   /**
    * What happens on each boundary of the body. Each component of each boundary
    * has exactly one condition: a displacement, a traction, a pressure, or none
-   * of them (free of force). So has each edge and corner where boundaries meet:
-   * a displacement, or none.
+   * of them (free of force). So has each edge and corner that has a name, or
+   * where such places meet: a displacement, or none.
    */
   class BoundaryConditions
   {
   public:
-    /// Displacement in m, by component, of the nodes that all of these
-    /// boundaries have in common, each the union of some ids; a component
-    /// without value is free.
+    /// Displacement in m, by component, of the nodes that all of these places
+    /// have in common, each the union of some ids; a component without value is
+    /// free.
     struct Displacement
     {
-      std::set<std::vector<unsigned int>>      boundaries;
+      std::set<Place>                          places;
       std::array<std::optional<Expression>, 3> components;
       /// The parameter that sets it.
       std::string entry;
@@ -60,42 +60,49 @@ namespace corotet
       Expression   value;
     };
 
-    /// Throws InputError for unknown boundaries, wrong expressions, and
-    /// components with two conditions. @p tables are for the expressions.
+    /// Throws InputError for unknown names, wrong expressions, and components
+    /// with two conditions. @p tables are for the expressions; @p names must
+    /// outlive this object.
     BoundaryConditions(const BoundaryConditionParameters &parameters,
-                       const MeshNames                   &boundaries,
+                       const PlaceNames                  &names,
                        const TableFunctions              &tables = {});
 
     std::vector<Displacement> displacements;
     std::vector<SurfaceLoad>  tractions;
     std::vector<SurfaceLoad>  pressures;
 
-    /// "name", or "name & name" for what boundaries have in common.
+    /// "name", or "name & name" for what places have in common.
     std::string
-    name(const std::set<std::vector<unsigned int>> &boundaries) const;
+    name(const std::set<Place> &places) const;
+
+    /// What a message calls these: "boundary", also where several meet, "edge",
+    /// "corner" or "place".
+    static std::string
+    kind(const std::set<Place> &places);
 
   private:
-    /// What "name & name" means, each boundary once.
-    std::set<std::vector<unsigned int>>
+    /// What "name & name" means, each place once.
+    std::set<Place>
     find(const std::string &text, const std::string &entry) const;
 
-    /// Adds a load on each of the boundaries that a name means.
+    /// Adds a load on each of the boundaries that a name means; @p what: "a
+    /// traction", say.
     void
     add(std::vector<SurfaceLoad> &loads,
+        const std::string        &what,
         const std::string        &name,
         const Expression         &value,
         const std::string        &entry) const;
 
     void
-    claim(const std::set<std::vector<unsigned int>> &boundaries,
-          const unsigned int                         component,
-          const std::string                         &entry);
+    claim(const std::set<Place> &places,
+          const unsigned int     component,
+          const std::string     &entry);
 
-    const MeshNames &names;
-    /// Entry that sets the condition of [boundaries][component]: of one
-    /// boundary, by its ids one by one.
-    std::map<std::set<std::vector<unsigned int>>, std::array<std::string, 3>>
-      claims;
+    const PlaceNames &names;
+    /// Entry that sets the condition of [places][component]: of one place, by
+    /// its ids one by one.
+    std::map<std::set<Place>, std::array<std::string, 3>> claims;
   };
 } // namespace corotet
 

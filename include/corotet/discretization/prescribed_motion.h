@@ -39,8 +39,8 @@ namespace corotet
     /**
      * Sets the prescribed owned entries of the displacement, and those of the
      * velocity and the acceleration, to their values at @p time multiplied by
-     * @p load_factor. Throws InputError if two boundaries disagree at a node
-     * that they share, or a value or derivative is not finite. Collective.
+     * @p load_factor. Throws InputError if two places disagree at a node that
+     * they share, or a value or derivative is not finite. Collective.
      */
     void
     apply(const double time,
@@ -86,8 +86,15 @@ namespace corotet
                 .components[entry.unknown % 3];
     }
 
-    /// Whether all boundaries of the condition have each local node in common
-    /// (0 or 1). Throws InputError if they have none. Collective.
+    /// Adds 1 or more to the first component of the nodes of a place that owned
+    /// cells have there.
+    void
+    mark(Vector                 &marks,
+         const ReferenceElement &reference,
+         const Place            &place) const;
+
+    /// Whether all places of the condition have each local node in common (0 or
+    /// 1). Throws InputError if they have none. Collective.
     std::vector<unsigned char>
     common_nodes(const ReferenceElement                 &reference,
                  const BoundaryConditions::Displacement &condition) const;

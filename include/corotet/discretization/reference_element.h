@@ -77,6 +77,8 @@ namespace corotet
     std::array<std::array<dealii::Tensor<1, 3>, 2>, 4> face_tangents;
     /// Nodes on each face.
     std::array<std::vector<unsigned int>, 4> face_nodes;
+    /// Nodes on each edge, as ends_of_edges numbers them.
+    std::array<std::vector<unsigned int>, 6> edge_nodes;
 
     /// Mean of N_i N_j over the cell: the mass matrix of a unit mass.
     dealii::Table<2, double> mass;

@@ -23,7 +23,8 @@ namespace corotet
    * - listed faces are faces of cells, and each has one boundary.
    *
    * Listed faces that lie inside the body (a named interface of two regions)
-   * are removed with a remark.
+   * are removed with a remark, and so are named edges and corners that no cell
+   * has.
    */
   void
   check_mesh(SerialMesh &mesh, const unsigned int element_degree = 3);

@@ -47,8 +47,8 @@ namespace corotet
    */
   struct GmshModel
   {
-    /// A physical group of volumes (3) or surfaces (2), and the geometric
-    /// entities that belong to it.
+    /// A physical group of volumes (3), surfaces (2), curves (1) or points (0),
+    /// and the geometric entities that belong to it.
     struct Group
     {
       int              dimension = 0;
@@ -91,6 +91,10 @@ namespace corotet
     /// x, y, z of each node.
     std::vector<double> coordinates;
 
+    /// Of curves and points that belong to a group.
+    std::vector<Elements> curves;
+    std::vector<Elements> points;
+
     /// Whether refining would make more cells than are allowed: nothing but
     /// volume_types is there then.
     bool is_too_large = false;
@@ -116,16 +120,21 @@ namespace corotet
       bytes.transfer(type.n_elements);
       bytes.transfer(type.nodes);
     });
-    for (auto *all : {&model.volumes, &model.surfaces})
-      bytes.transfer_all(*all, [&](GmshModel::Elements &elements) {
+    const auto transfer_elements = [&](std::vector<GmshModel::Elements> &all) {
+      bytes.transfer_all(all, [&](GmshModel::Elements &elements) {
         bytes.transfer(elements.entity);
         bytes.transfer(elements.type);
         bytes.transfer(elements.nodes);
       });
+    };
+    transfer_elements(model.volumes);
+    transfer_elements(model.surfaces);
     bytes.transfer(model.curved_surfaces);
     bytes.transfer(model.node_tags);
     bytes.transfer(model.coordinates);
     bytes.transfer(model.is_too_large);
+    transfer_elements(model.curves);
+    transfer_elements(model.points);
   }
 
 

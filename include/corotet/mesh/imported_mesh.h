@@ -44,9 +44,10 @@ namespace corotet
   /**
    * The mesh that corotet computes on. Sets of tetrahedra become regions, sets
    * of faces boundaries, and sets of nodes the boundaries that consist of the
-   * faces of the surface whose nodes are all in the set; what they have besides
-   * is left out with a remark. Tetrahedra whose nodes are off the straight
-   * position become curved cells.
+   * faces of the surface whose nodes are all in the set. What they have besides
+   * on the surface are edges whose nodes are all in the set, and corners, with
+   * the same name; other nodes are left out with a remark. Tetrahedra whose
+   * nodes are off the straight position become curved cells.
    */
   SerialMesh
   serial_mesh(const ImportedMesh &imported);

@@ -6,6 +6,7 @@
 
 #include <corotet/base/log.h>
 #include <corotet/base/selectable.h>
+#include <corotet/mesh/edges.h>
 #include <corotet/mesh/mesh_names.h>
 #include <corotet/mesh/mesh_source.h>
 #include <corotet/mesh/selections.h>
@@ -81,7 +82,29 @@ namespace corotet
     const MeshNames &
     boundaries() const
     {
-      return boundary_names;
+      return place_names.boundaries;
+    }
+
+    /// Of boundaries, edges and corners.
+    const PlaceNames &
+    places() const
+    {
+      return place_names;
+    }
+
+    /// Edges with names of the owned cells, which are called by their
+    /// active_cell_index(), in ascending order.
+    const std::vector<CellPart> &
+    named_edges() const
+    {
+      return edges_of_cells;
+    }
+
+    /// Vertices with names, in the same way.
+    const std::vector<CellPart> &
+    named_corners() const
+    {
+      return corners_of_cells;
     }
 
     MPI_Comm
@@ -115,6 +138,8 @@ namespace corotet
   private:
     void
     distribute_curved_nodes(const SerialMesh &mesh);
+    void
+    distribute_edges_and_corners(const SerialMesh &mesh);
 
     /// Of a curved cell.
     unsigned int
@@ -125,7 +150,9 @@ namespace corotet
 
     dealii::parallel::fullydistributed::Triangulation<3> tria;
     MeshNames                                            region_names;
-    MeshNames                                            boundary_names;
+    PlaceNames                                           place_names;
+    std::vector<CellPart>                                edges_of_cells;
+    std::vector<CellPart>                                corners_of_cells;
 
     unsigned int curve_degree = 1;
     /// Number of each active cell among the curved ones, or

@@ -4,6 +4,7 @@
 #ifndef corotet_mesh_mesh_names_h
 #define corotet_mesh_mesh_names_h
 
+#include <compare>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@ namespace corotet
   /**
    * What a mesh calls its regions or its boundaries. Each cell has one region
    * and each face of the surface one boundary, which are known by ids. A name
-   * means one id, or several: so sets may overlap.
+   * means one id, or several: so sets may overlap. Edges and corners are named
+   * in the same way.
    */
   struct NamedSets
   {
@@ -45,14 +47,14 @@ namespace corotet
   };
 
   /**
-   * Ids by name, and names by id, of the regions or of the boundaries of a
-   * mesh.
+   * Ids by name, and names by id, of the regions, the boundaries, the edges or
+   * the corners of a mesh.
    */
   class MeshNames
   {
   public:
-    /// @p kind is "region" or "boundary"; @p named holds every id that the mesh
-    /// has (an empty name: known by its id).
+    /// @p kind is "region", "boundary", "edge" or "corner"; @p named holds
+    /// every id that the mesh has (an empty name: known by its id).
     MeshNames(const std::string &kind, const NamedSets &named);
 
     /**
@@ -62,6 +64,28 @@ namespace corotet
      */
     std::vector<unsigned int>
     ids(const std::string &name_or_id, const std::string &entry) const;
+
+    /// Those that a name means, or the one with this number; none if there is
+    /// no such thing.
+    std::vector<unsigned int>
+    find(const std::string &name_or_id) const;
+
+    /// Only those that a name means.
+    std::vector<unsigned int>
+    find_name(const std::string &name) const
+    {
+      return named.ids(name);
+    }
+
+    /// "the boundaries: a, b, c", or "no boundaries".
+    std::string
+    listed() const;
+
+    /// Throws the InputError about a name that none of @p all knows.
+    [[noreturn]] static void
+    refuse(const std::string                    &name_or_id,
+           const std::string                    &entry,
+           const std::vector<const MeshNames *> &all);
 
     /// The name of @p id; "a & b" for what several have in common; or the id
     /// itself as text if it is in none.
@@ -86,6 +110,54 @@ namespace corotet
   private:
     std::string kind;
     NamedSets   named;
+  };
+
+  /**
+   * What one name means: ids of boundaries, of edges and of corners, each
+   * ascending. A name may mean some of each kind.
+   */
+  struct Place
+  {
+    std::vector<unsigned int> boundaries;
+    std::vector<unsigned int> edges;
+    std::vector<unsigned int> corners;
+
+    auto
+    operator<=>(const Place &) const = default;
+  };
+
+  /**
+   * Names of what a body can be held at: its boundaries, edges and corners.
+   */
+  struct PlaceNames
+  {
+    explicit PlaceNames(const NamedSets &boundaries,
+                        const NamedSets &edges   = {},
+                        const NamedSets &corners = {});
+
+    MeshNames boundaries;
+    MeshNames edges;
+    MeshNames corners;
+
+    /// All that has this name; else what has this number, a boundary rather
+    /// than an edge, and an edge rather than a corner. Throws InputError that
+    /// blames the parameter @p entry.
+    Place
+    find(const std::string &name_or_id, const std::string &entry) const;
+
+    /// Boundaries only, for what acts on an area, as @p what does ("a
+    /// traction"): an InputError says so of names of edges and corners.
+    std::vector<unsigned int>
+    boundary_ids(const std::string &name_or_id,
+                 const std::string &entry,
+                 const std::string &what) const;
+
+    std::string
+    name(const Place &place) const;
+
+    /// "boundary", "edge" or "corner"; "place" if it is of several kinds.
+    static std::string
+    kind(const Place &place);
   };
 } // namespace corotet
 

@@ -14,7 +14,8 @@ namespace corotet
    * What a user wants to know of a checked mesh before computing on it, as
    * lines of text: its size and remarks, how well its cells are shaped (of the
    * straight cells with the same vertices), and the names that there are, with
-   * volumes and areas and where they are. Lengths as the file has them.
+   * volumes, areas and lengths and where they are. Lengths as the file has
+   * them.
    */
   std::string
   mesh_report(const SerialMesh &mesh);

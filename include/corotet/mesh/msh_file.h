@@ -14,7 +14,7 @@ namespace corotet
    * The text of a file of gmsh (version 4.1, ASCII) with a mesh: with its
    * curved cells, and a physical group for each name. FileMesh makes the same
    * mesh of it, to the last digit. Each id of a region is an entity of its own,
-   * and so is each id of a boundary.
+   * and so is each id of a boundary and of edges, and each corner.
    */
   std::string
   msh_text(const SerialMesh &mesh);

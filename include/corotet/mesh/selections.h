@@ -25,10 +25,14 @@ namespace corotet
    *   within an angle [degree],
    * - patch x y z [angle]: the smooth patch of the surface that is nearest to a
    *   point, up to edges where normals differ by more than an angle [degree],
+   * - sharp [angle]: edges between faces whose normals differ by more than an
+   *   angle [degree],
    * - a name that the mesh has.
    *
-   * A face is inside of a shape if all its corners are, a cell if its centre
-   * is, both within a millionth of the body's diagonal.
+   * A face or an edge of the surface is inside of a shape if all its corners
+   * are, a cell if its centre is, all within a millionth of the body's
+   * diagonal. Edges and vertices have the normals, patches and boundaries of
+   * the faces that they belong to; vertices inside of the body have none.
    */
   struct SelectionParameters
   {
@@ -37,6 +41,8 @@ namespace corotet
 
     std::string boundaries;
     std::string regions;
+    std::string edges;
+    std::string corners;
   };
 
   /**

@@ -43,11 +43,29 @@ namespace corotet
       unsigned int                boundary;
     };
 
+    /// An edge of a cell, and the id of a name. One that has several names is
+    /// listed with each of their ids.
+    struct Edge
+    {
+      std::array<unsigned int, 2> vertices;
+      unsigned int                id;
+    };
+
+    /// A vertex of a cell, and the id of a name, in the same way.
+    struct Corner
+    {
+      unsigned int vertex;
+      unsigned int id;
+    };
+
     std::vector<dealii::Point<3>> vertices;
     std::vector<Cell>             cells;
     /// Faces on the surface that belong to a named boundary. Others need not be
     /// listed.
     std::vector<Face> faces;
+    /// Those that have names, on the surface or inside of the body.
+    std::vector<Edge>   edges;
+    std::vector<Corner> corners;
 
     /// Degree q of the maps that make curved cells of the reference
     /// tetrahedron: 2 or 3, or 1 if there are none.
@@ -62,6 +80,8 @@ namespace corotet
     /// name are known by their ids only.
     NamedSets regions;
     NamedSets boundaries;
+    NamedSets edge_names;
+    NamedSets corner_names;
 
     /// What an error in the mesh is blamed on: a file name, or empty for a
     /// generated mesh.

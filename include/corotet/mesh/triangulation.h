@@ -30,7 +30,7 @@ namespace corotet
   make_serial_mesh(const dealii::Triangulation<3> &tria);
 
   /// Cuts every cell into eight, @p n_refinements times. Parts of curved cells
-  /// are curved as these are.
+  /// are curved as these are, and parts of edges have the edges' names.
   void
   refine_uniformly(SerialMesh &mesh, const unsigned int n_refinements);
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_edges_h
+#define corotet_mesh_edges_h
+
+#include <corotet/mesh/serial_mesh.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace corotet
+{
+  /// Which vertices of a tetrahedron are the ends of its edges.
+  constexpr std::array<std::array<unsigned int, 2>, 6> ends_of_edges{
+    {{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{1, 3}}, {{2, 3}}}};
+
+  /// A cell's edge, by its number in ends_of_edges, or vertex that has a name.
+  struct CellPart
+  {
+    unsigned int cell;
+    unsigned int number;
+    unsigned int id;
+  };
+
+  /**
+   * Finds the named edges and corners of a mesh, which must outlive this
+   * object, in its cells.
+   */
+  class PartsOfCells
+  {
+  public:
+    explicit PartsOfCells(const SerialMesh &mesh);
+
+    /// Appends those of the cell, which is called @p name in what is appended.
+    void
+    add_edges(std::vector<CellPart>  &parts,
+              const SerialMesh::Cell &cell,
+              const unsigned int      name) const;
+    void
+    add_corners(std::vector<CellPart>  &parts,
+                const SerialMesh::Cell &cell,
+                const unsigned int      name) const;
+
+    /// Indices of the edges in SerialMesh::edges that two vertices, in any
+    /// order, are the ends of.
+    std::vector<std::size_t>
+    edges_between(const unsigned int a, const unsigned int b) const;
+
+  private:
+    using Ends = std::array<unsigned int, 2>;
+
+    const SerialMesh &mesh;
+    /// Ascending ends of each edge, and its index; sorted.
+    std::vector<std::pair<Ends, std::size_t>> edges;
+    /// Vertex and id of each corner, sorted.
+    std::vector<Ends> corners;
+    /// Whether a vertex is an end of an edge: most are none.
+    std::vector<bool> is_end;
+  };
+
+  /// Ends in ascending order: what an edge is known by.
+  std::array<unsigned int, 2>
+  ascending_ends(const unsigned int a, const unsigned int b);
+
+  /**
+   * Keeps the named edges that are edges of cells, and the corners that are
+   * vertices of cells, each once for each id; a remark counts the others.
+   */
+  void
+  check_edges_and_corners(SerialMesh &mesh);
+
+  /// The parts of the named edges of @p coarse, whose cells are those on level
+  /// 0 of @p tria, in its active cells.
+  std::vector<SerialMesh::Edge>
+  parts_of_edges(const SerialMesh               &coarse,
+                 const dealii::Triangulation<3> &tria);
+} // namespace corotet
+
+#endif
