@@ -24,7 +24,7 @@ namespace corotet
     using Vector      = dealii::Tensor<1, 3>;
 
     // What is less than this part of the lengths involved is round-off.
-    constexpr double tolerance = 1e-13;
+    constexpr double crossing_tolerance = 1e-13;
 
 
 
@@ -37,7 +37,8 @@ namespace corotet
     {
       const Vector ab = b - a, ac = c - a, ad = d - a;
       const double result = dealii::cross_product_3d(ab, ac) * ad;
-      return std::abs(result) <= tolerance * ab.norm() * ac.norm() * ad.norm() ?
+      return std::abs(result) <=
+                 crossing_tolerance * ab.norm() * ac.norm() * ad.norm() ?
                0. :
                result;
     }
@@ -53,7 +54,7 @@ namespace corotet
                    y2     = c[1] - a[1];
       const double result = x1 * y2 - x2 * y1;
       return std::abs(result) <=
-                 tolerance * std::hypot(x1, y1) * std::hypot(x2, y2) ?
+                 crossing_tolerance * std::hypot(x1, y1) * std::hypot(x2, y2) ?
                0. :
                result;
     }
@@ -124,7 +125,7 @@ namespace corotet
       BoundingBox  box(points);
       const double size = box.get_boundary_points().second.distance(
         box.get_boundary_points().first);
-      box.extend(tolerance * size);
+      box.extend(crossing_tolerance * size);
       return box;
     }
 
@@ -147,7 +148,7 @@ namespace corotet
       };
       const Vector r = off(edge.triangles[0]), s = off(edge.triangles[1]);
       return r * s > 0 && dealii::cross_product_3d(r, s).norm() <=
-                            tolerance * r.norm() * s.norm();
+                            crossing_tolerance * r.norm() * s.norm();
     }
   } // namespace
 

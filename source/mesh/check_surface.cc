@@ -17,7 +17,7 @@ namespace corotet
   {
     // Points that are closer than this many longest edges coincide: far above
     // round-off, far below the features of any sensible mesh.
-    constexpr double tolerance = 1e-8;
+    constexpr double face_tolerance = 1e-8;
 
     double
     longest_edge(const SerialMesh &mesh, const Triangle &triangle)
@@ -45,12 +45,13 @@ namespace corotet
       const auto              normal = dealii::cross_product_3d(a, b);
       const double            area   = normal.norm();
       if (std::abs(r * normal) >
-          tolerance * longest_edge(mesh, triangle) * area)
+          face_tolerance * longest_edge(mesh, triangle) * area)
         return false;
       // Barycentric coordinates of the projection on the plane.
       const double s = dealii::cross_product_3d(r, b) * normal / (area * area);
       const double t = dealii::cross_product_3d(a, r) * normal / (area * area);
-      return s >= -tolerance && t >= -tolerance && s + t <= 1 + tolerance;
+      return s >= -face_tolerance && t >= -face_tolerance &&
+             s + t <= 1 + face_tolerance;
     }
 
 
@@ -69,7 +70,7 @@ namespace corotet
             std::vector<dealii::Point<3>>{mesh.vertices[surface[t][0]],
                                           mesh.vertices[surface[t][1]],
                                           mesh.vertices[surface[t][2]]});
-          box.extend(tolerance * longest_edge(mesh, surface[t]));
+          box.extend(face_tolerance * longest_edge(mesh, surface[t]));
           boxes.emplace_back(box, t);
         }
       return dealii::pack_rtree(boxes);
@@ -85,7 +86,7 @@ namespace corotet
       const dealii::Point<3> &p = mesh.vertices[vertex];
       for (const unsigned int corner : triangle)
         if (p.distance(mesh.vertices[corner]) <=
-            tolerance * longest_edge(mesh, triangle))
+            face_tolerance * longest_edge(mesh, triangle))
           refuse_mesh(mesh,
                       fmt::format("duplicate nodes: two vertices are at {}; "
                                   "cells that meet there must share one (in "

@@ -121,10 +121,10 @@ namespace corotet
     // how many nodes they have. Tetrahedra, triangles and lines of degree 1, 2,
     // 3, and points.
     using NodeNumbers = std::map<int, std::size_t>;
-    const NodeNumbers tetrahedron_nodes{{4, 4}, {11, 10}, {29, 20}};
-    const NodeNumbers triangle_nodes{{2, 3}, {9, 6}, {21, 10}};
-    const NodeNumbers line_nodes{{1, 2}, {8, 3}, {26, 4}};
-    const NodeNumbers point_nodes{{15, 1}};
+    const NodeNumbers gmsh_tetrahedra{{4, 4}, {11, 10}, {29, 20}};
+    const NodeNumbers gmsh_triangles{{2, 3}, {9, 6}, {21, 10}};
+    const NodeNumbers gmsh_lines{{1, 2}, {8, 3}, {26, 4}};
+    const NodeNumbers gmsh_points{{15, 1}};
 
 
 
@@ -150,8 +150,8 @@ namespace corotet
         return group.dimension >= 0 && group.dimension <= 3 && group.id >= 0;
       };
       const auto has_whole_nodes = [](const GmshModel::ElementType &type) {
-        const auto found = tetrahedron_nodes.find(type.type);
-        return found == tetrahedron_nodes.end() ||
+        const auto found = gmsh_tetrahedra.find(type.type);
+        return found == gmsh_tetrahedra.end() ||
                type.nodes.size() == 3 * found->second;
       };
       std::set<int> types;
@@ -167,10 +167,10 @@ namespace corotet
              std::all_of(model.volumes.begin(),
                          model.volumes.end(),
                          is_announced) &&
-             have_all_nodes(model.volumes, tetrahedron_nodes) &&
-             have_all_nodes(model.surfaces, triangle_nodes) &&
-             have_all_nodes(model.curves, line_nodes) &&
-             have_all_nodes(model.points, point_nodes) &&
+             have_all_nodes(model.volumes, gmsh_tetrahedra) &&
+             have_all_nodes(model.surfaces, gmsh_triangles) &&
+             have_all_nodes(model.curves, gmsh_lines) &&
+             have_all_nodes(model.points, gmsh_points) &&
              model.coordinates.size() == 3 * model.node_tags.size();
     }
 
