@@ -7,7 +7,7 @@ _corotet_entries()
 {
   "$1" --print-parameters prm 2>/dev/null | awk '
     $1 == "subsection" { sub(/^ *subsection /, ""); section[++depth] = $0 }
-    $1 == "end" { --depth }
+    $1 == "end" { depth-- }
     $1 == "set" {
       sub(/^ *set /, ""); sub(/ *=.*/, "")
       path = ""
