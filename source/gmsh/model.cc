@@ -154,9 +154,9 @@ namespace corotet::gmsh_program
 
 
 
-    // Makes the cells of a geometry, of degree 1.
+    // Of cells of degree 1; 0 leaves it as it is.
     void
-    generate(const double element_size)
+    set_size(const double element_size)
     {
       gmsh::option::setNumber("Mesh.ElementOrder", 1);
       if (element_size > 0)
@@ -164,7 +164,67 @@ namespace corotet::gmsh_program
           gmsh::option::setNumber("Mesh.MeshSizeMin", element_size);
           gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
         }
+    }
+
+
+
+    // Makes the cells of a geometry, of degree 1.
+    void
+    generate(const double element_size)
+    {
+      set_size(element_size);
       gmsh::model::mesh::generate(3);
+    }
+
+
+
+    // Makes cells of the sizes that are set; returns the first error, if there
+    // is one. An exception would leave gmsh in a state in which it makes no
+    // other mesh.
+    std::string
+    try_to_generate()
+    {
+      gmsh::option::setNumber("General.AbortOnError", 0);
+      gmsh::logger::start();
+      gmsh::model::mesh::generate(3);
+      std::vector<std::string> lines;
+      gmsh::logger::get(lines);
+      gmsh::logger::stop();
+      gmsh::option::setNumber("General.AbortOnError", 2);
+      for (const std::string &line : lines)
+        if (line.starts_with("Error: "))
+          return line.substr(7);
+      return "";
+    }
+
+
+
+    // The same for shapes of CAD programs. Where edges of the length that is
+    // asked for are too long for a bent surface, triangles cross each other:
+    // then edges become shorter there, and then everywhere. Returns what was
+    // done, if it is not what was asked for.
+    std::string
+    generate_shapes(const double element_size)
+    {
+      set_size(element_size);
+      const std::string error = try_to_generate();
+      if (error.empty())
+        return "";
+      double longest = 0;
+      gmsh::option::getNumber("Mesh.MeshSizeMax", longest);
+      for (const double factor : {1., 0.5})
+        {
+          gmsh::model::mesh::clear();
+          gmsh::option::setNumber("Mesh.MeshSizeMax", factor * longest);
+          gmsh::option::setNumber("Mesh.MeshSizeMin", factor * longest / 10);
+          if (try_to_generate().empty())
+            return "with edges of the length that was asked for gmsh makes no "
+                   "mesh (" +
+                   error + "): they are " +
+                   (factor < 1 ? "half as long, and " : "") +
+                   "down to a tenth as long where the surface is bent";
+        }
+      throw std::runtime_error(error);
     }
 
 
@@ -185,9 +245,12 @@ namespace corotet::gmsh_program
       else
         {
           if (request.format != "geo" && request.is_geometry)
-            model.groups = read_shapes(request);
-          else
-            gmsh::open(request.path);
+            {
+              model.groups = read_shapes(request);
+              model.remark = generate_shapes(request.element_size);
+              return;
+            }
+          gmsh::open(request.path);
           // After the file, which may set the size, too.
           if (request.is_geometry)
             generate(request.element_size);

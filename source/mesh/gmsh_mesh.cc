@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/facets.h>
 #include <corotet/mesh/gmsh_elements.h>
@@ -298,6 +299,8 @@ namespace corotet
     mesh.origin     = path;
     mesh.regions    = volumes.named;
     mesh.boundaries = surfaces.named;
+    if (!model.remark.empty())
+      mesh.remarks.push_back(printable(model.remark, false));
     UsedNodes nodes(model);
     read_cells(mesh, model, nodes, kind, volumes);
     read_faces(mesh, model, nodes, surfaces);

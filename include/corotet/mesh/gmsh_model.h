@@ -98,6 +98,9 @@ namespace corotet
     /// Whether refining would make more cells than are allowed: nothing but
     /// volume_types is there then.
     bool is_too_large = false;
+
+    /// How the cells differ from what was asked for; empty if they do not.
+    std::string remark;
   };
 
 
@@ -135,6 +138,7 @@ namespace corotet
     bytes.transfer(model.is_too_large);
     transfer_elements(model.curves);
     transfer_elements(model.points);
+    bytes.transfer(model.remark);
   }
 
 
