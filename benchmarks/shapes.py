@@ -131,8 +131,8 @@ def outcome(status, errors):
         return "solved"
     said = re.findall(r"^corotet: error: (.*)$", errors, re.MULTILINE)
     if status in (1, 2, 3) and len(said) == 1 and errors.count("\n") == 1:
-        return f"refused: {said[0][:300]}"
-    return f"lost: status {status}: {errors.strip()[:300]}"
+        return f"refused: {said[0][:200]}"
+    return f"lost: status {status}: {errors.strip()[:200]}"
 
 
 def solve(program, seed, suffix, folder):
@@ -149,7 +149,7 @@ def solve(program, seed, suffix, folder):
     seconds = time.monotonic() - begin
     summary = results / "summary.json"
     cells = json.loads(summary.read_text(encoding="utf-8"))["cells"] if summary.exists() else 0
-    return {"outcome": outcome(run.returncode, run.stderr), "cells": cells, "seconds": round(seconds, 1)}
+    return {"outcome": outcome(run.returncode, run.stderr.replace(f"{folder}/", "")), "cells": cells, "seconds": round(seconds, 1)}
 
 
 def try_shape(program, seed, folder):

@@ -6,41 +6,13 @@
 #include <corotet/mesh/edges.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe.h>
 #include <deal.II/grid/reference_cell.h>
 
 namespace corotet
 {
   namespace
   {
-    ReferenceElement::PointValues
-    tabulate(const dealii::FiniteElement<3>      &fe,
-             const std::vector<dealii::Point<3>> &points,
-             const std::vector<double>           &weights)
-    {
-      AssertThrow(!points.empty(),
-                  dealii::ExcMessage("The quadrature rule has no points."));
-      const unsigned int            n = fe.dofs_per_cell;
-      ReferenceElement::PointValues result;
-      result.points  = points;
-      result.weights = weights;
-      double sum     = 0;
-      for (const double w : weights)
-        sum += w;
-      for (double &w : result.weights)
-        w /= sum;
-      result.values.reinit(points.size(), n);
-      result.gradients.reinit(points.size(), n, 3);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            result.values[q][i]                 = fe.shape_value(i, points[q]);
-            const dealii::Tensor<1, 3> gradient = fe.shape_grad(i, points[q]);
-            for (unsigned int k = 0; k < 3; ++k)
-              result.gradients[q][i][k] = gradient[k];
-          }
-      return result;
-    }
-
     // Vertices of face f of the reference tetrahedron, in an order that is
     // counter-clockwise seen from outside.
     std::array<dealii::Point<3>, 3>
@@ -80,9 +52,9 @@ namespace corotet
     const unsigned int n = element.has_bubbles() ? 4 : degree + 1;
     const dealii::QWitherdenVincentSimplex<3> loads(n);
     stiffness_rule =
-      corotet::tabulate(fe, stiffness.get_points(), stiffness.get_weights());
-    load_rule = corotet::tabulate(fe, loads.get_points(), loads.get_weights());
-    centre = corotet::tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
+      tabulate(fe, stiffness.get_points(), stiffness.get_weights());
+    load_rule = tabulate(fe, loads.get_points(), loads.get_weights());
+    centre    = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
 
     // 3p-2 = 1, 4, 7; with bubbles 3 and twice 2.
     const dealii::QWitherdenVincentSimplex<2> on_face(n);
@@ -92,7 +64,7 @@ namespace corotet
         std::vector<dealii::Point<3>> points;
         for (const dealii::Point<2> &p : on_face.get_points())
           points.push_back(v[0] + p[0] * (v[1] - v[0]) + p[1] * (v[2] - v[0]));
-        face_rules[f]    = corotet::tabulate(fe, points, on_face.get_weights());
+        face_rules[f]    = tabulate(fe, points, on_face.get_weights());
         face_tangents[f] = {{v[1] - v[0], v[2] - v[0]}};
         const dealii::Tensor<1, 3> normal =
           cross_product_3d(face_tangents[f][0], face_tangents[f][1]);
@@ -116,7 +88,7 @@ namespace corotet
     const dealii::QWitherdenVincentSimplex<3> products(
       element.has_bubbles() ? 5 : degree + 1);
     integrate_products(
-      corotet::tabulate(fe, products.get_points(), products.get_weights()));
+      tabulate(fe, products.get_points(), products.get_weights()));
   }
 
   ReferenceElement::PointValues
@@ -124,7 +96,36 @@ namespace corotet
                              const std::vector<dealii::Point<3>> &points,
                              const std::vector<double>           &weights)
   {
-    return corotet::tabulate(*make_finite_element(element), points, weights);
+    return tabulate(*make_finite_element(element), points, weights);
+  }
+
+  ReferenceElement::PointValues
+  ReferenceElement::tabulate(const dealii::FiniteElement<3, 3>   &fe,
+                             const std::vector<dealii::Point<3>> &points,
+                             const std::vector<double>           &weights)
+  {
+    AssertThrow(!points.empty(),
+                dealii::ExcMessage("The quadrature rule has no points."));
+    const unsigned int            n = fe.dofs_per_cell;
+    ReferenceElement::PointValues result;
+    result.points  = points;
+    result.weights = weights;
+    double sum     = 0;
+    for (const double w : weights)
+      sum += w;
+    for (double &w : result.weights)
+      w /= sum;
+    result.values.reinit(points.size(), n);
+    result.gradients.reinit(points.size(), n, 3);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          result.values[q][i]                 = fe.shape_value(i, points[q]);
+          const dealii::Tensor<1, 3> gradient = fe.shape_grad(i, points[q]);
+          for (unsigned int k = 0; k < 3; ++k)
+            result.gradients[q][i][k] = gradient[k];
+        }
+    return result;
   }
 
   ReferenceElement::PointValues

@@ -18,6 +18,7 @@ namespace corotet
     : comm(discretization.communicator())
     , raw(raw)
   {
+    const auto       &fe = discretization.finite_element().base_element(0);
     const PointSearch search(discretization);
     for (const auto &[name, x] : points)
       {
@@ -29,8 +30,7 @@ namespace corotet
               continue;
             located.push_back({static_cast<unsigned int>(probe_names.size()),
                                c,
-                               ReferenceElement::tabulate(
-                                 discretization.element(), {*xi}, {1.})});
+                               ReferenceElement::tabulate(fe, {*xi}, {1.})});
           }
         if (mpi::max(located.size() - n_before, comm) == 0)
           throw_outside_of_body("Output/Stress probes",

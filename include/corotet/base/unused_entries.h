@@ -19,9 +19,9 @@ namespace corotet
    * "Linear solver/amg", are left out: something else reads them.
    *
    * Throws InputError if nobody has made the choice: the file, say, has the
-   * subsection `gmsh` but not `set Type = gmsh`, so its mesh would be forgotten.
-   * Otherwise returns a line of text for each such subsection: which entries,
-   * where they are, and what is selected.
+   * subsection `gmsh` but not `set Type = gmsh`, so its mesh would be
+   * forgotten. Otherwise returns a line of text for each such subsection: which
+   * entries, where they are, and what is selected.
    */
   std::vector<std::string>
   find_unused_entries(const ParameterFile            &file,

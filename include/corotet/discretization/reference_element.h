@@ -12,6 +12,12 @@
 #include <array>
 #include <vector>
 
+namespace dealii
+{
+  template <int dim, int spacedim>
+  class FiniteElement;
+}
+
 namespace corotet
 {
   /**
@@ -39,6 +45,13 @@ namespace corotet
     /// The functions of @p element at some points. Weights are scaled.
     static PointValues
     tabulate(const Element                        element,
+             const std::vector<dealii::Point<3>> &points,
+             const std::vector<double>           &weights);
+
+    /// The same of a scalar element that is there already: making one takes
+    /// longer than a point.
+    static PointValues
+    tabulate(const dealii::FiniteElement<3, 3>   &fe,
              const std::vector<dealii::Point<3>> &points,
              const std::vector<double>           &weights);
 
