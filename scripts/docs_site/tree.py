@@ -12,7 +12,8 @@ PARTS = {
     "Use": ["doc/command_line.md", "doc/parameter_files.md", "doc/parameters.md", "doc/meshes.md", "meshes/README.md", "doc/results.md",
             "doc/report.md", "doc/pictures.md", "doc/modes.md", "doc/studies.md", "doc/limits.md"],
     "Theory": ["doc/physics.md", "doc/rotations.md", "doc/curved.md", "doc/algorithms.md", "doc/references.md"],
-    "Evidence": ["doc/verification.md", "doc/measurements.md", "doc/degrees.md", "doc/dynamics.md", "doc/stress.md", "doc/reliability.md"],
+    "Evidence": ["doc/verification.md", "doc/measurements.md", "doc/degrees.md", "doc/dynamics.md", "doc/stress.md", "doc/reliability.md",
+                 "benchmarks/shapes.md"],
     "Extend": ["doc/library.md", "CONTRIBUTING.md", "api.md", "CHANGELOG.md"],
 }
 
