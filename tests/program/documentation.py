@@ -13,7 +13,8 @@ from support import (CASES, COLUMNS, COLUMNS_AFTER_PROBES, MODES_COLUMNS, MODES_
 sys.path.insert(0, str(ROOT / "scripts"))
 from docs_site import parameter_pages, tree  # pylint: disable=wrong-import-position
 
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "meshes" / "README.md", *sorted((ROOT / "doc").rglob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "benchmarks" / "shapes.md", ROOT / "meshes" / "README.md",
+         *sorted((ROOT / "doc").rglob("*.md"))]
 
 
 class Documentation(ProgramTest):
