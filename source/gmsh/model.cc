@@ -210,20 +210,29 @@ namespace corotet::gmsh_program
       const std::string error = try_to_generate();
       if (error.empty())
         return "";
-      double longest = 0;
+      double longest = 0, shortest = 0;
       gmsh::option::getNumber("Mesh.MeshSizeMax", longest);
+      gmsh::option::getNumber("Mesh.MeshSizeMin", shortest);
+      // Without a size they are shorter where the surface is bent anyway.
+      const bool is_uniform = element_size > 0;
+      if (is_uniform)
+        shortest = longest / 10;
       for (const double factor : {1., 0.5})
-        {
-          gmsh::model::mesh::clear();
-          gmsh::option::setNumber("Mesh.MeshSizeMax", factor * longest);
-          gmsh::option::setNumber("Mesh.MeshSizeMin", factor * longest / 10);
-          if (try_to_generate().empty())
-            return "with edges of the length that was asked for gmsh makes no "
-                   "mesh (" +
-                   error + "): they are " +
-                   (factor < 1 ? "half as long, and " : "") +
-                   "down to a tenth as long where the surface is bent";
-        }
+        if (is_uniform || factor < 1)
+          {
+            gmsh::model::mesh::clear();
+            gmsh::option::setNumber("Mesh.MeshSizeMax", factor * longest);
+            gmsh::option::setNumber("Mesh.MeshSizeMin", factor * shortest);
+            if (try_to_generate().empty())
+              return std::string("with edges of the length that is ") +
+                     (is_uniform ? "asked for" : "usual") +
+                     " gmsh makes no mesh (" + error + "): they are " +
+                     (factor < 1 ? "half as long" : "") +
+                     (factor < 1 && is_uniform ? ", and " : "") +
+                     (is_uniform ?
+                        "down to a tenth as long where the surface is bent" :
+                        "");
+          }
       throw std::runtime_error(error);
     }
 
