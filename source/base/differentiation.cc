@@ -142,7 +142,8 @@ namespace corotet
 
 
     // Exponents as the numbers that they are: then the derivative of x^2 is 2*x
-    // and not x^2*2/x, which is none at zero.
+    // and not x^2*2/x, which is none at zero. Of integers GiNaC writes products
+    // with as many factors: large ones are floating-point numbers.
     struct ExponentsAsNumbers : public GiNaC::map_function
     {
       GiNaC::ex
@@ -153,7 +154,13 @@ namespace corotet
           return mapped;
         unsigned int n_left   = 20;
         const auto   exponent = short_constant(mapped.op(1), n_left);
-        return exponent ? GiNaC::pow(mapped.op(0), *exponent) : mapped;
+        if (!exponent)
+          return mapped;
+        constexpr int        most_factors = 100;
+        const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(*exponent);
+        if (number.is_integer() && GiNaC::abs(number) > most_factors)
+          return GiNaC::pow(mapped.op(0), GiNaC::numeric(number.to_double()));
+        return GiNaC::pow(mapped.op(0), number);
       }
     };
 

@@ -29,7 +29,7 @@ namespace corotet
     constexpr unsigned int max_includes      = 1000;
 
     std::ifstream
-    open(const std::string &path)
+    open_file(const std::string &path)
     {
       std::error_code error;
       const bool      exists = fs::exists(path, error);
@@ -79,7 +79,7 @@ namespace corotet
       void
       read(const std::string &path, const unsigned int depth = 0)
       {
-        std::ifstream     file        = open(path);
+        std::ifstream     file        = open_file(path);
         const std::size_t outer_depth = sections.size();
         lines_of_entries.emplace_back();
         std::string  line;
@@ -238,12 +238,12 @@ namespace corotet
     const std::string ending = fs::path(path).extension().string();
     if (ending == ".json")
       {
-        std::ifstream file = open(path);
+        std::ifstream file = open_file(path);
         return read_json_statements(path, file);
       }
     if (ending == ".xml")
       {
-        std::ifstream file = open(path);
+        std::ifstream file = open_file(path);
         return read_xml_statements(path, file);
       }
     if (ending != ".prm")

@@ -17,8 +17,8 @@ namespace corotet
     using Json = nlohmann::ordered_json;
 
     // Regular expressions of JSON Schema (ECMAScript) for numbers in a text.
-    const std::string whole_number = R"(^\s*[-+]?\d+\s*$)";
-    const std::string number =
+    const std::string whole_number_pattern = R"(^\s*[-+]?\d+\s*$)";
+    const std::string number_pattern =
       R"(^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*$)";
 
     // What a bound of a deal.II pattern says, if it is one.
@@ -45,10 +45,11 @@ namespace corotet
           if (const auto upper = bound(match[3]))
             schema["maximum"] = *upper;
         }
-      return {{"anyOf",
-               {schema,
-                {{"type", "string"},
-                 {"pattern", is_whole ? whole_number : number}}}}};
+      return {
+        {"anyOf",
+         {schema,
+          {{"type", "string"},
+           {"pattern", is_whole ? whole_number_pattern : number_pattern}}}}};
     }
 
     // Of the value of an entry with this deal.II pattern.

@@ -5,10 +5,12 @@
 #include <corotet/discretization/finite_element.h>
 #include <corotet/mesh/triangulation.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace corotet
 {
@@ -148,5 +150,26 @@ namespace corotet
         curve_positions(cells);
         set_up_curved_cells();
       }
+  }
+
+
+
+  std::pair<dealii::Point<3>, dealii::Point<3>>
+  Discretization::bounding_box() const
+  {
+    std::pair<dealii::Point<3>, dealii::Point<3>> box;
+    for (unsigned int a = 0; a < 3; ++a)
+      {
+        double lower = std::numeric_limits<double>::max();
+        double upper = std::numeric_limits<double>::lowest();
+        for (unsigned int n = 0; n < n_owned_nodes(); ++n)
+          {
+            lower = std::min(lower, node_position(n)[a]);
+            upper = std::max(upper, node_position(n)[a]);
+          }
+        box.first[a]  = dealii::Utilities::MPI::min(lower, communicator());
+        box.second[a] = dealii::Utilities::MPI::max(upper, communicator());
+      }
+    return box;
   }
 } // namespace corotet

@@ -84,6 +84,6 @@ namespace corotet
   {
     const Expression value(text, 3, "Loads/" + entry, context.tables);
     if (!value.is_zero())
-      terms.add(make(value, context));
+      terms.add(make(value, context), "Loads/" + entry);
   }
 } // namespace corotet

@@ -202,19 +202,20 @@ namespace corotet
             SurfaceCoefficient coefficient(
               context, id, value, direction, entry);
             if (!coefficient.is_zero())
-              add(std::move(coefficient));
+              add(std::move(coefficient), on_boundary(context, entry, id));
           }
     };
-    const auto add_springs = [&](SurfaceCoefficient &&stiffness) {
-      terms.add(std::make_unique<ElasticSupport>(std::move(stiffness)));
+    const auto add_springs = [&](SurfaceCoefficient &&stiffness,
+                                 const std::string   &term) {
+      terms.add(std::make_unique<ElasticSupport>(std::move(stiffness)), term);
     };
     for_each("Elastic", elastic, Direction::axes, add_springs);
     for_each("Elastic normal", elastic_normal, Direction::normal, add_springs);
     for_each("Dashpots",
              dashpots,
              Direction::axes,
-             [&](SurfaceCoefficient &&damping) {
-               terms.add(std::make_unique<Dashpots>(std::move(damping)));
+             [&](SurfaceCoefficient &&damping, const std::string &term) {
+               terms.add(std::make_unique<Dashpots>(std::move(damping)), term);
              });
   }
 } // namespace corotet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/text.h>
 #include <corotet/forces/body_force.h>
 #include <corotet/forces/elastic_support.h>
 #include <corotet/forces/force_kind.h>
@@ -19,6 +20,17 @@ namespace corotet
   ForceContext::apply_mass(Vector &f, const Vector &a) const
   {
     mass.apply(f, a);
+  }
+
+  std::string
+  on_boundary(const ForceContext &context,
+              const std::string  &entry,
+              const unsigned int  boundary)
+  {
+    return entry + " on boundary '" +
+           shortened(
+             context.discretization.mesh().boundaries().name(boundary)) +
+           "'";
   }
 
   std::vector<Candidate<ForceKind>>

@@ -37,6 +37,15 @@ namespace corotet
     : VectorFieldKind("Gravity", "Acceleration [m/s^2] of gravity")
   {}
 
+  std::vector<ForceKind::GivenEntry>
+  GravityKind::given() const
+  {
+    std::vector<GivenEntry> entries = VectorFieldKind::given();
+    for (GivenEntry &entry : entries)
+      entry.on_mass = true;
+    return entries;
+  }
+
   std::unique_ptr<ForceTerm>
   GravityKind::make(const Expression &value, const ForceContext &context) const
   {

@@ -157,10 +157,11 @@ namespace corotet
                                        shortened(place + ": " + force),
                                        allowed));
         terms.add(std::make_unique<PointForce>(
-          context.discretization,
-          *target,
-          Expression(force, 3, entry, context.tables),
-          context.log));
+                    context.discretization,
+                    *target,
+                    Expression(force, 3, entry, context.tables),
+                    context.log),
+                  entry + " '" + shortened(place) + "'");
       }
   }
 } // namespace corotet

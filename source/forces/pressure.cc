@@ -129,6 +129,9 @@ namespace corotet
     const bool follow = !context.elasticity.law().is_linear();
     for (const auto &load : context.conditions.pressures)
       terms.add(std::make_unique<Pressure>(
-        context.discretization, context.reference, load, follow));
+                  context.discretization, context.reference, load, follow),
+                on_boundary(context,
+                            "Boundary conditions/Pressure",
+                            load.boundary));
   }
 } // namespace corotet

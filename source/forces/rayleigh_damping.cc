@@ -175,6 +175,7 @@ namespace corotet
                     c.stiffness));
     if (c.mass > 0 || c.stiffness > 0)
       terms.add(std::make_unique<RayleighDamping>(
-        context.discretization, context.mass, context.elasticity, c));
+                  context.discretization, context.mass, context.elasticity, c),
+                "Damping");
   }
 } // namespace corotet

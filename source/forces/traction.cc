@@ -60,6 +60,9 @@ namespace corotet
     for (const auto &[boundary, value] : context.conditions.tractions)
       if (!value.is_zero())
         terms.add(std::make_unique<Traction>(
-          context.discretization, context.reference, boundary, value));
+                    context.discretization, context.reference, boundary, value),
+                  on_boundary(context,
+                              "Boundary conditions/Traction",
+                              boundary));
   }
 } // namespace corotet

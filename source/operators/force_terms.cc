@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/prescribed_motion.h>
 #include <corotet/operators/elastic_sweeps.h>
 #include <corotet/operators/force_terms.h>
 #include <corotet/operators/surface_matrix.h>
@@ -68,7 +69,7 @@ namespace corotet
   }
 
   void
-  ForceTerms::add(std::unique_ptr<ForceTerm> term)
+  ForceTerms::add(std::unique_ptr<ForceTerm> term, const std::string &name)
   {
     if (is_constant_load(*term))
       {
@@ -79,6 +80,7 @@ namespace corotet
         constant_load += scratch;
       }
     terms.push_back(std::move(term));
+    names.push_back(name);
   }
 
   void
@@ -243,6 +245,46 @@ namespace corotet
     surface_matrix(*S, time, 1., 0.);
     return S;
   }
+
+  std::vector<std::string>
+  ForceTerms::names_without_effect(const std::vector<Motion> &motions,
+                                   const PrescribedMotion    &supports) const
+  {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      {
+        if (names[i].empty())
+          continue;
+        double on_all = 0, on_free = 0;
+        for (const Motion &motion : motions)
+          {
+            scratch = 0;
+            terms[i]->add_force(scratch, motion);
+            scratch.compress(dealii::VectorOperation::add);
+            on_all += scratch.norm_sqr();
+            supports.set_zero(scratch);
+            on_free += scratch.norm_sqr();
+          }
+        // Squares of what round-off leaves beside a face.
+        if (on_all > 0 && on_free <= 1e-24 * on_all)
+          result.push_back(names[i]);
+      }
+    return result;
+  }
+
+
+
+  std::vector<std::string>
+  ForceTerms::names_of_damping() const
+  {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      if (terms[i]->role() == Role::damping && !names[i].empty())
+        result.push_back(names[i]);
+    return result;
+  }
+
+
 
   bool
   ForceTerms::is_linear() const

@@ -55,27 +55,18 @@ namespace corotet
       return best;
     }
 
-    // "x in [0, 1], y in [0, 0.1], z in [0, 0.1]".
+    // "x in [0, 1], y in [0, 0.1], z in [0, 0.1]". Collective.
     std::string
-    bounding_box(const Discretization &discretization)
+    extents(const Discretization &discretization)
     {
-      std::array<double, 3> lower, upper;
-      lower.fill(std::numeric_limits<double>::max());
-      upper.fill(-std::numeric_limits<double>::max());
-      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-        for (unsigned int c = 0; c < 3; ++c)
-          {
-            const double x = discretization.node_position(n)[c];
-            lower[c]       = std::min(lower[c], x);
-            upper[c]       = std::max(upper[c], x);
-          }
+      const auto [lower, upper] = discretization.bounding_box();
       std::string text;
       for (unsigned int c = 0; c < 3; ++c)
         text += fmt::format("{}{} in [{:.6g}, {:.6g}]",
                             c == 0 ? "" : ", ",
                             "xyz"[c],
-                            mpi::min(lower[c], discretization.communicator()),
-                            mpi::max(upper[c], discretization.communicator()));
+                            lower[c],
+                            upper[c]);
       return text;
     }
 
@@ -106,7 +97,7 @@ namespace corotet
                                  x[1],
                                  x[2],
                                  distance_to_nodes(x, discretization),
-                                 bounding_box(discretization)));
+                                 extents(discretization)));
   }
 
   Probes::Probes(const std::vector<ProbePoint> &points,

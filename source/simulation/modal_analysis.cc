@@ -19,28 +19,6 @@ namespace corotet
   {
     using dealii::Tensor;
 
-    // Lower and upper corner, the same on any number of ranks.
-    std::pair<dealii::Point<3>, dealii::Point<3>>
-    bounding_box(const Discretization &disc)
-    {
-      std::pair<dealii::Point<3>, dealii::Point<3>> box;
-      for (unsigned int a = 0; a < 3; ++a)
-        {
-          double lower = std::numeric_limits<double>::max();
-          double upper = std::numeric_limits<double>::lowest();
-          for (unsigned int n = 0; n < disc.n_owned_nodes(); ++n)
-            {
-              lower = std::min(lower, disc.node_position(n)[a]);
-              upper = std::max(upper, disc.node_position(n)[a]);
-            }
-          box.first[a] =
-            dealii::Utilities::MPI::min(lower, disc.communicator());
-          box.second[a] =
-            dealii::Utilities::MPI::max(upper, disc.communicator());
-        }
-      return box;
-    }
-
     std::vector<Vector>
     rigid_body_modes(const Discretization &disc, const RigidMotions &motions)
     {
@@ -98,7 +76,7 @@ namespace corotet
                this->log.progress(
                  fmt::format("modes: {} linear solves", n_solves));
              })
-    , box(bounding_box(the_body.discretization))
+    , box(the_body.discretization.bounding_box())
     , length(box.first.distance(box.second))
   {
     if (parameters.modes.number > solver.max_eigenvalues())

@@ -28,6 +28,7 @@ namespace corotet
     if (!parameters.time_integrator.selected().is_dynamic())
       check_supports();
     check_start(system, parameters, stepper.state(), log);
+    warn_of_forces(system.equation(), parameters, log);
     wall_times.setup = seconds();
   }
 

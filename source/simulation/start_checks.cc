@@ -169,4 +169,30 @@ namespace corotet
     if (!parts.empty())
       log.warning("Mesh: " + parts);
   }
+
+  void
+  warn_of_forces(const EquationOfMotion     &equation,
+                 const SimulationParameters &parameters,
+                 Log                        &log)
+  {
+    const Body &body = equation.body;
+    if (!parameters.time_integrator.selected().is_dynamic())
+      for (const std::string &name : equation.terms.names_of_damping())
+        log.warning(name + ": has no effect in statics, where nothing moves");
+    // Every node moves a little, each in another direction.
+    Vector u;
+    body.discretization.initialize_vector(u);
+    const auto   first = u.get_partitioner()->local_range().first;
+    const double size  = 1e-6 * size_of(body.discretization);
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      u.local_element(i) =
+        size * (1.5 + std::sin(static_cast<double>(first + i)));
+    u.update_ghost_values();
+    for (const std::string &name :
+         equation.terms.names_without_effect({{parameters.start_time, u, u},
+                                              {parameters.end_time, u, u}},
+                                             body.motion))
+      log.warning(name + ": has no effect but on reactions, as the "
+                         "displacement is prescribed wherever it acts");
+  }
 } // namespace corotet

@@ -20,6 +20,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -94,6 +95,9 @@ namespace corotet
                            "kept");
         for (const std::string &line : unused_entries())
           log.warning(line);
+        if (has_unused_density())
+          log.line("Material/Density: has no effect, as statics has no inertia "
+                   "and there is no gravity");
         directory = parameters.output.directory_of_run(command.parameter_file);
         // Before the work starts; nothing is removed before all input is
         // checked.
@@ -122,6 +126,20 @@ namespace corotet
       }
 
     private:
+      bool
+      has_unused_density() const
+      {
+        const auto &simulation = parameters.simulation;
+        if (!file.is_set("Material/Density") ||
+            simulation.type == RunType::modes ||
+            simulation.time_integrator.selected().is_dynamic())
+          return false;
+        const auto given = simulation.forces.given();
+        return std::none_of(given.begin(), given.end(), [](const auto &entry) {
+          return entry.on_mass;
+        });
+      }
+
       std::vector<std::string>
       unused_entries() const
       {

@@ -128,6 +128,20 @@ TEST(Differentiation, NumbersStayAsTheyAre)
             0.);
 }
 
+// Nor are large exponents written as that many factors.
+TEST(Differentiation, LargeExponents)
+{
+  const std::string derivative_text =
+    differentiate("x^977777 + (x - x)^977777", {"x"}, "Entry");
+  EXPECT_LT(derivative_text.size(), 200u) << derivative_text;
+  // A sum without round-off.
+  const double h        = 0x1p-20;
+  const double expected = 977777 * std::exp(977776 * std::log1p(h));
+  EXPECT_NEAR(Expression(derivative_text, 1, "Entry").value({1 + h, 0, 0}, 0.),
+              expected,
+              round_off * expected);
+}
+
 // Exponents that are constants are numbers, however they are written:
 // derivatives of powers above one are zero where the base is.
 TEST(Differentiation, PowersOfZero)

@@ -39,7 +39,7 @@ class Browser:
                                     {"features": [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]})
 
     def open(self, path):
-        """Opens a page and waits until its data are read. Returns how long that took [s]."""
+        """Opens a page and waits until its data are read, and it is drawn. Returns how long the former took [s]."""
         self.driver.get_log("browser"), self.driver.get_log("performance")
         start = time.monotonic()
         self.driver.get(path.as_uri())
@@ -47,7 +47,9 @@ class Browser:
             if time.monotonic() - start > 30:
                 raise AssertionError(f"{path} does not get ready: {self.messages()}")
             time.sleep(0.02)
-        return time.monotonic() - start
+        seconds = time.monotonic() - start
+        self.settle()
+        return seconds
 
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)

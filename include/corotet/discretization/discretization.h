@@ -12,6 +12,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -148,6 +149,11 @@ namespace corotet
               positions.local_element(3 * local_node + 1),
               positions.local_element(3 * local_node + 2)};
     }
+
+    /// Lower and upper corner of the box around the body's nodes at rest in m,
+    /// the same on any number of ranks. Collective.
+    std::pair<dealii::Point<3>, dealii::Point<3>>
+    bounding_box() const;
 
     const dealii::FESystem<3> &
     finite_element() const

@@ -45,6 +45,12 @@ namespace corotet
     apply_mass(Vector &f, const Vector &a) const;
   };
 
+  /// What messages call a term on a boundary: "ENTRY on boundary 'NAME'".
+  std::string
+  on_boundary(const ForceContext &context,
+              const std::string  &entry,
+              const unsigned int  boundary);
+
   /**
    * A kind of force: its parameters, and how terms are made of them.
    */
@@ -61,6 +67,8 @@ namespace corotet
       std::string none;
       /// Whether it belongs to the stiffness at rest, which modes have.
       bool in_modes = false;
+      /// Whether it is a force on the mass, so that statics needs densities.
+      bool on_mass = false;
     };
 
     virtual ~ForceKind() = default;

@@ -34,6 +34,9 @@ namespace corotet
   public:
     GravityKind();
 
+    std::vector<GivenEntry>
+    given() const override;
+
   protected:
     std::unique_ptr<ForceTerm>
     make(const Expression &value, const ForceContext &context) const override;

@@ -8,10 +8,12 @@
 #include <corotet/operators/force_term.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace corotet
 {
+  class PrescribedMotion;
   enum class Tangent;
   class SurfaceMatrix;
 
@@ -25,8 +27,10 @@ namespace corotet
     /// @p discretization must outlive this object.
     explicit ForceTerms(const Discretization &discretization);
 
+    /// @p name is the entry and place that messages call it by, if any does:
+    /// "Boundary conditions/Traction of 'x-max'".
     void
-    add(std::unique_ptr<ForceTerm> term);
+    add(std::unique_ptr<ForceTerm> term, const std::string &name = "");
 
     /// f = load_factor times the loads, and the forces of supports and of those
     /// elastic terms that depend on time.
@@ -98,6 +102,17 @@ namespace corotet
     std::unique_ptr<SurfaceMatrix>
     springs(const ReferenceElement &reference, const double time) const;
 
+    /// Names of the terms whose forces act on unknowns that supports
+    /// prescribe, and on no other, in all of these motions, which should move
+    /// every node. Without a name a term is left out.
+    std::vector<std::string>
+    names_without_effect(const std::vector<Motion> &motions,
+                         const PrescribedMotion    &supports) const;
+
+    /// Names of the terms that resist motion, if they have one.
+    std::vector<std::string>
+    names_of_damping() const;
+
     /// Whether all terms are linear.
     bool
     is_linear() const;
@@ -138,6 +153,8 @@ namespace corotet
   private:
     const Discretization                   &discretization;
     std::vector<std::unique_ptr<ForceTerm>> terms;
+    /// Of each term, or empty.
+    std::vector<std::string> names;
     /// Sum of the loads that depend on neither time nor motion.
     Vector         constant_load;
     mutable Vector scratch;

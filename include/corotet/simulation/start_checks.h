@@ -31,6 +31,16 @@ namespace corotet
   warn_of_body(const Body                 &body,
                const SimulationParameters &parameters,
                Log                        &log);
+
+  /**
+   * Warns of forces that cannot act: of loads and supports whose force is on
+   * nodes alone that other supports hold or move, and of damping in statics.
+   * Collective.
+   */
+  void
+  warn_of_forces(const EquationOfMotion     &equation,
+                 const SimulationParameters &parameters,
+                 Log                        &log);
 } // namespace corotet
 
 #endif

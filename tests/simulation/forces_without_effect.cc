@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Loads and supports that cannot act are named at the start of a run.
+
+#include <deal.II/base/utilities.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "../temporary_folder.h"
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // What a run warns of before its first step; on rank 0, which has the log.
+  std::vector<std::string>
+  warnings(const std::string &text)
+  {
+    CompleteRun           run(text);
+    const TemporaryFolder folder;
+    run.log.open(folder / "log.txt");
+    std::vector<std::string> result;
+    for (const std::string &line :
+         dealii::Utilities::split_string_list(folder.read("log.txt"), '\n'))
+      if (line.starts_with("warning: "))
+        result.push_back(line.substr(9));
+    return result;
+  }
+
+  std::string
+  held_bar(const unsigned int degree)
+  {
+    return box_mesh("2, 1, 1", "2, 1, 1") + element_text(degree) +
+           fixed("x-min") + tractions("x-max: 1e-3; 0; 0");
+  }
+
+  const std::string reactions_only =
+    ": has no effect but on reactions, as the displacement is prescribed "
+    "wherever it acts";
+
+  bool
+  has_log()
+  {
+    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  }
+} // namespace
+
+TEST(ForcesWithoutEffect, AreNamed)
+{
+  for (const unsigned int degree : {1u, 2u, 3u})
+    {
+      const std::string text =
+        held_bar(degree) +
+        supports("x-min: 1; 1; 1, x-max: 1; 1; 1",
+                 "x-min: 1",
+                 "x-max: 1; 1; 1") +
+        section("Loads",
+                {{"Gravity", "0; 0; -1"},
+                 {"Point forces", "0 0 0: 1; 0; 0, 2 0 0: 1; 0; 0"}});
+      std::vector<std::string> expected;
+      if (has_log())
+        expected = {
+          "Supports/Dashpots on boundary 'x-max': has no effect in statics, "
+          "where nothing moves",
+          "Loads/Point forces '0 0 0'" + reactions_only,
+          "Supports/Elastic on boundary 'x-min'" + reactions_only,
+          "Supports/Elastic normal on boundary 'x-min'" + reactions_only};
+      EXPECT_EQ(warnings(text + statics()), expected);
+      // In dynamics dashpots act.
+      if (has_log())
+        expected.erase(expected.begin());
+      EXPECT_EQ(warnings(text + time_integration("Newmark", 1, 0.1)), expected);
+    }
+}
+
+// One component is free, or one node: the whole force is no matter of
+// reactions.
+TEST(ForcesWithoutEffect, WhatActsInPartIsNotNamed)
+{
+  EXPECT_EQ(warnings(box_mesh("2, 1, 1", "2, 1, 1") + element_text(2) +
+                     displacements("x-min: 0; 0; free, x-max: 0; 0; 0") +
+                     tractions("y-min: 1; 1; 1") + supports("x-min: 1; 1; 1") +
+                     statics()),
+            std::vector<std::string>());
+}
+
+// All nodes of the loaded boundary belong to others, which hold them.
+TEST(ForcesWithoutEffect, LoadOnNodesThatOthersHold)
+{
+  const std::string text =
+    box_mesh("1, 1, 1", "1, 2, 1") + element_text(1) + fixed("x-min, x-max");
+  std::vector<std::string> expected;
+  if (has_log())
+    expected = {"Boundary conditions/Traction on boundary 'y-min'" +
+                  reactions_only,
+                "Boundary conditions/Pressure on boundary 'z-max'" +
+                  reactions_only};
+  EXPECT_EQ(warnings(text + tractions("y-min: 1; 0; 0") +
+                     pressures("z-max: 1") + statics()),
+            expected);
+}
