@@ -7,9 +7,11 @@
 #include <corotet/base/text.h>
 #include <corotet/base/whole_file.h>
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -35,6 +37,16 @@ namespace corotet
       if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
         return size.ws_col;
       return 80;
+    }
+
+    // "[====    ]".
+    std::string
+    bar(const double share, const std::size_t width)
+    {
+      const auto n_done =
+        static_cast<std::size_t>(std::clamp(share, 0., 1.) * width);
+      return '[' + std::string(n_done, '=') + std::string(width - n_done, ' ') +
+             ']';
     }
   } // namespace
 
@@ -71,15 +83,47 @@ namespace corotet
   Log::warning(const std::string &text)
   {
     line("warning: " + text);
+    count("warning", "warnings");
   }
 
   void
-  Log::progress(const std::string &text)
+  Log::count(const std::string &one, const std::string &several)
+  {
+    const auto known =
+      std::find_if(counted.begin(), counted.end(), [&](const Count &count) {
+        return count.one == one;
+      });
+    if (known == counted.end())
+      counted.push_back({one, several, 1});
+    else
+      ++known->n;
+  }
+
+  std::string
+  Log::counts() const
+  {
+    std::string text;
+    for (const auto &[one, several, n] : counted)
+      text += fmt::format("{}{} {}",
+                          text.empty() ? "" : ", ",
+                          n,
+                          n == 1 ? one : several);
+    return text;
+  }
+
+  void
+  Log::progress(const std::string &text, const double share)
   {
     if (!terminal)
       return;
-    std::cout << "\r\033[K" << text.substr(0, terminal_width() - 1)
-              << std::flush;
+    const std::size_t width = terminal_width() - 1;
+    std::string       shown = text.substr(0, width);
+    // With its brackets and a blank.
+    constexpr std::size_t shortest_bar = 8, longest_bar = 30;
+    const std::size_t     left = width - shown.size();
+    if (share >= 0 && left >= shortest_bar + 3)
+      shown += ' ' + bar(share, std::min(longest_bar, left - 3));
+    std::cout << "\r\033[K" << shown << std::flush;
     progress_shown = true;
   }
 

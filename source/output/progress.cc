@@ -83,6 +83,9 @@ namespace corotet
         line_time    = time;
       }
     else
-      log.progress(text);
+      log.progress(text,
+                   end_time > start_time ?
+                     (time - start_time) / (end_time - start_time) :
+                     -1);
   }
 } // namespace corotet

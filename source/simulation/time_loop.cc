@@ -181,8 +181,11 @@ namespace corotet
       }
     record = next;
     if (record.parts > 1)
-      log.line(
-        fmt::format("step {}: made in {} parts", record.step, record.parts));
+      {
+        log.line(
+          fmt::format("step {}: made in {} parts", record.step, record.parts));
+        log.count("step made in parts", "steps made in parts");
+      }
     if (is_done() && adaptive)
       log.line(fmt::format(
         "Adaptive step: {} steps were repeated, {} were too inaccurate with the "

@@ -177,8 +177,11 @@ namespace corotet
     unsigned int             n_failed = 0;
     for (const StudyCase &one : cases)
       {
-        log.progress(fmt::format(
-          "run {} of {}: {}", results.size() + 1, cases.size(), one.name()));
+        log.progress(fmt::format("run {} of {}: {}",
+                                 results.size() + 1,
+                                 cases.size(),
+                                 one.name()),
+                     static_cast<double>(results.size()) / cases.size());
         results.push_back(result_of(one));
         log.line(fmt::format("Run {} of {}, {}: {}",
                              results.size(),
@@ -190,8 +193,11 @@ namespace corotet
         write(results);
       }
     remove_checkpoints(directory + "/rows/finer_run", comm);
-    for (const std::string &line : StudyTable(results, quantities).lines())
+    const StudyTable table(results, quantities);
+    for (const std::string &line : table.lines())
       log.line(line);
+    for (const std::string &text : table.not_converging())
+      log.warning(text);
     if (parameters.pictures)
       draw();
     if (n_failed > 0)

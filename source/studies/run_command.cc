@@ -302,13 +302,28 @@ namespace corotet
         if (!goes_on)
           prepare_output_directory(directory, may_overwrite(), comm);
         action();
-        log.line("Results are in " + directory);
+        say_where_results_are(table);
         parameters.verification.compare(
           std::filesystem::path(command.parameter_file).stem().string(),
           directory,
           table,
           comm,
           log);
+      }
+
+      void
+      say_where_results_are(const std::string &table)
+      {
+        const bool is_study =
+          parameters.simulation.type == RunType::convergence_study;
+        log.line("Results are in " + directory + ": " + table +
+                 (is_study ? "" : ", solution.vtkhdf for ParaView") +
+                 (command.report ? "" :
+                                   ("; scripts/report " + directory +
+                                    " makes a page of them")));
+        const std::string counts = log.counts();
+        if (!counts.empty())
+          log.line("Worth a look above, or in log.txt: " + counts);
       }
 
       void

@@ -60,10 +60,14 @@ namespace corotet
     , quantities(quantities)
   {
     const auto norm = [&](const std::string &name, double FieldNorms::*norm) {
-      std::vector<double> values;
+      std::vector<double> references, values;
       for (const StudyResult &result : results)
-        values.push_back(result.errors ? result.errors->error.*norm : nan);
-      add_error(name, values);
+        {
+          references.push_back(result.errors ? result.errors->reference.*norm :
+                                               nan);
+          values.push_back(result.errors ? result.errors->error.*norm : nan);
+        }
+      add_error(name, references, values);
     };
     if (std::any_of(results.begin(), results.end(), [](const auto &result) {
           return result.errors.has_value();
@@ -80,15 +84,19 @@ namespace corotet
           for (const StudyResult &result : results)
             values.push_back(
               std::abs(result.quantities[i] - *quantities[i].reference));
-          add_error(quantities[i].name, values);
+          add_error(quantities[i].name,
+                    std::vector<double>(results.size(),
+                                        std::abs(*quantities[i].reference)),
+                    values);
         }
   }
 
   void
   StudyTable::add_error(const std::string         &name,
+                        const std::vector<double> &references,
                         const std::vector<double> &values)
   {
-    Error error{name, values, {}, {}};
+    Error error{name, references, values, {}, {}};
     error.orders.assign(values.size(), nan);
     error.orders_in_time.assign(values.size(), nan);
     for (unsigned int i = 0; i < values.size(); ++i)
@@ -108,6 +116,33 @@ namespace corotet
             }
         }
     errors.push_back(error);
+  }
+
+  std::vector<std::string>
+  StudyTable::not_converging() const
+  {
+    // Errors below that may be those of solvers.
+    constexpr double         least_error = 1e-6, least_order = 0.5;
+    std::vector<std::string> lines;
+    for (const Error &error : errors)
+      for (unsigned int i = 0; i < results.size(); ++i)
+        {
+          const StudyCase &one       = results[i].study_case;
+          const bool       is_finest = std::none_of(
+            results.begin(), results.end(), [&](const auto &other) {
+              return is_refinement_of(other.study_case, one) &&
+                     other.study_case.refinements > one.refinements;
+            });
+          if (is_finest && error.orders[i] < least_order &&
+              error.values[i] > least_error * error.references[i])
+            lines.push_back(fmt::format(
+              "the error '{}' does not become small with finer cells: its last "
+              "order is {:.2f} with degree {}",
+              error.name,
+              error.orders[i],
+              one.degree));
+        }
+    return lines;
   }
 
   std::string

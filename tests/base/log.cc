@@ -60,6 +60,17 @@ TEST(Log, QuietWritesOnlyTheFile)
   EXPECT_EQ(folder.read("log.txt"), on_rank_0() ? "text\n" : "");
 }
 
+TEST(Log, CountsWhatIsWorthALook)
+{
+  Log log(MPI_COMM_WORLD, /* quiet = */ true);
+  EXPECT_EQ(log.counts(), "");
+  log.count("step made in parts", "steps made in parts");
+  log.warning("one");
+  EXPECT_EQ(log.counts(), "1 step made in parts, 1 warning");
+  log.count("step made in parts", "steps made in parts");
+  EXPECT_EQ(log.counts(), "2 steps made in parts, 1 warning");
+}
+
 TEST(Log, RefusesAFileThatCannotBeWritten)
 {
   const TemporaryFolder folder;

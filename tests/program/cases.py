@@ -35,6 +35,7 @@ SHORTER = {
     "gyroid": (*LOAD_STEPS, "Mesh/file/Element size = 2",),
     "lame_sphere": LOAD_STEPS,
     "machine_foundation": ("Time integration/End time = 0.02",),
+    "plate_on_lines": ("Discretization/Degree = 2", "Modes/Number = 4"),
     "plate_modes": ("Mesh/box/Cells = 4, 4, 1", "Modes/Number = 6"),
     "ring": (*LOAD_STEPS, "Boundary conditions/Pressure = x-max: 1e6 * (z - 0.025)"),
     "shaken_mast": ("Time integration/End time = 0.02",),

@@ -3,7 +3,14 @@
 # Copyright (C) 2026 by the corotet authors
 """Options that answer instead of running, and --validate."""
 
+import fcntl
 import json
+import os
+import pty
+import re
+import struct
+import subprocess
+import termios
 import unittest
 
 from support import CASES, ROOT, ProgramTest
@@ -15,6 +22,33 @@ class CommandLine(ProgramTest):
         text = self.run_program("--help").stdout
         for option in ("--set", "--output", "--validate", "--print-parameters", "--quiet", "--version", "--help"):
             self.assertIn(option, text)
+
+    def test_terminal(self):
+        """A live line with a bar, as wide as the terminal allows, and last lines that say where to look; colours never."""
+        for columns, pattern in ((120, r"step \d+, time [^\r]* left \[=* *\]$"), (60, r"step \d+, time [^\r\[]*$")):
+            main, terminal = pty.openpty()
+            fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+            run = subprocess.Popen([os.environ["COROTET_PROGRAM"], ROOT / "parameters" / "crushed_cube.prm", "--output", f"of_{columns}",
+                                    "--set", "Time integration/End time = 3"], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=terminal)
+            os.close(terminal)
+            shown = b""
+            try:
+                while piece := os.read(main, 65536):
+                    shown += piece
+            except OSError:  # that of a terminal whose other end is closed
+                pass
+            os.close(main)
+            self.assertEqual(run.wait(), 0)
+            shown = shown.decode()
+            self.assertEqual(set(re.findall(r"\x1b\[[^A-Za-z]*[A-Za-z]", shown)), {"\x1b[K"})
+            live = [line for line in re.findall(r"\r\x1b\[K([^\r]*)", shown) if line.startswith("step ")]
+            self.assertGreater(len(live), 3)
+            for line in live:
+                self.assertLess(len(line), columns)
+            self.assertRegex(live[-2], pattern)
+            self.assertRegex(shown, rf"Results are in of_{columns}: history.csv, solution.vtkhdf for ParaView; "
+                                    rf"scripts/report of_{columns} makes a page of them\r\nWorth a look above, or in log.txt: 1 warning\r\n$")
+            self.assertNotIn("\x1b", (self.folder / f"of_{columns}" / "log.txt").read_text(encoding="utf-8"))
 
     def test_version(self):
         self.assertRegex(self.run_program("--version").stdout, r"corotet \d+\.\d+\.\d+.*deal\.II \d+\.\d+.*for \S+")

@@ -74,6 +74,29 @@ TEST(StudyTable, OrdersInTime)
   EXPECT_TRUE(contains(csv, "2,0,0.25,\"done\",5,0,0,1,1,2,3,0.0625,nan,2,"));
 }
 
+// An error that stays, and ones that are too small to tell.
+TEST(StudyTable, ErrorsThatDoNotConverge)
+{
+  const auto rows = [](const double first, const double second) {
+    std::vector<StudyResult> results{made_up(2, 0), made_up(2, 1)};
+    results[0].errors->error.H1 = first;
+    results[1].errors->error.H1 = second;
+    return results;
+  };
+  const StudyTable good({made_up(2, 0), made_up(2, 1)}, {{"tip_z", 7.}});
+  EXPECT_TRUE(good.not_converging().empty());
+  const std::string expected =
+    "the error 'H1' does not become small with finer "
+    "cells: its last order is 0.32 with degree 2";
+  EXPECT_EQ(StudyTable(rows(0.1, 0.08), {}).not_converging(),
+            std::vector<std::string>({expected}));
+  EXPECT_TRUE(StudyTable(rows(1e-7, 1e-7), {}).not_converging().empty());
+  // What comes before the finest does not matter.
+  std::vector<StudyResult> three = rows(0.1, 0.1);
+  three.push_back(made_up(2, 2));
+  EXPECT_TRUE(StudyTable(three, {}).not_converging().empty());
+}
+
 TEST(StudyTable, Texts)
 {
   StudyResult failed = made_up(1, 1);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace corotet
 {
@@ -39,10 +40,21 @@ namespace corotet
     void
     warning(const std::string &text);
 
-    /// Replaces the live line. Without a terminal, or when quiet, it does
-    /// nothing.
+    /// Counts something that is worth a look at the end, such as a "step made
+    /// in parts", and "steps made in parts" where there are several; warnings
+    /// are counted, too.
     void
-    progress(const std::string &text);
+    count(const std::string &one, const std::string &several);
+
+    /// What was counted: "2 warnings, 5 steps made in parts"; empty if nothing.
+    std::string
+    counts() const;
+
+    /// Replaces the live line. If the share that is done is known, from 0 to 1,
+    /// a bar shows it where the terminal has room. Without a terminal, or when
+    /// quiet, it does nothing.
+    void
+    progress(const std::string &text, const double share = -1);
 
     /// Whether a live line can be shown.
     bool
@@ -77,6 +89,13 @@ namespace corotet
     bool          progress_shown = false;
     std::string   kept;
     std::ofstream file;
+    struct Count
+    {
+      std::string  one, several;
+      unsigned int n;
+    };
+    /// In the order in which they were met first.
+    std::vector<Count> counted;
   };
 } // namespace corotet
 

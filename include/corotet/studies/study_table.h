@@ -35,10 +35,18 @@ namespace corotet
     std::string
     latex() const;
 
+    /// A line of text for each error that does not shrink with finer cells: by
+    /// less than the power 1/2 of their size, from the finest but one to the
+    /// finest of a series.
+    std::vector<std::string>
+    not_converging() const;
+
   private:
     struct Error
     {
       std::string name;
+      /// Of what it is an error, in each row.
+      std::vector<double> references;
       /// Of each result; not a number if it is not known.
       std::vector<double> values;
       std::vector<double> orders;
@@ -46,7 +54,10 @@ namespace corotet
     };
 
     void
-    add_error(const std::string &name, const std::vector<double> &values);
+    add_error(const std::string         &name,
+              const std::vector<double> &references,
+              const std::vector<double> &values);
+
     /// Titles and rows of what matters most.
     std::vector<std::vector<std::string>>
     cells() const;

@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""How much memory and time does reading a file take, in every format, and what becomes of one that was cut off? Large files are made by
+gmsh and here, and read by `corotet mesh`. Run it inside of scripts/toolchain:
+
+    benchmarks/readers.py [--cells N] [--program PROGRAM] [--keep FOLDER] [--document]
+
+Memory is the sum of what each of the program's processes had at most. Surfaces have a hole, so that they are read and checked, and
+refused before anything is meshed; shapes of CAD are meshed coarsely, which belongs to their figures. The status is 1 if reading takes
+more than ten times the file's size and 200 MB, or a file that was cut off in its middle is not refused in one line that names it.
+--document writes the table into doc/meshes.md.
+"""
+
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "doc" / "meshes.md"
+MARKS = ("<!-- readers -->\n", "\n<!-- end of readers -->")
+ALLOWED_FACTOR, ALLOWED_BYTES = 10, 200e6
+
+# Name, ending, arguments of gmsh.
+MESHES = [("gmsh 2.2, text", "msh", "-format", "msh22"), ("gmsh 2.2, binary", "msh", "-format", "msh22", "-bin"),
+          ("gmsh 4.0, text", "msh", "-format", "msh40"), ("gmsh 4.1, text", "msh", "-format", "msh41"),
+          ("gmsh 4.1, binary", "msh", "-format", "msh41", "-bin"), ("Abaqus, CalculiX", "inp", "-format", "inp"),
+          ("Nastran", "bdf", "-format", "bdf"), ("UNV", "unv", "-format", "unv"), ("VTK legacy, text", "vtk", "-format", "vtk"),
+          ("VTK legacy, binary", "vtk", "-format", "vtk", "-bin"), ("Medit", "mesh", "-format", "mesh"), ("CGNS", "cgns", "-format", "cgns")]
+SHAPES = [("STEP", "step"), ("BREP", "brep"), ("IGES", "iges")]
+MESHED_BOX = """SetFactory("OpenCASCADE");
+Box(1) = {{0, 0, 0, 1, 1, 1}};
+Transfinite Curve {{:}} = {n} + 1;
+Transfinite Surface {{:}};
+Transfinite Volume {{1}};
+Physical Volume("body") = {{1}};
+Physical Surface("foot") = {{1}};
+"""
+# Boxes with a hole in each.
+PLATES = """SetFactory("OpenCASCADE");
+n = {n};
+For i In {{0 : n - 1}}
+  For j In {{0 : n - 1}}
+    k = i * n + j + 1;
+    Box(k) = {{2 * i, 2 * j, 0, 1, 1, 1}};
+    Cylinder(100000 + k) = {{2 * i + 0.5, 2 * j + 0.5, -1, 0, 0, 3, 0.3}};
+    BooleanDifference{{ Volume{{k}}; Delete; }}{{ Volume{{100000 + k}}; Delete; }}
+  EndFor
+EndFor
+"""
+
+
+def gmsh(folder, geometry, target, *arguments):
+    (folder / "made.geo").write_text(geometry, encoding="utf-8")
+    subprocess.run(["gmsh", folder / "made.geo", *arguments, "-o", target, "-v", "0"], check=True)
+
+
+def open_sphere(n):
+    """Points and triangles of a sphere of n by n quadrilaterals, without its caps."""
+    theta, phi = np.meshgrid(np.linspace(0.1, np.pi - 0.1, n + 1), np.linspace(0, 2 * np.pi, n, endpoint=False), indexing="ij")
+    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+    a, b, c, d = i * n + j, (i + 1) * n + j, (i + 1) * n + (j + 1) % n, i * n + (j + 1) % n
+    return points, np.concatenate([np.stack([a, b, c], axis=-1).reshape(-1, 3), np.stack([a, c, d], axis=-1).reshape(-1, 3)])
+
+
+def write_surfaces(folder, n):
+    """Files of all formats, by name."""
+    points, triangles = open_sphere(n)
+    files = {name: folder / f"surface_{i}.{name.split()[0].lower().rstrip(',')}"
+             for i, name in enumerate(("STL, text", "STL, binary", "PLY, text", "PLY, binary", "OBJ", "OFF"))}
+    corners = points[triangles].astype("<f4")
+    with open(files["STL, text"], "w", encoding="ascii") as file:
+        file.write("solid ball\n")
+        for one in corners:
+            file.write("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x:.7g} {y:.7g} {z:.7g}\n" for x, y, z in one) + "endloop\nendfacet\n")
+        file.write("endsolid ball\n")
+    facets = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    facets["corners"] = corners
+    files["STL, binary"].write_bytes(b" " * 80 + np.uint32(len(triangles)).tobytes() + facets.tobytes())
+    head = "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\nelement face {}\n" \
+           "property list uchar int vertex_indices\nend_header\n"
+    vertices = "".join(f"{x:.7g} {y:.7g} {z:.7g}\n" for x, y, z in points)
+    faces = "".join(f"3 {a} {b} {c}\n" for a, b, c in triangles)
+    files["PLY, text"].write_text(head.format("ascii", len(points), len(triangles)) + vertices + faces, encoding="ascii")
+    rows = np.zeros(len(triangles), dtype=[("n", "u1"), ("corners", "<i4", 3)])
+    rows["n"], rows["corners"] = 3, triangles
+    files["PLY, binary"].write_bytes(head.format("binary_little_endian", len(points), len(triangles)).encode() +
+                                     points.astype("<f4").tobytes() + rows.tobytes())
+    files["OBJ"].write_text("".join(f"v {x:.7g} {y:.7g} {z:.7g}\n" for x, y, z in points) +
+                            "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in triangles), encoding="ascii")
+    files["OFF"].write_text(f"OFF\n{len(points)} {len(triangles)} 0\n" + vertices + faces, encoding="ascii")
+    return files
+
+
+def family(process):
+    """A process and all that it has started."""
+    members, found = [], [process]
+    while found:
+        members += found
+        text = ""
+        for one in found:
+            try:
+                text += pathlib.Path(f"/proc/{one}/task/{one}/children").read_text(encoding="ascii")
+            except OSError:
+                pass
+        found = [int(word) for word in text.split()]
+    return members
+
+
+def peak(process):
+    """The most memory that it had so far [bytes]."""
+    try:
+        for line in pathlib.Path(f"/proc/{process}/status").read_text(encoding="ascii").splitlines():
+            if line.startswith("VmHWM:"):
+                return 1024 * int(line.split()[1])
+    except OSError:
+        pass
+    return 0
+
+
+def read(program, file, *arguments):
+    """Status, what was said, memory [bytes] and seconds of processors."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as said:
+        run = subprocess.Popen([program, "mesh", file, *arguments], stdout=subprocess.DEVNULL, stderr=said)
+        peaks = {}
+        while True:
+            for process in family(run.pid):
+                peaks[process] = max(peaks.get(process, 0), peak(process))
+            ended, status, usage = os.wait4(run.pid, os.WNOHANG)
+            if ended:
+                break
+            time.sleep(0.005)
+        run.returncode = os.waitstatus_to_exitcode(status)
+        said.seek(0)
+        return run.returncode, said.read().strip(), sum(peaks.values()), usage.ru_utime + usage.ru_stime
+
+
+def tried(program, name, file, expected_status, *arguments):
+    """A row of the table, and whether all is as required."""
+    status, said, memory, seconds = read(program, file, *arguments)
+    size = file.stat().st_size
+    if status != expected_status:
+        print(f"{name}: status {status}, expected {expected_status}: {said}")
+    half = file.with_stem(file.stem + "_half")
+    half.write_bytes(file.read_bytes()[:size // 2])
+    status_of_half, said_of_half, _, _ = read(program, half, *arguments)
+    refused = status_of_half == 1 and said_of_half.count("\n") == 0 and said_of_half.startswith(f"corotet: error: {half}")
+    if not refused:
+        print(f"{name}, cut off: status {status_of_half}: {said_of_half[:500]}")
+    allowed = ALLOWED_FACTOR * size + ALLOWED_BYTES
+    message = said_of_half.replace(f"corotet: error: {half}", "").lstrip(":")
+    row = (f"| {name} | {size / 1e6:.0f} | {memory / 1e6:.0f} | {allowed / 1e6:.0f} | {seconds:.1f} | "
+           f"{'`' + message.replace('|', '/')[:110] + '`' if refused else '**not refused**'} |")
+    print(row, flush=True)
+    return row, status == expected_status and refused and memory <= allowed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cells", type=int, default=600000, metavar="N", help="of meshes; half as many triangles, and a 500th shapes")
+    parser.add_argument("--program", default=str(ROOT / "build" / "release" / "corotet"))
+    parser.add_argument("--keep", metavar="FOLDER", help="for the files")
+    parser.add_argument("--document", action="store_true")
+    options = parser.parse_args()
+    program = os.path.abspath(options.program)
+    results = []
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(options.keep or temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        box = MESHED_BOX.format(n=round((options.cells / 6) ** (1 / 3)))
+        for i, (name, ending, *arguments) in enumerate(MESHES):
+            file = folder / f"mesh_{i}.{ending}"
+            gmsh(folder, box, file, "-3", *arguments)
+            results.append(tried(program, name, file, 0))
+        for name, file in write_surfaces(folder, round((options.cells / 4) ** 0.5)).items():
+            results.append(tried(program, name, file, 1))
+        for name, ending in SHAPES:
+            file = folder / f"shapes.{ending}"
+            gmsh(folder, PLATES.format(n=round((options.cells / 500) ** 0.5)), file, "-0")
+            results.append(tried(program, name, file, 0, "--size", "1"))
+    if options.document:
+        before, rest = PAGE.read_text(encoding="utf-8").split(MARKS[0])
+        head = "| format | file [MB] | memory [MB] | allowed [MB] | seconds | cut off in its middle |\n|---|---:|---:|---:|---:|---|\n"
+        PAGE.write_text(before + MARKS[0] + head + "\n".join(row for row, _ in results) + MARKS[1] + rest.split(MARKS[1].strip())[1],
+                        encoding="utf-8")
+    return 0 if all(good for _, good in results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
