@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -210,32 +211,41 @@ namespace corotet
 
 
 
-    // The types of cells come last of what makes a mesh of VTK: their number,
-    // and a number for each, as text or in four bytes.
+    // gmsh reads the older of the legacy formats of VTK, as text. The types of
+    // cells come last of what makes a mesh: their number, and a number for
+    // each.
     void
-    check_end_of_vtk(const std::string &path)
+    check_vtk(const std::string &path)
     {
       std::ifstream file(path, std::ios::binary);
-      bool          is_binary = false;
-      std::size_t   n_wanted = 0, n = 0;
+      const auto    refuse = [&](const std::string &found) {
+        throw InputError("",
+                         path + ": found a VTK file " + found +
+                           "; allowed are text files (ASCII) of the versions 2 "
+                              "to 4, which VTK and ParaView write as 'legacy, "
+                              "file version 4.2'");
+      };
+      std::string head, title, kind;
+      std::getline(file, head);
+      std::getline(file, title);
+      std::getline(file, kind);
+      const std::size_t version = head.find("Version ");
+      if (version != std::string::npos &&
+          std::atoi(head.c_str() + version + 8) >= 5)
+        refuse("of version " + shortened(head.substr(version + 8)));
+      if (kind.starts_with("BINARY"))
+        refuse("in binary form");
+      std::size_t n_wanted = 0, n = 0;
       for (std::string line; n_wanted == 0 && std::getline(file, line);)
         {
           std::istringstream words(line);
           std::string        word;
           words >> word;
-          is_binary = is_binary || word == "BINARY";
           if (word == "CELL_TYPES")
             words >> n_wanted;
         }
-      if (is_binary)
-        {
-          const auto begin = file.tellg();
-          file.seekg(0, std::ios::end);
-          n = (file.tellg() - begin) / 4;
-        }
-      else
-        for (int type = 0; n < n_wanted && file >> type;)
-          ++n;
+      for (int type = 0; n < n_wanted && file >> type;)
+        ++n;
       if (n_wanted == 0 || n < n_wanted)
         throw InputError("",
                          fmt::format("{}: found {} types of cells (CELL_TYPES) "
@@ -316,7 +326,7 @@ namespace corotet
                                                   {MeshFormat::medit, "END"}};
     const auto                              wanted = words.find(format);
     if (format == MeshFormat::vtk)
-      check_end_of_vtk(path);
+      check_vtk(path);
     if (wanted == words.end())
       return;
     std::ifstream file(path);

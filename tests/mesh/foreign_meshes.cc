@@ -137,6 +137,23 @@ TEST(ForeignMeshes, Numbers)
   EXPECT_NEAR(area(medit, "4"), 0.5, 1e-15);
 }
 
+// Those of VTK that gmsh does not read.
+TEST(ForeignMeshes, OtherFilesOfVtk)
+{
+  const TemporaryFolder folder;
+  const std::string     allowed =
+    "; allowed are text files (ASCII) of the versions 2 to 4, which VTK and "
+    "ParaView write as 'legacy, file version 4.2'";
+  std::string file =
+    folder.write("new.vtk", "# vtk DataFile Version 5.1\nmesh\nASCII\n");
+  EXPECT_EQ(refusal([&] { read_file(file); }),
+            file + ": found a VTK file of version 5.1" + allowed);
+  file =
+    folder.write("bytes.vtk", "# vtk DataFile Version 2.0\nmesh\nBINARY\n");
+  EXPECT_EQ(refusal([&] { read_file(file); }),
+            file + ": found a VTK file in binary form" + allowed);
+}
+
 // What is left of a file that was cut off anywhere is no smaller mesh.
 TEST(ForeignMeshes, CutOff)
 {
