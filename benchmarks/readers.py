@@ -156,7 +156,7 @@ def tried(program, at_start, name, file, expected_status, *arguments):
     if not refused:
         print(f"{name}, cut off: status {status_of_half}: {said_of_half[:500]}")
     allowed = ALLOWED_FACTOR * size + ALLOWED_BYTES
-    message = said_of_half.replace(f"corotet: error: {half}", "").lstrip(":")
+    message = said_of_half.replace(f"corotet: error: {half}", "").lstrip(":").replace(f"{half}", half.name)
     row = (f"| {name} | {size / 1e6:.0f} | {memory / 1e6:.0f} | {allowed / 1e6:.0f} | {seconds:.1f} | "
            f"{'`' + message.replace('|', '/')[:110] + '`' if refused else '**not refused**'} |")
     print(row, flush=True)
@@ -165,7 +165,7 @@ def tried(program, at_start, name, file, expected_status, *arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", type=int, default=600000, metavar="N", help="of meshes; half as many triangles, and a 5000th shapes")
+    parser.add_argument("--cells", type=int, default=300000, metavar="N", help="of meshes; half as many triangles, and a 5000th shapes")
     parser.add_argument("--program", default=str(ROOT / "build" / "release" / "corotet"))
     parser.add_argument("--keep", metavar="FOLDER", help="for the files")
     parser.add_argument("--document", action="store_true")
