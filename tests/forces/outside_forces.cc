@@ -109,7 +109,9 @@ namespace
     {
       if (w == 0)
         return {};
-      return {{"Loads/Pull", std::to_string(w), "0"}};
+      GivenEntry pull{"Loads/Pull", std::to_string(w), "0"};
+      pull.on_mass = true;
+      return {pull};
     }
 
     void

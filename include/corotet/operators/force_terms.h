@@ -28,7 +28,7 @@ namespace corotet
     explicit ForceTerms(const Discretization &discretization);
 
     /// @p name is the entry and place that messages call it by, if any does:
-    /// "Boundary conditions/Traction of 'x-max'".
+    /// "Boundary conditions/Traction on boundary 'x-max'".
     void
     add(std::unique_ptr<ForceTerm> term, const std::string &name = "");
 
