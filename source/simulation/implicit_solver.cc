@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/discretization/cell_proportions.h>
 #include <corotet/operators/force_round_off.h>
 #include <corotet/simulation/implicit_solver.h>
 
@@ -280,33 +281,37 @@ namespace corotet
             built_stage        = stage;
             built_displacement = stage_state->u;
           }
-        advise_direct_solver(n_iterations);
+        report_linear_solver(n_iterations);
         return n_iterations;
       }
     catch (const ComputationError &)
       {
-        advise_direct_solver(std::numeric_limits<unsigned int>::max());
+        report_linear_solver(std::numeric_limits<unsigned int>::max());
         throw;
       }
   }
 
   void
-  ImplicitSolver::advise_direct_solver(const unsigned int n_iterations)
+  ImplicitSolver::report_linear_solver(const unsigned int n_iterations)
   {
-    // Measured on plates of one layer of cells (doc/algorithms.md): up to this
-    // size a factorisation takes as long as this many iterations, or less.
-    constexpr unsigned int small      = 50000;
-    constexpr unsigned int worthwhile = 1000;
-    const auto n_unknowns = 3 * body.discretization.n_global_nodes();
-    if (n_iterations <= 100 || slow_iterations > worthwhile ||
-        n_unknowns > small || linear_solver.type() != "p-multigrid")
+    const std::string news = linear_solver.take_news();
+    if (!news.empty())
+      log.line(news);
+    constexpr unsigned int slow = 100, many = 1000;
+    if (n_iterations <= slow || slow_iterations > many)
       return;
-    slow_iterations += std::min(n_iterations, worthwhile + 1);
-    if (slow_iterations > worthwhile)
-      log.line(fmt::format("p-multigrid converges slowly on this body, as on "
-                           "thin ones: with {} unknowns, 'Linear solver/Type = "
-                           "direct' may be faster",
-                           n_unknowns));
+    slow_iterations += std::min(n_iterations, many + 1);
+    if (slow_iterations <= many)
+      return;
+    std::string remedies = "more cells across thin parts or fewer along them, "
+                           "a Poisson's ratio less close to 1/2";
+    if (linear_solver.type() != "automatic" && linear_solver.type() != "direct")
+      remedies = "'Linear solver/Type = automatic', " + remedies;
+    log.line(fmt::format("linear solves take more than {} iterations: {}; what "
+                         "would help: {}",
+                         slow,
+                         cell_proportions(body.discretization).text(),
+                         remedies));
   }
 
   NewtonProblem::Norm

@@ -75,6 +75,9 @@ namespace corotet
              [this](const unsigned int n_solves) {
                this->log.progress(
                  fmt::format("modes: {} linear solves", n_solves));
+               const std::string news = linear_solver.take_news();
+               if (!news.empty())
+                 this->log.line(news);
              })
     , box(the_body.discretization.bounding_box())
     , length(box.first.distance(box.second))

@@ -143,7 +143,8 @@ namespace corotet
     L = cholmod_analyze_p(lower, permutation.data(), nullptr, 0, &common);
     // Each of CHOLMOD's functions has a status of its own.
     check_status();
-    rhs = cholmod_zeros(n_rows, 1, type(), &common);
+    operations = common.fl;
+    rhs        = cholmod_zeros(n_rows, 1, type(), &common);
     check_status();
   }
 

@@ -30,7 +30,7 @@ namespace corotet
   } // namespace
 
   LinearSolverParameters::LinearSolverParameters()
-    : preconditioner(preconditioners(), "p-multigrid")
+    : preconditioner(preconditioners(), "automatic")
   {}
 
   void
@@ -38,8 +38,9 @@ namespace corotet
   {
     preconditioner.declare_parameters(
       prm,
-      "Preconditioner: 'p-multigrid', over the degrees "
-      "down to 1, matrix-free; 'amg', smoothed aggregation with rigid body "
+      "Preconditioner: 'automatic', p-multigrid, or a sparse factorisation "
+      "where that is the faster way, as on thin bodies of few cells across; "
+      "'p-multigrid', over the degrees down to 1, matrix-free; 'amg', smoothed aggregation with rigid body "
       "modes, on the assembled matrix (where Trilinos has ML); 'jacobi', the "
       "diagonal; 'direct', a sparse factorisation of the assembled matrix.");
     add_enumeration(prm,
@@ -179,18 +180,14 @@ namespace corotet
 
   template <typename Matrix>
   unsigned int
-  LinearSolver::iterate(const Matrix &A,
-                        const bool    symmetric,
-                        Vector       &x,
-                        const Vector &b,
-                        const double  wanted) const
+  LinearSolver::iterate(const Matrix      &A,
+                        const bool         symmetric,
+                        Vector            &x,
+                        const Vector      &b,
+                        const double       wanted,
+                        const unsigned int limit) const
   {
-    // Far from a solution exact tangents may be next to singular: Newton's
-    // method has others.
     const KrylovMethod    method = parameters.method;
-    const unsigned int    limit  = std::is_same_v<Matrix, TangentOperator> ?
-                                     std::min(parameters.max_iterations, 1000u) :
-                                     parameters.max_iterations;
     dealii::SolverControl control(limit, wanted);
     if (method == KrylovMethod::gmres || !symmetric)
       {
@@ -237,13 +234,58 @@ namespace corotet
                            const TangentOperator   *J,
                            Vector                  &x,
                            const Vector            &b,
-                           const double             wanted) const
+                           const double             wanted,
+                           const unsigned int       limit) const
   {
     if (J != nullptr)
-      return iterate(*J, J->is_symmetric(), x, b, wanted);
+      return iterate(*J, J->is_symmetric(), x, b, wanted, limit);
     if (parameters.is_assembled)
-      return iterate(A.matrix(), true, x, b, wanted);
-    return iterate(A, true, x, b, wanted);
+      return iterate(A.matrix(), true, x, b, wanted, limit);
+    return iterate(A, true, x, b, wanted, limit);
+  }
+
+  unsigned int
+  LinearSolver::solve_patiently(const EffectiveOperator &A,
+                                const TangentOperator   *J,
+                                Vector                  &x,
+                                const Vector            &b,
+                                const Vector            &positions,
+                                const double             wanted)
+  {
+    // Far from a solution exact tangents may be next to singular: Newton's
+    // method has others.
+    const unsigned int most = J != nullptr ?
+                                std::min(parameters.max_iterations, 1000u) :
+                                parameters.max_iterations;
+    unsigned int       done = 0;
+    done_before_change      = 0;
+    const auto change_it    = [&] {
+      if (!preconditioner->change(A, positions))
+        return;
+      done_before_change = done;
+      ++n_builds;
+    };
+    for (;;)
+      {
+        const unsigned int limit = std::min(most, preconditioner->patience());
+        if (limit <= done && limit < most)
+          {
+            change_it();
+            continue;
+          }
+        try
+          {
+            return done + solve_with(A, J, x, b, wanted, limit - done);
+          }
+        catch (const dealii::SolverControl::NoConvergence &failure)
+          {
+            done += failure.last_step;
+            if (limit == most)
+              throw dealii::SolverControl::NoConvergence(done,
+                                                         failure.last_residual);
+            change_it();
+          }
+      }
   }
 
   bool
@@ -295,7 +337,7 @@ namespace corotet
     unsigned int iterations = 0;
     try
       {
-        iterations = solve_with(A, J, x, b, wanted);
+        iterations = solve_patiently(A, J, x, b, positions, wanted);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
@@ -314,15 +356,19 @@ namespace corotet
           parameters.max_iterations));
       }
 
-    if (first_solve)
-      first_iterations = iterations;
+    const bool         was_built = first_solve || done_before_change > 0;
+    const unsigned int with_this = iterations - done_before_change;
+    if (was_built)
+      first_iterations = with_this;
     unsigned int acceptable =
       preconditioner->acceptable_iterations(first_iterations);
     // A new preconditioner is not better than the first solve with it, as it
     // is made of the effective operator.
     if (J != nullptr)
       acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
-    is_built = iterations <= acceptable;
+    is_built = with_this <= acceptable;
+    if (preconditioner->take_note(with_this, was_built))
+      is_built = false;
     return iterations;
   }
 
@@ -334,6 +380,7 @@ namespace corotet
     archive.transfer("built_surface", built_surface);
     archive.transfer("n_builds", n_builds);
     archive.transfer("first_iterations", first_iterations);
+    preconditioner->transfer(archive);
   }
 
   void

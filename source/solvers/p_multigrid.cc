@@ -79,39 +79,6 @@ namespace corotet
   }
 
   void
-  PMultigrid::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter("Smoother degree",
-                      parameters.smoother_degree,
-                      "Chebyshev steps before and after the coarser degree "
-                      "[-].",
-                      dealii::Patterns::Integer(1, 20));
-    prm.add_parameter("Smoothing range",
-                      parameters.smoothing_range,
-                      "Largest over smallest eigenvalue that the smoother is "
-                      "to damp [-].",
-                      dealii::Patterns::Double(1.1, 1e4));
-    std::string names = "automatic|direct|aggregation";
-    for (const auto &candidate : further)
-      names += "|" + candidate.name;
-    prm.add_parameter("Coarse solver",
-                      parameters.coarse_type,
-                      "For degree 1: 'direct', a sparse factorisation; "
-                      "'aggregation', one cycle of smoothed aggregation with "
-                      "two levels; 'amg', one cycle of Trilinos ML, with the "
-                      "parameters of 'Linear solver/amg' (where Trilinos has "
-                      "it); "
-                      "'automatic', the direct one up to the limit below, then "
-                      "aggregation.",
-                      dealii::Patterns::Selection(names));
-    prm.add_parameter("Direct limit",
-                      parameters.direct_limit,
-                      "Unknowns of degree 1 up to which 'automatic' means "
-                      "'direct' [-].",
-                      dealii::Patterns::Integer(0));
-  }
-
-  void
   PMultigrid::make_levels(const EffectiveOperator &A)
   {
     levels.clear();
@@ -122,8 +89,8 @@ namespace corotet
       {
         levels.push_back(std::make_unique<Level>(*nodes,
                                                  is_prescribed,
-                                                 parameters.smoother_degree,
-                                                 parameters.smoothing_range));
+                                                 parameters->smoother_degree,
+                                                 parameters->smoothing_range));
         const CoarserNodes &coarser = levels.back()->coarser;
         is_prescribed               = coarser.marks(is_prescribed);
         nodes                       = &coarser;
@@ -210,6 +177,19 @@ namespace corotet
       }
   }
 
+  PMultigrid::Factorization
+  PMultigrid::factorization_of_degree_1(const EffectiveOperator &A) const
+  {
+    const double n = 3. * coarse_nodes->n_global_nodes();
+    if (has_factors())
+      return {n,
+              direct.n_operations(),
+              static_cast<double>(direct.n_entries())};
+    SparseCholesky factor;
+    factor.analyze(coarse_matrix ? coarse_matrix->matrix() : A.matrix());
+    return {n, factor.n_operations(), static_cast<double>(factor.n_entries())};
+  }
+
   std::vector<double>
   PMultigrid::largest_eigenvalues() const
   {
@@ -293,10 +273,10 @@ namespace corotet
       }
     const auto &matrix = coarse_matrix ? coarse_matrix->matrix() : A.matrix();
     coarse_solver =
-      parameters.coarse_type != "automatic" ? parameters.coarse_type :
-      3 * coarse_nodes->n_global_nodes() <= parameters.direct_limit ?
-                                              "direct" :
-                                              "aggregation";
+      parameters->coarse_type != "automatic" ? parameters->coarse_type :
+      3 * coarse_nodes->n_global_nodes() <= parameters->direct_limit ?
+                                               "direct" :
+                                               "aggregation";
     if (coarse_solver == "direct")
       {
         direct.factorize(matrix);
@@ -317,7 +297,7 @@ namespace corotet
         aggregation.build(matrix, coarse_x.begin());
         return;
       }
-    for (const auto &candidate : further)
+    for (const auto &candidate : parameters->further)
       if (candidate.name == coarse_solver && !other)
         other = candidate.make();
     other->build(matrix, coarse_x);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/solvers/automatic.h>
 #include <corotet/solvers/direct.h>
 #include <corotet/solvers/jacobi.h>
 #include <corotet/solvers/p_multigrid.h>
@@ -16,19 +17,28 @@ namespace corotet
   std::vector<Candidate<Preconditioner>>
   preconditioners()
   {
+    // p-multigrid has its parameters in common with the automatic choice, and
+    // amg with the coarse solver.
 #ifdef COROTET_WITH_EPETRA
     const auto          amg = std::make_shared<AMGParameters>();
     const CoarseSolvers coarse_solvers{
       candidate<CoarseSolver, AMG>("amg", amg)};
+#else
+    const CoarseSolvers coarse_solvers;
+#endif
+    const auto multigrid =
+      std::make_shared<PMultigridParameters>(coarse_solvers);
     return with_added<Preconditioner>(
-      {candidate<Preconditioner, PMultigrid>("p-multigrid", coarse_solvers),
+      {candidate<Preconditioner, AutomaticPreconditioner>("automatic",
+                                                          multigrid),
+       candidate<Preconditioner, PMultigrid>("p-multigrid", multigrid),
+#ifdef COROTET_WITH_EPETRA
        candidate<Preconditioner, AMG>("amg", amg),
+#endif
        candidate<Preconditioner, Jacobi>("jacobi"),
+#ifdef COROTET_WITH_EPETRA
        candidate<Preconditioner, AmesosDirect>("direct")});
 #else
-    return with_added<Preconditioner>(
-      {candidate<Preconditioner, PMultigrid>("p-multigrid"),
-       candidate<Preconditioner, Jacobi>("jacobi"),
        candidate<Preconditioner, CholeskyDirect>("direct")});
 #endif
   }

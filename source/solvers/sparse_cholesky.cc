@@ -77,7 +77,8 @@ namespace corotet
     solve(Number *dst, const Number *src);
 
     Precision   precision;
-    std::size_t n_entries = 0;
+    std::size_t n_entries    = 0;
+    double      n_operations = 0;
 
   private:
     void
@@ -166,12 +167,16 @@ namespace corotet
       starts[0] = 0;
       std::partial_sum(starts, starts + n_rows + 1, starts);
       factor->analyze();
+      n_entries    = factor->n_entries();
+      n_operations = factor->n_operations();
       if (!is_alone)
         {
           std::get<std::vector<double>>(buffers).resize(n_rows);
           std::get<std::vector<float>>(buffers).resize(n_rows);
         }
     });
+    n_entries    = dealii::Utilities::MPI::broadcast(comm, n_entries);
+    n_operations = dealii::Utilities::MPI::broadcast(comm, n_operations);
   }
 
   template <typename Number>
@@ -212,12 +217,8 @@ namespace corotet
     else
       gather_values<double>(A);
     bool succeeded = false;
-    on_root(comm, [&] {
-      succeeded = factor->factorize();
-      n_entries = factor->n_entries();
-    });
+    on_root(comm, [&] { succeeded = factor->factorize(); });
     succeeded = dealii::Utilities::MPI::broadcast(comm, succeeded);
-    n_entries = dealii::Utilities::MPI::broadcast(comm, n_entries);
     if (succeeded)
       return;
     if (precision == Precision::double_precision)
@@ -256,10 +257,16 @@ namespace corotet
   SparseCholesky::~SparseCholesky() = default;
 
   void
-  SparseCholesky::factorize(const BlockMatrix &A)
+  SparseCholesky::analyze(const BlockMatrix &A)
   {
     if (!factors || !factors->belong_to(A))
       factors.reset(new Factors(A.pattern(), wanted));
+  }
+
+  void
+  SparseCholesky::factorize(const BlockMatrix &A)
+  {
+    analyze(A);
     try
       {
         factors->factorize(A);
@@ -292,6 +299,12 @@ namespace corotet
   SparseCholesky::n_entries() const
   {
     return factors ? factors->n_entries : 0;
+  }
+
+  double
+  SparseCholesky::n_operations() const
+  {
+    return factors ? factors->n_operations : 0;
   }
 
   SparseCholesky::Precision

@@ -146,6 +146,8 @@ namespace corotet
         std::vector<std::string> used;
         // As its description says.
         const nlohmann::ordered_json solver = file.values().at("Linear solver");
+        if (solver.at("Type") == "automatic")
+          used.push_back("Linear solver/p-multigrid");
         if (solver.at("p-multigrid").at("Coarse solver") == "amg")
           used.push_back("Linear solver/amg");
         return find_unused_entries(file, used);

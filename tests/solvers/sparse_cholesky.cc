@@ -111,6 +111,22 @@ TEST(SparseCholesky, InvertsMatrix)
     }
 }
 
+// What is known before there are numbers is what comes out.
+TEST(SparseCholesky, AnalyzeCounts)
+{
+  const SpringBox box({{8, 2, 2}}, true);
+  SparseCholesky  counted, inverse;
+  counted.analyze(*box.matrix);
+  inverse.factorize(*box.matrix);
+  EXPECT_EQ(counted.n_entries(), inverse.n_entries());
+  EXPECT_EQ(counted.n_operations(), inverse.n_operations());
+  // Each column of k entries takes about k^2 operations: at least what a
+  // diagonal of blocks would.
+  EXPECT_GT(counted.n_operations(), 9. * 3 * box.pattern->n_global());
+  counted.factorize(*box.matrix);
+  EXPECT_LT(error<double>(box, counted), 1e-11);
+}
+
 TEST(SparseCholesky, InvertsMatrixInSinglePrecision)
 {
   const SpringBox box({{8, 2, 2}}, true);

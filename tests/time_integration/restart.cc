@@ -4,14 +4,12 @@
 // What integrators keep from one step to the next, and the balance at the end
 // of a step, on a scalar oscillator m a + c v + k u = p sin(w t).
 
-#include <corotet/base/archive.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "../integrators.h"
+#include "../memory_archive.h"
 #include "../oscillator.h"
 
 using namespace corotet;
@@ -19,41 +17,6 @@ using namespace corotet::tests;
 
 namespace
 {
-  // A checkpoint in memory.
-  class MemoryArchive : public Archive
-  {
-  public:
-    using Archive::transfer;
-
-    bool
-    is_reading() const override
-    {
-      return reading;
-    }
-
-    void
-    transfer(const std::string &name, std::string &text) override
-    {
-      if (reading)
-        text = texts.at(section + name);
-      else
-        texts[section + name] = text;
-    }
-
-    void
-    transfer(const std::string &name, Vector &vector) override
-    {
-      if (reading)
-        vector = vectors.at(section + name);
-      else
-        vectors[section + name] = vector;
-    }
-
-    bool                               reading = false;
-    std::map<std::string, std::string> texts;
-    std::map<std::string, Vector>      vectors;
-  };
-
   // Steps first ... end - 1, which are unequal.
   void
   make_steps(TimeIntegrator    &integrator,

@@ -105,10 +105,10 @@ namespace corotet
     /// Says once that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
-    /// Says once that a direct solver is faster, if @p n_iterations of a solve
-    /// with p-multigrid and those of slow ones before tell so.
+    /// Says what the linear solver has decided, and once why solves are slow,
+    /// if this one of @p n_iterations and those before are.
     void
-    advise_direct_solver(const unsigned int n_iterations);
+    report_linear_solver(const unsigned int n_iterations);
 
     EquationOfMotion      &equation;
     Body                  &body;

@@ -81,6 +81,13 @@ namespace corotet
       return L->xsize;
     }
 
+    /// Floating-point operations of factorize(), known since analyze().
+    double
+    n_operations() const
+    {
+      return operations;
+    }
+
     /// dst = @p factor A^-1 src; they may be the same. Allocates nothing.
     template <typename Number>
     void
@@ -107,12 +114,13 @@ namespace corotet
 
     const int       n_rows;
     cholmod_common  common;
-    cholmod_sparse *lower    = nullptr;
-    cholmod_factor *L        = nullptr;
-    cholmod_dense  *rhs      = nullptr;
-    cholmod_dense  *solution = nullptr;
-    cholmod_dense  *work_y   = nullptr;
-    cholmod_dense  *work_e   = nullptr;
+    cholmod_sparse *lower      = nullptr;
+    cholmod_factor *L          = nullptr;
+    cholmod_dense  *rhs        = nullptr;
+    cholmod_dense  *solution   = nullptr;
+    cholmod_dense  *work_y     = nullptr;
+    cholmod_dense  *work_e     = nullptr;
+    double          operations = 0;
     /// The unknowns in the order in which they are eliminated.
     std::vector<int> permutation;
   };

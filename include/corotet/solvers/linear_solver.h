@@ -91,6 +91,13 @@ namespace corotet
           const TangentOperator   *J = nullptr,
           const double limit         = std::numeric_limits<double>::infinity());
 
+    /// Lines for the log on how it solves, new since the last call.
+    std::string
+    take_news()
+    {
+      return preconditioner->take_news();
+    }
+
     /// What later solves depend on beside the preconditioner itself: that is
     /// made by build_again().
     void
@@ -130,21 +137,32 @@ namespace corotet
                  const TangentOperator   *J,
                  const Vector            &x,
                  const Vector            &b) const;
-    /// These solve to a residual of @p wanted and return the number of
+    /// These go on from x to a residual of @p wanted and return the number of
+    /// iterations. The first lets the preconditioner change meanwhile; the
+    /// others throw dealii::SolverControl::NoConvergence after @p limit
     /// iterations.
+    unsigned int
+    solve_patiently(const EffectiveOperator &A,
+                    const TangentOperator   *J,
+                    Vector                  &x,
+                    const Vector            &b,
+                    const Vector            &positions,
+                    const double             wanted);
     unsigned int
     solve_with(const EffectiveOperator &A,
                const TangentOperator   *J,
                Vector                  &x,
                const Vector            &b,
-               const double             wanted) const;
+               const double             wanted,
+               const unsigned int       limit) const;
     template <typename Matrix>
     unsigned int
-    iterate(const Matrix &A,
-            const bool    symmetric,
-            Vector       &x,
-            const Vector &b,
-            const double  wanted) const;
+    iterate(const Matrix      &A,
+            const bool         symmetric,
+            Vector            &x,
+            const Vector      &b,
+            const double       wanted,
+            const unsigned int limit) const;
     template <typename Matrix>
     unsigned int
     minimal_residuals(const Matrix      &A,
@@ -162,6 +180,9 @@ namespace corotet
     double built_surface    = 0;
 
     unsigned int n_builds = 0;
+    /// Of the present solve, iterations with a preconditioner that has been
+    /// replaced meanwhile.
+    unsigned int done_before_change = 0;
     /// Of the operator, when the preconditioner last heard of it.
     unsigned int known_version = 0;
     /// Iterations of the first solve after the preconditioner was made.

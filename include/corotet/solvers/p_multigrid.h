@@ -7,7 +7,7 @@
 #include <corotet/discretization/coarser_nodes.h>
 #include <corotet/operators/assembled_matrix.h>
 #include <corotet/solvers/chebyshev.h>
-#include <corotet/solvers/coarse_solver.h>
+#include <corotet/solvers/p_multigrid_parameters.h>
 #include <corotet/solvers/preconditioner.h>
 #include <corotet/solvers/smoothed_aggregation.h>
 #include <corotet/solvers/sparse_cholesky.h>
@@ -34,21 +34,23 @@ namespace corotet
   class PMultigrid : public Preconditioner
   {
   public:
-    /// @p further: solvers of degree 1 beside the own ones, whose parameters
-    /// others declare.
-    explicit PMultigrid(const CoarseSolvers &further = {})
-      : further(further)
+    explicit PMultigrid(const std::shared_ptr<PMultigridParameters> &
+                          parameters = std::make_shared<PMultigridParameters>())
+      : parameters(parameters)
     {}
 
-    /// A copy has the parameters, and nothing that has been built.
+    /// A copy has parameters of its own, with the same values, and nothing that
+    /// has been built.
     PMultigrid(const PMultigrid &other)
       : Preconditioner()
-      , further(other.further)
-      , parameters(other.parameters)
+      , parameters(std::make_shared<PMultigridParameters>(*other.parameters))
     {}
 
     void
-    declare_parameters(dealii::ParameterHandler &prm) override;
+    declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      parameters->declare_parameters(prm);
+    }
 
     void
     build(const EffectiveOperator &A, const Vector &positions) override;
@@ -63,6 +65,23 @@ namespace corotet
     /// eigenvalue of D^{-1} A since the last build().
     std::vector<double>
     largest_eigenvalues() const;
+
+    /// What a sparse factorisation of the matrix of degree 1 of @p A would
+    /// take, or has taken: floating-point operations, and entries. After
+    /// build(); collective.
+    struct Factorization
+    {
+      double n_unknowns, n_operations, n_entries;
+    };
+    Factorization
+    factorization_of_degree_1(const EffectiveOperator &A) const;
+
+    /// Whether there is that factorisation.
+    bool
+    has_factors() const
+    {
+      return coarse_solver == "direct";
+    }
 
   private:
     using FloatVector = Chebyshev::FloatVector;
@@ -104,17 +123,7 @@ namespace corotet
     void
     solve_coarse(FloatVector &x, FloatVector &b) const;
 
-    const CoarseSolvers further;
-
-    struct Parameters
-    {
-      unsigned int smoother_degree = 4;
-      double       smoothing_range = 20;
-      std::string  coarse_type     = "automatic";
-      unsigned int direct_limit    = 15000;
-    };
-
-    Parameters parameters;
+    const std::shared_ptr<PMultigridParameters> parameters;
 
     /// Finest first.
     std::vector<std::unique_ptr<Level>>            levels;

@@ -4,10 +4,14 @@
 #ifndef corotet_solvers_preconditioner_h
 #define corotet_solvers_preconditioner_h
 
+#include <corotet/base/archive.h>
 #include <corotet/base/vector.h>
 #include <corotet/operators/effective_operator.h>
 
 #include <deal.II/base/parameter_handler.h>
+
+#include <limits>
+#include <string>
 
 namespace corotet
 {
@@ -40,6 +44,43 @@ namespace corotet
     /// dst = P src. Collective.
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
+
+    /// Iterations of a solve after which change() is to be called.
+    virtual unsigned int
+    patience() const
+    {
+      return std::numeric_limits<unsigned int>::max();
+    }
+
+    /// Looks for a better P of the same A, as a solve has taken as many
+    /// iterations as patience() says: afterwards that is longer. Returns
+    /// whether P is another one now. Collective.
+    virtual bool
+    change(const EffectiveOperator & /*A*/, const Vector & /*positions*/)
+    {
+      return false;
+    }
+
+    /// Hears of each solve that has come to its end, and whether P was built
+    /// for it. Returns whether P is to be built anew before the next one.
+    virtual bool
+    take_note(const unsigned int /*n_iterations*/, const bool /*was_built*/)
+    {
+      return false;
+    }
+
+    /// Lines for the log on what has been decided since the last call; empty if
+    /// there is nothing new.
+    virtual std::string
+    take_news()
+    {
+      return {};
+    }
+
+    /// What later decisions depend on.
+    virtual void
+    transfer(Archive & /*archive*/)
+    {}
 
     /// Iterations that a solve may take before P counts as outdated,
     /// given those of the first solve after it was built.

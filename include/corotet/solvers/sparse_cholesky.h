@@ -43,6 +43,11 @@ namespace corotet
 
     ~SparseCholesky();
 
+    /// Finds ordering and pattern of L alone, for n_entries() and
+    /// n_operations(). Throws as factorize() does. Collective.
+    void
+    analyze(const BlockMatrix &A);
+
     /**
      * Computes L. Ordering and pattern are kept from the last call if @p A has
      * the same BlockPattern as then, which is kept alive for that.
@@ -71,6 +76,11 @@ namespace corotet
     /// all ranks.
     std::size_t
     n_entries() const;
+
+    /// Floating-point operations that a factorisation takes; the same on all
+    /// ranks.
+    double
+    n_operations() const;
 
     /// What the present L is stored in; the same on all ranks.
     Precision

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_automatic_h
+#define corotet_solvers_automatic_h
+
+#include <corotet/solvers/direct.h>
+#include <corotet/solvers/p_multigrid.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace corotet
+{
+  /**
+   * p-multigrid or a sparse factorisation, whichever is the faster way for the
+   * body at hand.
+   *
+   * What a factorisation costs follows from that of degree 1, which the
+   * multigrid has: it is said in iterations of the multigrid. Where cells are
+   * so flat or stretched that these will not be enough, the body is factorised
+   * at once; elsewhere when solves have spent as many in vain, if need be in
+   * the middle of one. So a solve takes at most about twice as long as by the
+   * better way. Where rotations or time steps make factors outdated so often
+   * that solves cost more than they did, the multigrid comes back for good.
+   *
+   * Everything is counted and nothing is measured: runs repeat to the last
+   * digit.
+   */
+  class AutomaticPreconditioner : public Preconditioner
+  {
+  public:
+    /// @p parameters are those of the multigrid, which others declare.
+    explicit AutomaticPreconditioner(
+      const std::shared_ptr<PMultigridParameters> &parameters =
+        std::make_shared<PMultigridParameters>())
+      : multigrid(parameters)
+    {}
+
+    /// A copy has the parameters, and nothing that has been built.
+    AutomaticPreconditioner(const AutomaticPreconditioner &other)
+      : Preconditioner()
+      , multigrid(other.multigrid)
+    {}
+
+    void
+    build(const EffectiveOperator &A, const Vector &positions) override;
+
+    void
+    update(const EffectiveOperator &A) override;
+
+    void
+    vmult(Vector &dst, const Vector &src) const override;
+
+    unsigned int
+    acceptable_iterations(const unsigned int first) const override;
+
+    unsigned int
+    patience() const override;
+
+    bool
+    change(const EffectiveOperator &A, const Vector &positions) override;
+
+    bool
+    take_note(const unsigned int n_iterations, const bool was_built) override;
+
+    std::string
+    take_news() override;
+
+    void
+    transfer(Archive &archive) override;
+
+  private:
+    /// What a sparse factorisation takes, in iterations of the multigrid.
+    struct Costs
+    {
+      /// The first one, with its ordering; one more; a solve with the factors.
+      double first, again, solve;
+    };
+
+    void
+    find_costs(const EffectiveOperator &A);
+    /// Makes factors; where that cannot be done, the multigrid is there for
+    /// good.
+    void
+    factorize(const EffectiveOperator &A, const Vector &positions);
+    /// Iterations that a solve of @p n has more than one with factors takes.
+    double
+    too_many(const unsigned int n) const;
+
+    PMultigrid     multigrid;
+    CholeskyDirect direct;
+
+    bool is_direct  = false;
+    bool is_settled = false;
+    bool has_costs  = false;
+    /// Solves with the multigrid, their iterations, and those in vain.
+    unsigned int n_multigrid = 0;
+    double       iterations  = 0;
+    double       in_vain     = 0;
+    /// Solves with factors since these are in use, and what they have cost.
+    unsigned int n_direct    = 0;
+    double       direct_cost = 0;
+    Costs        costs{std::numeric_limits<double>::infinity(), 0, 0};
+    std::string  news;
+  };
+} // namespace corotet
+
+#endif

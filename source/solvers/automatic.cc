@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/discretization/cell_proportions.h>
+#include <corotet/solvers/automatic.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace corotet
+{
+  namespace
+  {
+    // Measured on one core, on plates and blocks of 700 to 170,000 unknowns.
+    // Only ratios matter, and these are much the same on other processors.
+    // Seconds of an iteration for each unknown, with degrees above 1 and with
+    // degree 1; of the matrix, and of ordering the unknowns, for each of them;
+    // of an operation of a factorisation; of an entry of its factor in a solve.
+    constexpr double iteration_time   = 60e-9;
+    constexpr double iteration_time_1 = 250e-9;
+    constexpr double matrix_time      = 1.5e-6;
+    constexpr double ordering_time    = 8e-6;
+    constexpr double operation_time   = 1 / 25e9;
+    constexpr double entry_time       = 1e-9;
+
+    // From degree 1 to another one with r times as many unknowns, operations
+    // grow by r^2.25 and entries of a factor by r^1.5: powers between 1.9 and
+    // 2.5, and 1.35 and 1.6, have been met.
+    constexpr double power_of_operations = 2.25;
+    constexpr double power_of_entries    = 1.5;
+
+    // Factors with more entries than these, 2 GB, are left to those who ask
+    // for them.
+    constexpr double most_entries = 2.5e8;
+
+    // Solves with factors, with those of an older matrix, too, take about
+    // three iterations. The multigrid needs some 30 on bodies of cells as
+    // meshing programs make them: these are not in vain.
+    constexpr double       direct_iterations = 3;
+    constexpr unsigned int usual_iterations  = 30;
+
+    // Where the multigrid has no factors of degree 1, their size is found when
+    // a solve takes as many iterations: ordering a large matrix takes its time,
+    // and conjugate gradients that start again lose some iterations.
+    constexpr unsigned int slow = 100;
+
+    // Iterations for each unit of the mean ratio of cells that are flat or
+    // stretched: the least that has been met.
+    constexpr double iterations_by_ratio = 10;
+
+    // Solves after which factors are judged.
+    constexpr unsigned int trial = 2;
+  } // namespace
+
+  void
+  AutomaticPreconditioner::find_costs(const EffectiveOperator &A)
+  {
+    has_costs                            = true;
+    const Discretization &discretization = A.discretization();
+    const double          n              = 3. * discretization.n_global_nodes();
+    const auto            degree_1 = multigrid.factorization_of_degree_1(A);
+    const double          r        = n / degree_1.n_unknowns;
+    const double          n_operations =
+      degree_1.n_operations * std::pow(r, power_of_operations);
+    const double n_entries = degree_1.n_entries * std::pow(r, power_of_entries);
+    if (n_entries > most_entries)
+      {
+        is_settled = true;
+        return;
+      }
+    // Ranks share the work of an iteration, and not that of a factorisation.
+    const double iteration =
+      n * (discretization.degree() == 1 ? iteration_time_1 : iteration_time) /
+      dealii::Utilities::MPI::n_mpi_processes(discretization.communicator());
+    costs.again = (n * matrix_time + n_operations * operation_time) / iteration;
+    costs.first = costs.again + n * ordering_time / iteration;
+    costs.solve = 1 + n_entries * entry_time / iteration;
+  }
+
+  void
+  AutomaticPreconditioner::build(const EffectiveOperator &A,
+                                 const Vector            &positions)
+  {
+    if (is_direct)
+      {
+        factorize(A, positions);
+        return;
+      }
+    multigrid.build(A, positions);
+    if (is_settled || has_costs || !multigrid.has_factors())
+      return;
+    find_costs(A);
+    if (is_settled)
+      return;
+    const CellProportions proportions = cell_proportions(A.discretization());
+    if (proportions.mean_ratio < 2 * CellProportions::limit)
+      return;
+    const double forecast = iterations_by_ratio * proportions.mean_ratio;
+    if (forecast < costs.first)
+      return;
+    news =
+      fmt::format("Linear solver: a sparse factorisation, as costly as "
+                  "{:.0f} iterations of p-multigrid, where at least {:.0f} "
+                  "are to be expected: {}",
+                  costs.first,
+                  forecast,
+                  proportions.text());
+    is_direct = true;
+    factorize(A, positions);
+  }
+
+  void
+  AutomaticPreconditioner::factorize(const EffectiveOperator &A,
+                                     const Vector            &positions)
+  {
+    std::string reason;
+    try
+      {
+        direct.build(A, positions);
+        return;
+      }
+    // Too large, for the memory or for the library, or singular up to
+    // round-off: conjugate gradients may go on where a factorisation cannot.
+    catch (const ComputationError &error)
+      {
+        reason = error.what();
+      }
+    catch (const MachineError &error)
+      {
+        reason = error.what();
+      }
+    news += fmt::format("{}Linear solver: p-multigrid, as a factorisation has "
+                        "failed: {}",
+                        news.empty() ? "" : "\n",
+                        reason);
+    is_direct  = false;
+    is_settled = true;
+    multigrid.build(A, positions);
+  }
+
+  void
+  AutomaticPreconditioner::update(const EffectiveOperator &A)
+  {
+    if (!is_direct)
+      multigrid.update(A);
+  }
+
+  void
+  AutomaticPreconditioner::vmult(Vector &dst, const Vector &src) const
+  {
+    if (is_direct)
+      direct.vmult(dst, src);
+    else
+      multigrid.vmult(dst, src);
+  }
+
+  unsigned int
+  AutomaticPreconditioner::acceptable_iterations(const unsigned int first) const
+  {
+    return is_direct ? direct.acceptable_iterations(first) :
+                       multigrid.acceptable_iterations(first);
+  }
+
+  double
+  AutomaticPreconditioner::too_many(const unsigned int n) const
+  {
+    if (n <= usual_iterations)
+      return 0;
+    return std::max(0., n - direct_iterations * costs.solve);
+  }
+
+  unsigned int
+  AutomaticPreconditioner::patience() const
+  {
+    if (is_direct || is_settled)
+      return std::numeric_limits<unsigned int>::max();
+    if (!has_costs)
+      return slow;
+    return std::max<double>(usual_iterations,
+                            costs.first - in_vain +
+                              direct_iterations * costs.solve);
+  }
+
+  bool
+  AutomaticPreconditioner::change(const EffectiveOperator &A,
+                                  const Vector            &positions)
+  {
+    if (!has_costs)
+      {
+        find_costs(A);
+        return false;
+      }
+    news = fmt::format("Linear solver: a sparse factorisation takes the place "
+                       "of p-multigrid, whose iterations, {:.0f} by now, have "
+                       "cost as much: {}",
+                       iterations + patience(),
+                       cell_proportions(A.discretization()).text());
+    iterations += patience();
+    ++n_multigrid;
+    is_direct = true;
+    factorize(A, positions);
+    return true;
+  }
+
+  bool
+  AutomaticPreconditioner::take_note(const unsigned int n_iterations,
+                                     const bool         was_built)
+  {
+    if (is_settled)
+      return false;
+    if (!is_direct)
+      {
+        ++n_multigrid;
+        iterations += n_iterations;
+        in_vain += too_many(n_iterations);
+        return false;
+      }
+    ++n_direct;
+    // The first factorisation is spent: it does not speak against the next
+    // solves.
+    direct_cost += n_iterations * costs.solve +
+                   (was_built && n_direct > 1 ? costs.again : 0);
+    if (n_direct < trial || n_multigrid == 0 ||
+        direct_cost / n_direct <= iterations / n_multigrid)
+      return false;
+    news       = fmt::format("Linear solver: p-multigrid again, as {} "
+                             "solves with factors of the matrix have cost {:.0f} "
+                             "of its iterations each, and it took {:.0f}",
+                       n_direct,
+                       direct_cost / n_direct,
+                       iterations / n_multigrid);
+    is_direct  = false;
+    is_settled = true;
+    return true;
+  }
+
+  std::string
+  AutomaticPreconditioner::take_news()
+  {
+    return std::exchange(news, "");
+  }
+
+  void
+  AutomaticPreconditioner::transfer(Archive &archive)
+  {
+    archive.transfer("is_direct", is_direct);
+    archive.transfer("is_settled", is_settled);
+    archive.transfer("has_costs", has_costs);
+    archive.transfer("n_multigrid", n_multigrid);
+    archive.transfer("iterations", iterations);
+    archive.transfer("in_vain", in_vain);
+    archive.transfer("n_direct", n_direct);
+    archive.transfer("direct_cost", direct_cost);
+    archive.transfer("cost_of_first", costs.first);
+    archive.transfer("cost_of_next", costs.again);
+    archive.transfer("cost_of_solve", costs.solve);
+  }
+} // namespace corotet

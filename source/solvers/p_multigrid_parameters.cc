@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/solvers/p_multigrid_parameters.h>
+
+namespace corotet
+{
+  void
+  PMultigridParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Smoother degree",
+                      smoother_degree,
+                      "Chebyshev steps before and after the coarser degree "
+                      "[-].",
+                      dealii::Patterns::Integer(1, 20));
+    prm.add_parameter("Smoothing range",
+                      smoothing_range,
+                      "Largest over smallest eigenvalue that the smoother is "
+                      "to damp [-].",
+                      dealii::Patterns::Double(1.1, 1e4));
+    std::string names = "automatic|direct|aggregation";
+    for (const auto &candidate : further)
+      names += "|" + candidate.name;
+    prm.add_parameter("Coarse solver",
+                      coarse_type,
+                      "For degree 1: 'direct', a sparse factorisation; "
+                      "'aggregation', one cycle of smoothed aggregation with "
+                      "two levels; 'amg', one cycle of Trilinos ML, with the "
+                      "parameters of 'Linear solver/amg' (where Trilinos has "
+                      "it); "
+                      "'automatic', the direct one up to the limit below, then "
+                      "aggregation.",
+                      dealii::Patterns::Selection(names));
+    prm.add_parameter("Direct limit",
+                      direct_limit,
+                      "Unknowns of degree 1 up to which 'automatic' means "
+                      "'direct' [-].",
+                      dealii::Patterns::Integer(0));
+  }
+} // namespace corotet

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The automatic choice: p-multigrid where cells are well shaped, a sparse
+// factorisation where that is the faster way, at once or in the middle of a
+// solve; and back again.
+
+#include <corotet/solvers/automatic.h>
+#include <corotet/solvers/linear_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+#include "../memory_archive.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // A clamped body under a load across it, and what solves it.
+  class Case
+  {
+  public:
+    Case(const std::string &size,
+         const std::string &cells,
+         const unsigned int degree,
+         const std::string &solver)
+      : body(box(size, cells),
+             element_text(degree) + fixed("x-min") +
+               linear_solver(solver, 1e-10))
+      , A(body.discretization,
+          body.elasticity,
+          body.mass,
+          body.motion.is_prescribed())
+      , solver(body.parameters.linear_solver)
+      , x(body.state.u)
+      , b(body.state.u)
+    {
+      A.update(1., 0.);
+      for (unsigned int i = 2; i < b.locally_owned_size(); i += 3)
+        b.local_element(i) = 1;
+      body.motion.set_zero(b);
+    }
+
+    unsigned int
+    solve()
+    {
+      return solver.solve(A, x, b, body.discretization.node_positions());
+    }
+
+    MovingBody        body;
+    EffectiveOperator A;
+    LinearSolver      solver;
+    Vector            x, b;
+  };
+
+  // One layer of cells that are flat by 12; on several ranks, where iterations
+  // cost less beside a factorisation, by 20.
+  std::string
+  thin_size()
+  {
+    return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ?
+             "1, 1, 0.02" :
+             "1, 1, 0.0125";
+  }
+
+  const std::string thin_cells = "4, 4, 1";
+} // namespace
+
+class Automatic : public testing::TestWithParam<unsigned int>
+{};
+
+// Degree 1 is factorised by the multigrid, too.
+class AutomaticAboveDegree1 : public Automatic
+{};
+
+// Nothing but the multigrid, to the last bit.
+TEST_P(Automatic, LeavesWellShapedBodiesToMultigrid)
+{
+  Case automatic("4, 1, 1", "8, 2, 2", GetParam(), "automatic");
+  Case multigrid("4, 1, 1", "8, 2, 2", GetParam(), "p-multigrid");
+  for (int solve = 0; solve < 2; ++solve)
+    {
+      EXPECT_EQ(automatic.solve(), multigrid.solve());
+      EXPECT_EQ(largest_difference(automatic.x, multigrid.x), 0);
+    }
+  EXPECT_EQ(automatic.solver.take_news(), "");
+  EXPECT_EQ(automatic.solver.preconditioner_builds(), 1u);
+}
+
+// The first solve gives up the multigrid and goes on; later ones need no more
+// than what round-off of an ill-conditioned matrix asks for.
+TEST_P(AutomaticAboveDegree1, FactorisesThinBodies)
+{
+  Case automatic(thin_size(), thin_cells, GetParam(), "automatic");
+  Case multigrid(thin_size(), thin_cells, GetParam(), "p-multigrid");
+  const unsigned int n = multigrid.solve();
+  EXPECT_GT(n, 200u);
+  EXPECT_LT(automatic.solve(), n);
+  EXPECT_NE(automatic.solver.take_news().find("a sparse factorisation"),
+            std::string::npos);
+  EXPECT_EQ(automatic.solver.take_news(), "");
+  // The condition number of the plate is below 1e9, so that a residual of 1e-10
+  // leaves errors of some percent at most in what is the smallest part of the
+  // solution, and far less here.
+  EXPECT_LT(largest_difference(automatic.x, multigrid.x),
+            1e-5 * multigrid.x.linfty_norm());
+  EXPECT_LE(automatic.solve(), 3u);
+}
+
+// So flat that nobody tries.
+TEST_P(AutomaticAboveDegree1, FactorisesVeryFlatCellsAtOnce)
+{
+  Case automatic("1, 1, 0.005", thin_cells, GetParam(), "automatic");
+  EXPECT_LE(automatic.solve(), 3u);
+  const std::string news = automatic.solver.take_news();
+  EXPECT_NE(news.find("at least"), std::string::npos) << news;
+  EXPECT_NE(news.find("100 % of the cells are flat"), std::string::npos)
+    << news;
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, Automatic, testing::Values(1u, 2u, 3u));
+INSTANTIATE_TEST_SUITE_P(Degrees,
+                         AutomaticAboveDegree1,
+                         testing::Values(2u, 3u));
+
+namespace
+{
+  // A preconditioner that has changed to factors.
+  void
+  make_it_change(AutomaticPreconditioner &P, Case &c)
+  {
+    const Vector &positions = c.body.discretization.node_positions();
+    P.build(c.A, positions);
+    const unsigned int patience = P.patience();
+    EXPECT_GT(patience, 30u);
+    EXPECT_LT(patience, 1000u);
+    EXPECT_TRUE(P.change(c.A, positions));
+    EXPECT_GT(P.patience(), 1000000u);
+  }
+} // namespace
+
+// Solves that are slow, each of them less than what a factorisation is worth.
+TEST(AutomaticDecisions, SlowSolvesAddUp)
+{
+  Case                    c(thin_size(), thin_cells, 2, "automatic");
+  AutomaticPreconditioner P;
+  P.build(c.A, c.body.discretization.node_positions());
+  const unsigned int first = P.patience();
+  EXPECT_FALSE(P.take_note(30, true));
+  EXPECT_EQ(P.patience(), first);
+  EXPECT_FALSE(P.take_note(first / 2, false));
+  EXPECT_LT(P.patience(), first);
+  EXPECT_FALSE(P.take_note(first, false));
+  EXPECT_EQ(P.patience(), 30u);
+}
+
+// Factors that are outdated again and again.
+TEST(AutomaticDecisions, MultigridComesBackForGood)
+{
+  Case                    c(thin_size(), thin_cells, 3, "automatic");
+  AutomaticPreconditioner P;
+  make_it_change(P, c);
+  P.take_news();
+  EXPECT_FALSE(P.take_note(2, true));
+  bool is_back = false;
+  for (int solve = 0; solve < 100 && !is_back; ++solve)
+    is_back = P.take_note(150, true);
+  EXPECT_TRUE(is_back);
+  EXPECT_NE(P.take_news().find("p-multigrid again"), std::string::npos);
+  const Vector &positions = c.body.discretization.node_positions();
+  P.build(c.A, positions);
+  // What the multigrid does.
+  PMultigrid multigrid;
+  multigrid.build(c.A, positions);
+  Vector expected(c.b), found(c.b);
+  multigrid.vmult(expected, c.b);
+  P.vmult(found, c.b);
+  EXPECT_EQ(largest_difference(found, expected), 0);
+  EXPECT_GT(P.patience(), 1000000u);
+  EXPECT_FALSE(P.take_note(100000, true));
+}
+
+// Factors that last are kept.
+TEST(AutomaticDecisions, FactorsStay)
+{
+  Case                    c(thin_size(), thin_cells, 3, "automatic");
+  AutomaticPreconditioner P;
+  make_it_change(P, c);
+  EXPECT_FALSE(P.take_note(2, true));
+  for (int solve = 0; solve < 100; ++solve)
+    EXPECT_FALSE(P.take_note(4, false)) << solve;
+}
+
+// From a checkpoint: the same decisions, and the same kind of preconditioner.
+TEST(AutomaticDecisions, Restart)
+{
+  Case                    c(thin_size(), thin_cells, 2, "automatic");
+  const Vector           &positions = c.body.discretization.node_positions();
+  AutomaticPreconditioner before, after, changed;
+  before.build(c.A, positions);
+  before.take_note(before.patience() / 2, true);
+  MemoryArchive archive;
+  before.transfer(archive);
+  archive.reading = true;
+  after.transfer(archive);
+  after.build(c.A, positions);
+  EXPECT_EQ(after.patience(), before.patience());
+
+  make_it_change(before, c);
+  MemoryArchive second;
+  before.transfer(second);
+  second.reading = true;
+  changed.transfer(second);
+  changed.build(c.A, positions);
+  Vector expected(c.b), found(c.b);
+  before.vmult(expected, c.b);
+  changed.vmult(found, c.b);
+  EXPECT_EQ(largest_difference(found, expected), 0);
+}
