@@ -110,7 +110,10 @@ namespace corotet
                   costs.first,
                   forecast,
                   proportions.text());
-    is_direct = true;
+    // What later solves with factors are compared with.
+    n_multigrid = 1;
+    iterations  = forecast;
+    is_direct   = true;
     factorize(A, positions);
   }
 
@@ -121,7 +124,9 @@ namespace corotet
     std::string reason;
     try
       {
-        direct.build(A, positions);
+        if (!direct)
+          direct = std::make_unique<CholeskyDirect>();
+        direct->build(A, positions);
         return;
       }
     // Too large, for the memory or for the library, or singular up to
@@ -138,9 +143,16 @@ namespace corotet
                         "failed: {}",
                         news.empty() ? "" : "\n",
                         reason);
+    settle_for_multigrid();
+    multigrid.build(A, positions);
+  }
+
+  void
+  AutomaticPreconditioner::settle_for_multigrid()
+  {
     is_direct  = false;
     is_settled = true;
-    multigrid.build(A, positions);
+    direct.reset();
   }
 
   void
@@ -154,7 +166,7 @@ namespace corotet
   AutomaticPreconditioner::vmult(Vector &dst, const Vector &src) const
   {
     if (is_direct)
-      direct.vmult(dst, src);
+      direct->vmult(dst, src);
     else
       multigrid.vmult(dst, src);
   }
@@ -162,7 +174,7 @@ namespace corotet
   unsigned int
   AutomaticPreconditioner::acceptable_iterations(const unsigned int first) const
   {
-    return is_direct ? direct.acceptable_iterations(first) :
+    return is_direct ? direct->acceptable_iterations(first) :
                        multigrid.acceptable_iterations(first);
   }
 
@@ -228,14 +240,13 @@ namespace corotet
     if (n_direct < trial || n_multigrid == 0 ||
         direct_cost / n_direct <= iterations / n_multigrid)
       return false;
-    news       = fmt::format("Linear solver: p-multigrid again, as {} "
-                             "solves with factors of the matrix have cost {:.0f} "
-                             "of its iterations each, and it took {:.0f}",
+    news = fmt::format("Linear solver: p-multigrid again, as {} "
+                       "solves with factors of the matrix have cost {:.0f} "
+                       "of its iterations each, and it took {:.0f}",
                        n_direct,
                        direct_cost / n_direct,
                        iterations / n_multigrid);
-    is_direct  = false;
-    is_settled = true;
+    settle_for_multigrid();
     return true;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/cell_proportions.h>
 #include <corotet/solvers/p_multigrid.h>
 
 #include <deal.II/base/array_view.h>
@@ -253,6 +254,22 @@ namespace corotet
   }
 
   void
+  PMultigrid::choose_strength(const Discretization &discretization)
+  {
+    // On stretched cells, aggregates of strong couplings are layers across:
+    // they are few enough. On flat ones they are lines of three nodes, half as
+    // many unknowns as before, whose factorisation takes longer than the
+    // iterations that it saves; the same is true of the largest bodies.
+    constexpr double       few  = 0.1;
+    constexpr unsigned int many = 300000;
+    if (has_strength || 3 * coarse_nodes->n_global_nodes() > many)
+      return;
+    has_strength = true;
+    if (cell_proportions(discretization).share_stretched > few)
+      aggregation.set_strength(0.3);
+  }
+
+  void
   PMultigrid::build_coarse_solver(const EffectiveOperator &A,
                                   const Vector            &positions)
   {
@@ -294,6 +311,7 @@ namespace corotet
       }
     if (coarse_solver == "aggregation")
       {
+        choose_strength(A.discretization());
         aggregation.build(matrix, coarse_x.begin());
         return;
       }

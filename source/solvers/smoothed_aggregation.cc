@@ -65,10 +65,8 @@ namespace corotet
     }
   } // namespace
 
-  SmoothedAggregation::SmoothedAggregation(const unsigned int degree,
-                                           const double       threshold)
+  SmoothedAggregation::SmoothedAggregation(const unsigned int degree)
     : degree(degree)
-    , threshold(threshold)
     , coarse_factor(SparseCholesky::Precision::single_precision)
   {}
 

@@ -32,27 +32,37 @@ namespace corotet
   void
   SmoothedAggregation::aggregate_nodes()
   {
-    const NodeGraph &graph       = pattern->graph();
-    const auto       norm_square = [&](const int k) {
+    const NodeGraph &graph         = pattern->graph();
+    const auto       size_of_block = [&](const int k) {
       double sum = 0;
       for (int l = 9 * k; l < 9 * k + 9; ++l)
         sum += static_cast<double>(blocks[l]) * blocks[l];
-      return sum;
+      return std::sqrt(sum);
     };
-    std::vector<double> size(n_nodes);
-    std::vector<int>    row_of(graph.columns.size());
-    for (int i = 0; i < n_nodes; ++i)
-      for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
-        {
-          row_of[k] = i;
-          if (graph.columns[k] == i)
-            size[i] = std::sqrt(norm_square(k));
-        }
-    aggregates = aggregate(graph, [&](const int k) {
-      const int j = graph.columns[k];
-      return j < n_nodes && norm_square(k) >=
-                              threshold * threshold * size[row_of[k]] * size[j];
+    const auto for_each_block = [&](const auto &action) {
+      for (int i = 0; i < n_nodes; ++i)
+        for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
+          if (graph.columns[k] < n_nodes)
+            action(i, graph.columns[k], k);
+    };
+    std::vector<double> diagonal(n_nodes), strongest(n_nodes);
+    for_each_block([&](const int i, const int j, const int k) {
+      if (i == j)
+        diagonal[i] = size_of_block(k);
     });
+    // Those with other ranks are none.
+    std::vector<double> strength(graph.columns.size(), -1);
+    for_each_block([&](const int i, const int j, const int k) {
+      strength[k] = size_of_block(k) / std::sqrt(diagonal[i] * diagonal[j]);
+      if (i != j)
+        strongest[i] = std::max(strongest[i], strength[k]);
+    });
+    std::vector<unsigned char> is_strong(graph.columns.size());
+    for_each_block([&](const int i, const int j, const int k) {
+      is_strong[k] =
+        strength[k] >= least_strength * std::min(strongest[i], strongest[j]);
+    });
+    aggregates = aggregate(graph, [&](const int k) { return is_strong[k]; });
   }
 
   void

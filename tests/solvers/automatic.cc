@@ -184,6 +184,21 @@ TEST(AutomaticDecisions, MultigridComesBackForGood)
   EXPECT_FALSE(P.take_note(100000, true));
 }
 
+// Also where nobody has tried the multigrid: then what was expected of it
+// counts.
+TEST(AutomaticDecisions, MultigridComesBackWhereItWasNotTried)
+{
+  Case                    c("1, 1, 0.004", thin_cells, 2, "automatic");
+  AutomaticPreconditioner P;
+  P.build(c.A, c.body.discretization.node_positions());
+  EXPECT_GT(P.patience(), 1000000u);
+  EXPECT_FALSE(P.take_note(2, true));
+  bool is_back = false;
+  for (int solve = 0; solve < 100 && !is_back; ++solve)
+    is_back = P.take_note(1000, true);
+  EXPECT_TRUE(is_back);
+}
+
 // Factors that last are kept.
 TEST(AutomaticDecisions, FactorsStay)
 {

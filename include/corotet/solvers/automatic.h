@@ -89,8 +89,13 @@ namespace corotet
     double
     too_many(const unsigned int n) const;
 
-    PMultigrid     multigrid;
-    CholeskyDirect direct;
+    /// The multigrid from now on; factors are gone.
+    void
+    settle_for_multigrid();
+
+    PMultigrid multigrid;
+    /// Null until it is first wanted.
+    std::unique_ptr<CholeskyDirect> direct;
 
     bool is_direct  = false;
     bool is_settled = false;

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Degree 1 on flat and on stretched cells: aggregates that follow strong
+// couplings keep iterations few, and p-multigrid asks for them by itself where
+// they cost less than they save, on stretched ones.
+
+#include <corotet/solvers/p_multigrid.h>
+#include <corotet/solvers/smoothed_aggregation.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/solver_cg.h>
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // A body of degree 1 that is clamped at a side, under a load across it.
+  struct Clamped
+  {
+    Clamped(const std::string &size, const std::string &cells)
+      : body(box(size, cells), element_text(1) + fixed("x-min"))
+      , A(body.discretization,
+          body.elasticity,
+          body.mass,
+          body.motion.is_prescribed())
+      , b(body.state.u)
+    {
+      A.update(1., 0.);
+      for (unsigned int i = 2; i < b.locally_owned_size(); i += 3)
+        b.local_element(i) = 1;
+      body.motion.set_zero(b);
+    }
+
+    // Of conjugate gradients to 1e-8.
+    template <typename Inverse>
+    unsigned int
+    iterations(const Inverse &inverse)
+    {
+      Vector                   x(b);
+      dealii::SolverControl    control(1000, 1e-8 * b.l2_norm());
+      dealii::SolverCG<Vector> cg(control);
+      x = 0;
+      cg.solve(A, x, b, inverse);
+      return control.last_step();
+    }
+
+    const Vector &
+    positions() const
+    {
+      return body.discretization.node_positions();
+    }
+
+    MovingBody        body;
+    EffectiveOperator A;
+    Vector            b;
+  };
+
+  struct Cycle
+  {
+    void
+    vmult(Vector &dst, const Vector &src) const
+    {
+      aggregation.vmult(dst.begin(), src.begin());
+    }
+
+    SmoothedAggregation aggregation;
+  };
+
+  unsigned int
+  iterations_of_aggregation(Clamped &body, const double strength)
+  {
+    Cycle cycle;
+    cycle.aggregation.set_strength(strength);
+    cycle.aggregation.build(body.A.matrix(), body.positions().begin());
+    return body.iterations(cycle);
+  }
+
+  unsigned int
+  iterations_of_multigrid(Clamped &body)
+  {
+    PMultigrid               multigrid;
+    dealii::ParameterHandler prm;
+    multigrid.declare_parameters(prm);
+    prm.set("Coarse solver", "aggregation");
+    multigrid.build(body.A, body.positions());
+    return body.iterations(multigrid);
+  }
+} // namespace
+
+struct Proportions
+{
+  const char *name, *size, *cells;
+  // What is measured on one rank, and on two, and a quarter. Aggregates and
+  // what smooths them end where a rank does, and so do strong couplings.
+  unsigned int most_alone, most_on_two;
+  bool         is_used;
+};
+
+class StrongCouplings : public testing::TestWithParam<Proportions>
+{};
+
+TEST_P(StrongCouplings, IterationsStayFew)
+{
+  Clamped            body(GetParam().size, GetParam().cells);
+  const unsigned int strong = iterations_of_aggregation(body, 0.3);
+  const unsigned int all    = iterations_of_aggregation(body, 0);
+  report(GetParam().name, strong);
+  EXPECT_LE(strong,
+            dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ?
+              GetParam().most_alone :
+              GetParam().most_on_two);
+  EXPECT_GT(all, 2 * strong);
+  EXPECT_EQ(iterations_of_multigrid(body), GetParam().is_used ? strong : all);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  All,
+  StrongCouplings,
+  testing::Values(
+    Proportions{"flat by 10", "1, 1, 0.1", "8, 8, 8", 15, 30, false},
+    Proportions{"flat by 100", "1, 1, 0.01", "8, 8, 8", 22, 57, false},
+    Proportions{"stretched by 10", "10, 1, 1", "8, 8, 8", 13, 17, true},
+    Proportions{"stretched by 100", "100, 1, 1", "8, 8, 8", 13, 59, true}),
+  [](const auto &info) {
+    std::string name = info.param.name;
+    std::erase(name, ' ');
+    return name;
+  });
+
+// Cubes have couplings of one size: nothing changes, to the last bit.
+TEST(StrongCouplingsOfCubes, AreAll)
+{
+  Clamped body("2, 1, 1", "8, 4, 4");
+  EXPECT_EQ(iterations_of_aggregation(body, 0.3),
+            iterations_of_aggregation(body, 0));
+  EXPECT_EQ(iterations_of_multigrid(body), iterations_of_aggregation(body, 0));
+}
