@@ -40,9 +40,10 @@ namespace corotet
       prm,
       "Preconditioner: 'automatic', p-multigrid, or a sparse factorisation "
       "where that is the faster way, as on thin bodies of few cells across; "
-      "'p-multigrid', over the degrees down to 1, matrix-free; 'amg', smoothed aggregation with rigid body "
-      "modes, on the assembled matrix (where Trilinos has ML); 'jacobi', the "
-      "diagonal; 'direct', a sparse factorisation of the assembled matrix.");
+      "'p-multigrid', over the degrees down to 1, matrix-free; 'amg', smoothed "
+      "aggregation with rigid body modes, on the assembled matrix (where "
+      "Trilinos has ML); 'jacobi', the diagonal; 'direct', a sparse "
+      "factorisation of the assembled matrix.");
     add_enumeration(prm,
                     "Method",
                     method,
@@ -260,7 +261,7 @@ namespace corotet
     unsigned int       done = 0;
     done_before_change      = 0;
     const auto change_it    = [&] {
-      if (!preconditioner->change(A, positions))
+      if (!preconditioner->change(A, positions, done))
         return;
       done_before_change = done;
       ++n_builds;

@@ -138,7 +138,7 @@ namespace
     const unsigned int patience = P.patience();
     EXPECT_GT(patience, 30u);
     EXPECT_LT(patience, 1000u);
-    EXPECT_TRUE(P.change(c.A, positions));
+    EXPECT_TRUE(P.change(c.A, positions, patience));
     EXPECT_GT(P.patience(), 1000000u);
   }
 } // namespace

@@ -32,8 +32,8 @@ namespace corotet
     double           largest_ratio = 1;
     dealii::Point<3> place;
 
-    /// "12 % of the cells are flat, 3 % stretched (by more than 4; 17 at
-    /// (x, y, z))".
+    /// "12 % of the cells are flat, 3 % stretched (by more than 4; most by
+    /// 17, at (x, y, z))".
     std::string
     text() const;
   };

@@ -60,7 +60,9 @@ namespace corotet
     patience() const override;
 
     bool
-    change(const EffectiveOperator &A, const Vector &positions) override;
+    change(const EffectiveOperator &A,
+           const Vector            &positions,
+           const unsigned int       n_iterations) override;
 
     bool
     take_note(const unsigned int n_iterations, const bool was_built) override;
@@ -88,7 +90,6 @@ namespace corotet
     /// Iterations that a solve of @p n has more than one with factors takes.
     double
     too_many(const unsigned int n) const;
-
     /// The multigrid from now on; factors are gone.
     void
     settle_for_multigrid();

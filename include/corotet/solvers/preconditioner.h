@@ -52,11 +52,13 @@ namespace corotet
       return std::numeric_limits<unsigned int>::max();
     }
 
-    /// Looks for a better P of the same A, as a solve has taken as many
-    /// iterations as patience() says: afterwards that is longer. Returns
-    /// whether P is another one now. Collective.
+    /// Looks for a better P of the same A, as a solve has taken
+    /// @p n_iterations, as many as patience() says: afterwards that is longer.
+    /// Returns whether P is another one now. Collective.
     virtual bool
-    change(const EffectiveOperator & /*A*/, const Vector & /*positions*/)
+    change(const EffectiveOperator & /*A*/,
+           const Vector & /*positions*/,
+           const unsigned int /*n_iterations*/)
     {
       return false;
     }
