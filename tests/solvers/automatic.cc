@@ -12,49 +12,36 @@
 
 #include <gtest/gtest.h>
 
-#include "../body.h"
 #include "../memory_archive.h"
+#include "clamped_body.h"
 
 using namespace corotet;
 using namespace corotet::tests;
 
 namespace
 {
-  // A clamped body under a load across it, and what solves it.
-  class Case
+  // A body and what solves it.
+  struct Case : public ClampedBody
   {
-  public:
     Case(const std::string &size,
          const std::string &cells,
          const unsigned int degree,
-         const std::string &solver)
-      : body(box(size, cells),
-             element_text(degree) + fixed("x-min") +
-               linear_solver(solver, 1e-10))
-      , A(body.discretization,
-          body.elasticity,
-          body.mass,
-          body.motion.is_prescribed())
+         const std::string &type)
+      : ClampedBody(size,
+                    cells,
+                    element_text(degree) + linear_solver(type, 1e-10))
       , solver(body.parameters.linear_solver)
-      , x(body.state.u)
-      , b(body.state.u)
-    {
-      A.update(1., 0.);
-      for (unsigned int i = 2; i < b.locally_owned_size(); i += 3)
-        b.local_element(i) = 1;
-      body.motion.set_zero(b);
-    }
+      , x(b)
+    {}
 
     unsigned int
     solve()
     {
-      return solver.solve(A, x, b, body.discretization.node_positions());
+      return solver.solve(A, x, b, positions());
     }
 
-    MovingBody        body;
-    EffectiveOperator A;
-    LinearSolver      solver;
-    Vector            x, b;
+    LinearSolver solver;
+    Vector       x;
   };
 
   // One layer of cells that are flat by 12; on several ranks, where iterations
@@ -133,7 +120,7 @@ namespace
   void
   make_it_change(AutomaticPreconditioner &P, Case &c)
   {
-    const Vector &positions = c.body.discretization.node_positions();
+    const Vector &positions = c.positions();
     P.build(c.A, positions);
     const unsigned int patience = P.patience();
     EXPECT_GT(patience, 30u);
@@ -148,7 +135,7 @@ TEST(AutomaticDecisions, SlowSolvesAddUp)
 {
   Case                    c(thin_size(), thin_cells, 2, "automatic");
   AutomaticPreconditioner P;
-  P.build(c.A, c.body.discretization.node_positions());
+  P.build(c.A, c.positions());
   const unsigned int first = P.patience();
   EXPECT_FALSE(P.take_note(30, true));
   EXPECT_EQ(P.patience(), first);
@@ -171,7 +158,7 @@ TEST(AutomaticDecisions, MultigridComesBackForGood)
     is_back = P.take_note(150, true);
   EXPECT_TRUE(is_back);
   EXPECT_NE(P.take_news().find("p-multigrid again"), std::string::npos);
-  const Vector &positions = c.body.discretization.node_positions();
+  const Vector &positions = c.positions();
   P.build(c.A, positions);
   // What the multigrid does.
   PMultigrid multigrid;
@@ -190,7 +177,7 @@ TEST(AutomaticDecisions, MultigridComesBackWhereItWasNotTried)
 {
   Case                    c("1, 1, 0.004", thin_cells, 2, "automatic");
   AutomaticPreconditioner P;
-  P.build(c.A, c.body.discretization.node_positions());
+  P.build(c.A, c.positions());
   EXPECT_GT(P.patience(), 1000000u);
   EXPECT_FALSE(P.take_note(2, true));
   bool is_back = false;
@@ -214,7 +201,7 @@ TEST(AutomaticDecisions, FactorsStay)
 TEST(AutomaticDecisions, Restart)
 {
   Case                    c(thin_size(), thin_cells, 2, "automatic");
-  const Vector           &positions = c.body.discretization.node_positions();
+  const Vector           &positions = c.positions();
   AutomaticPreconditioner before, after, changed;
   before.build(c.A, positions);
   before.take_note(before.patience() / 2, true);

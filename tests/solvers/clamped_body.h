@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_solvers_clamped_body_h
+#define corotet_tests_solvers_clamped_body_h
+
+#include <string>
+
+#include "../body.h"
+
+namespace corotet::tests
+{
+  /// A box that is clamped where x is smallest, its stiffness A, and a load b
+  /// of one along z at each node.
+  struct ClampedBody
+  {
+    /// @p entries of a parameter file.
+    ClampedBody(const std::string &size,
+                const std::string &cells,
+                const std::string &entries)
+      : body(box(size, cells), fixed("x-min") + entries)
+      , A(body.discretization,
+          body.elasticity,
+          body.mass,
+          body.motion.is_prescribed())
+      , b(body.state.u)
+    {
+      A.update(1., 0.);
+      for (unsigned int i = 2; i < b.locally_owned_size(); i += 3)
+        b.local_element(i) = 1;
+      body.motion.set_zero(b);
+    }
+
+    const Vector &
+    positions() const
+    {
+      return body.discretization.node_positions();
+    }
+
+    MovingBody        body;
+    EffectiveOperator A;
+    Vector            b;
+  };
+} // namespace corotet::tests
+
+#endif
