@@ -20,8 +20,8 @@ namespace corotet
   Discretization::Discretization(const Mesh &mesh, const Element element)
     : Nodes(element)
     , mesh_pointer(&mesh)
-    , fe(*make_finite_element(element), 3)
-    , linear_mapping(dealii::FE_SimplexP<3>(1))
+    , fe(corotet::finite_element(element), 3)
+    , linear_mapping(corotet::finite_element(Element(1)))
     , dofs(mesh.triangulation())
   {
     dofs.distribute_dofs(fe);

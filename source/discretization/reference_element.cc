@@ -13,6 +13,14 @@ namespace corotet
 {
   namespace
   {
+    template <unsigned int p>
+    const ReferenceElement &
+    of_degree()
+    {
+      static const ReferenceElement element(p);
+      return element;
+    }
+
     // Vertices of face f of the reference tetrahedron, in an order that is
     // counter-clockwise seen from outside.
     std::array<dealii::Point<3>, 3>
@@ -37,8 +45,7 @@ namespace corotet
     , n_nodes(element.n_nodes())
   {
     AssertThrow(degree >= 1 && degree <= 3, dealii::ExcInternalError());
-    const auto  pointer = make_finite_element(element);
-    const auto &fe      = *pointer;
+    const auto &fe = finite_element(element);
     AssertDimension(fe.dofs_per_cell, n_nodes);
 
     // Degrees 0, 2, 4 need 1, 4, 14 points.
@@ -91,12 +98,27 @@ namespace corotet
       tabulate(fe, products.get_points(), products.get_weights()));
   }
 
+  const ReferenceElement &
+  ReferenceElement::of(const Element element)
+  {
+    if (element.has_bubbles())
+      {
+        static const ReferenceElement with_bubbles(element);
+        return with_bubbles;
+      }
+    AssertThrow(element.degree() >= 1 && element.degree() <= 3,
+                dealii::ExcInternalError());
+    return element.degree() == 1 ? of_degree<1>() :
+           element.degree() == 2 ? of_degree<2>() :
+                                   of_degree<3>();
+  }
+
   ReferenceElement::PointValues
   ReferenceElement::tabulate(const Element                        element,
                              const std::vector<dealii::Point<3>> &points,
                              const std::vector<double>           &weights)
   {
-    return tabulate(*make_finite_element(element), points, weights);
+    return tabulate(finite_element(element), points, weights);
   }
 
   ReferenceElement::PointValues

@@ -87,10 +87,16 @@ namespace corotet::abaqus
         if (i == 0)
           {
             // "* NODE" and "*END  PART" mean what is meant by one blank.
+            bool blank = false;
             for (const char c : upper_case(parts[0]))
-              if (!std::isspace(static_cast<unsigned char>(c)) ||
-                  keyword.name.back() != ' ')
-                keyword.name += c;
+              {
+                const bool space = std::isspace(static_cast<unsigned char>(c));
+                if (!space && blank && !keyword.name.empty())
+                  keyword.name += ' ';
+                if (!space)
+                  keyword.name += c;
+                blank = space;
+              }
             continue;
           }
         const std::size_t equals = parts[i].find('=');

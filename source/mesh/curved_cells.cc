@@ -142,10 +142,34 @@ namespace corotet
 
 
 
+  namespace
+  {
+    template <unsigned int p>
+    const dealii::FiniteElement<3> &
+    element_of_degree()
+    {
+      static const dealii::FE_SimplexP<3> element(p);
+      return element;
+    }
+  } // namespace
+
+
+
+  const dealii::FiniteElement<3> &
+  map_element(const unsigned int degree)
+  {
+    AssertThrow(degree >= 1 && degree <= 3, dealii::ExcInternalError());
+    return degree == 1 ? element_of_degree<1>() :
+           degree == 2 ? element_of_degree<2>() :
+                         element_of_degree<3>();
+  }
+
+
+
   MapAtPoints::MapAtPoints(const unsigned int           degree,
                            const std::vector<Point<3>> &points)
   {
-    const dealii::FE_SimplexP<3> fe(degree);
+    const dealii::FiniteElement<3> &fe = map_element(degree);
     values.reinit(points.size(), fe.dofs_per_cell);
     gradients.reinit(points.size(), fe.dofs_per_cell);
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -161,7 +185,7 @@ namespace corotet
   std::vector<Point<3>>
   map_points(const unsigned int degree)
   {
-    return dealii::FE_SimplexP<3>(degree).get_unit_support_points();
+    return map_element(degree).get_unit_support_points();
   }
 
 

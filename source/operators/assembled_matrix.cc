@@ -19,7 +19,7 @@ namespace corotet
     const Nodes                      &nodes,
     const std::vector<unsigned char> &is_prescribed)
     : nodes(nodes)
-    , reference(nodes.element())
+    , reference(ReferenceElement::of(nodes.element()))
     , prescribed(is_prescribed)
   {
     block_matrix = std::make_unique<BlockMatrix>(make_pattern());

@@ -89,7 +89,7 @@ namespace corotet
   template <typename T>
   SurfaceOperator<T>::SurfaceOperator(const Nodes &nodes)
     : nodes(nodes)
-    , reference(nodes.element())
+    , reference(ReferenceElement::of(nodes.element()))
   {}
 
   template <typename T>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/mesh/curved_cells.h>
 #include <corotet/output/stress_tables.h>
 #include <corotet/output/vtkhdf_writer.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/fe/fe_simplex_p.h>
 
 #include <array>
 
@@ -44,10 +44,9 @@ namespace corotet
   std::vector<unsigned int>
   vtk_node_order(const unsigned int degree)
   {
-    Assert(degree >= 1 && degree <= 3, dealii::ExcIndexRange(degree, 1, 4));
-    const dealii::FE_SimplexP<3> fe(degree);
-    const auto                  &points = fe.get_unit_support_points();
-    std::vector<unsigned int>    order;
+    const std::vector<Point<3>> &points =
+      map_element(degree).get_unit_support_points();
+    std::vector<unsigned int> order;
     for (const Point<3> &node : vtk_nodes(degree))
       for (unsigned int i = 0; i < points.size(); ++i)
         if (points[i].distance(node) < 1e-10)

@@ -51,7 +51,7 @@ namespace corotet
     : tables(tables)
     , mesh(make_mesh())
     , discretization(mesh, parameters.element())
-    , reference(discretization.element())
+    , reference(ReferenceElement::of(discretization.element()))
     , problem(parameters, purpose == Purpose::motion)
     , materials(parameters.material.materials(mesh.regions()))
     , law(purpose == Purpose::motion ? parameters.material.law() : linear_law())

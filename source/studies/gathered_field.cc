@@ -42,7 +42,7 @@ namespace corotet
 
   GatheredField::GatheredField(const Discretization &discretization,
                                const Vector         &u)
-    : fe(make_finite_element(discretization.element()))
+    : fe(finite_element(discretization.element()))
     , stride(n_geometry + 3 * discretization.n_nodes_per_cell())
   {
     std::vector<double> own;
@@ -125,10 +125,10 @@ namespace corotet
     const double     *u  = G + 9;
     PointDisplacement result;
     Tensor<2, 3>      by_reference;
-    for (unsigned int i = 0; i < fe->dofs_per_cell; ++i)
+    for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
       {
-        const double       N  = fe->shape_value(i, xi);
-        const Tensor<1, 3> dN = fe->shape_grad(i, xi);
+        const double       N  = fe.shape_value(i, xi);
+        const Tensor<1, 3> dN = fe.shape_grad(i, xi);
         for (unsigned int a = 0; a < 3; ++a)
           {
             result.value[a] += N * u[3 * i + a];

@@ -14,7 +14,7 @@
 #include "../body.h"
 
 using corotet::Element;
-using corotet::make_finite_element;
+using corotet::finite_element;
 using corotet::ReferenceElement;
 
 namespace
@@ -141,7 +141,7 @@ protected:
 TEST_F(BubblesTest, NodalQuadrature)
 {
   ReferenceElement::PointValues nodes;
-  nodes.points = make_finite_element(quadratic)->get_unit_support_points();
+  nodes.points = finite_element(quadratic).get_unit_support_points();
   ASSERT_EQ(nodes.points.size(), 15u);
   for (unsigned int i = 0; i < 15; ++i)
     {

@@ -130,7 +130,7 @@ TEST_F(AbaqusFile, PartsAndInstances)
 {
   const SerialMesh mesh =
     read("*PART, NAME=block\n" + nodes + cells +
-         "*NSET, NSET=foot\n10, 20, 30\n*END PART\n"
+         "*NSET, NSET=foot\n10, 20, 30\n*END\t PART\n"
          "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one, PART=BLOCK\n*END INSTANCE\n"
          "*INSTANCE, NAME=two, PART=block\n10., 0, 0\n10, 0, 0, 10, 0, 1, 90\n"
          "*END INSTANCE\n"

@@ -249,8 +249,8 @@ TEST(Bubbles, DisplacedVolume)
                   case_text(with_bubbles, nonlinear_laws()[0]));
   const Vector u = displacement(body, states[0], 2., 5);
   const dealii::QWitherdenVincentSimplex<3> rule(5);
-  const auto fe     = make_finite_element(body.discretization.element());
-  double     volume = 0;
+  const auto &fe     = finite_element(body.discretization.element());
+  double      volume = 0;
   for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
     for (unsigned int q = 0; q < rule.size(); ++q)
       {
@@ -260,7 +260,7 @@ TEST(Bubbles, DisplacedVolume)
           for (unsigned int a = 0; a < 3; ++a)
             F[a] += (body.discretization.node_position(nodes[i])[a] +
                      u.local_element(3 * nodes[i] + a)) *
-                    fe->shape_grad(i, rule.point(q));
+                    fe.shape_grad(i, rule.point(q));
         volume += rule.weight(q) * determinant(F);
       }
   volume = dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);

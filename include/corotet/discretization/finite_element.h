@@ -8,13 +8,13 @@
 
 #include <deal.II/fe/fe.h>
 
-#include <memory>
-
 namespace corotet
 {
-  /// An element for scalar functions as deal.II has it.
-  std::unique_ptr<dealii::FiniteElement<3>>
-  make_finite_element(const Element element);
+  /// An element for scalar functions as deal.II has it; lives as long as the
+  /// program.
+
+  const dealii::FiniteElement<3> &
+  finite_element(const Element element);
 } // namespace corotet
 
 #endif

@@ -42,6 +42,10 @@ namespace corotet
 
     explicit ReferenceElement(const Element element);
 
+    /// One that is made once, and lives as long as the program.
+    static const ReferenceElement &
+    of(const Element element);
+
     /// The functions of @p element at some points. Weights are scaled.
     static PointValues
     tabulate(const Element                        element,

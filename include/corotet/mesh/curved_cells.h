@@ -7,10 +7,16 @@
 #include <corotet/mesh/serial_mesh.h>
 
 #include <deal.II/base/table.h>
+#include <deal.II/fe/fe.h>
 #include <deal.II/grid/tria.h>
 
 namespace corotet
 {
+  /// FE_SimplexP(@p degree), degrees 1, 2, 3. Each is made once, and lives as
+  /// long as the program: that takes longer than many of its uses.
+  const dealii::FiniteElement<3> &
+  map_element(const unsigned int degree);
+
   /**
    * Polynomial maps x(xi) of one degree q, at fixed points of the reference
    * tetrahedron. A map is given by its nodes: the images of the support points

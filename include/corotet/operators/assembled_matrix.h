@@ -92,7 +92,7 @@ namespace corotet
               double (&block)[3][3]);
 
     const Nodes                     &nodes;
-    const ReferenceElement           reference;
+    const ReferenceElement          &reference;
     const std::vector<unsigned char> prescribed;
 
     std::unique_ptr<BlockMatrix> block_matrix;

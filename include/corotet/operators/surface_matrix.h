@@ -196,10 +196,10 @@ namespace corotet
     void
     find_nodes(const SurfaceMatrix &matrix);
 
-    const Nodes           &nodes;
-    const ReferenceElement reference;
-    unsigned int           n_points     = 0;
-    unsigned int           n_face_nodes = 0;
+    const Nodes            &nodes;
+    const ReferenceElement &reference;
+    unsigned int            n_points     = 0;
+    unsigned int            n_face_nodes = 0;
     /// N_k(x_q) on each face, [q][k].
     std::array<std::vector<double>, 4> values;
     std::vector<SurfaceMatrix::Face>   faces;

@@ -88,7 +88,7 @@ namespace corotet
     const TableFunctions      tables;
     const Mesh                mesh;
     const Discretization      discretization;
-    const ReferenceElement    reference;
+    const ReferenceElement   &reference;
     const ManufacturedProblem problem;
     /// By the region's id.
     const std::map<unsigned int, IsotropicMaterial> materials;

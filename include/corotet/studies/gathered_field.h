@@ -38,7 +38,7 @@ namespace corotet
     dealii::Point<3>
     reference_point(const unsigned int cell, const dealii::Point<3> &x) const;
 
-    std::unique_ptr<dealii::FiniteElement<3>> fe;
+    const dealii::FiniteElement<3> &fe;
     /// Of each cell: vertex 0, the inverse of its Jacobian, values
     /// [node][component].
     std::vector<double>           data;
