@@ -9,6 +9,8 @@
 #include <corotet/studies/program.h>
 #include <corotet/studies/run_command.h>
 
+#include <deal.II/base/init_finalize.h>
+
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -75,13 +77,15 @@ namespace corotet
     // A file that reaches a limit is an error of writing, like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
 
-    // deal.II hands its arguments on to PETSc, which warns about unknown ones.
-    int                                      n_passed_on = 1;
-    char                                    *passed_on[] = {argv[0], nullptr};
-    char                                   **first_argument = passed_on;
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(n_passed_on,
-                                                 first_argument,
-                                                 1);
+    // Nothing is made by PETSc, Zoltan or p4est: they need not start.
+    int                  n_passed_on    = 1;
+    char                *passed_on[]    = {argv[0], nullptr};
+    char               **first_argument = passed_on;
+    dealii::InitFinalize libraries(n_passed_on,
+                                   first_argument,
+                                   dealii::InitializeLibrary::MPI |
+                                     dealii::InitializeLibrary::Kokkos,
+                                   1);
 
     return run_program(MPI_COMM_WORLD, [&] { run_command(argc, argv); });
   }

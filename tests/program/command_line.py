@@ -6,6 +6,7 @@
 import fcntl
 import json
 import os
+import pathlib
 import pty
 import re
 import struct
@@ -22,6 +23,21 @@ class CommandLine(ProgramTest):
         text = self.run_program("--help").stdout
         for option in ("--set", "--output", "--validate", "--print-parameters", "--quiet", "--version", "--help"):
             self.assertIn(option, text)
+
+    def test_start_loads_what_is_called(self):
+        program = pathlib.Path(os.environ["COROTET_PROGRAM"])
+        if not (program.parent / "lib" / "corotet" / "placeholders").exists():
+            self.skipTest("built without placeholders")
+        # So the dynamic loader says what it would load.
+        loaded = subprocess.run([program], env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"}, check=True, capture_output=True, text=True).stdout
+        paths = dict(re.findall(r"(\S+) => (\S+)", loaded))
+        placeholders = [name for name, path in paths.items() if "/placeholders/" in path]
+        for name in ("libgmsh", "libTKernel", "libslepc", "libsundials"):
+            self.assertTrue(any(placeholder.startswith(name) for placeholder in placeholders), name)
+        # What only they need: that of a whole CAD program's windows, for one.
+        for name in ("libfltk", "libGL.", "libvtk", "libarpack"):
+            self.assertFalse([path for path in paths if path.startswith(name)], name)
+        self.assertIn("/libdeal.ii", loaded)
 
     def test_terminal(self):
         """A live line with a bar, as wide as the terminal allows, and last lines that say where to look; colours never."""
