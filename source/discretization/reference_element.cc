@@ -3,6 +3,7 @@
 
 #include <corotet/discretization/finite_element.h>
 #include <corotet/discretization/reference_element.h>
+#include <corotet/discretization/with_degree.h>
 #include <corotet/mesh/edges.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -13,14 +14,6 @@ namespace corotet
 {
   namespace
   {
-    template <unsigned int p>
-    const ReferenceElement &
-    of_degree()
-    {
-      static const ReferenceElement element(p);
-      return element;
-    }
-
     // Vertices of face f of the reference tetrahedron, in an order that is
     // counter-clockwise seen from outside.
     std::array<dealii::Point<3>, 3>
@@ -106,11 +99,13 @@ namespace corotet
         static const ReferenceElement with_bubbles(element);
         return with_bubbles;
       }
-    AssertThrow(element.degree() >= 1 && element.degree() <= 3,
-                dealii::ExcInternalError());
-    return element.degree() == 1 ? of_degree<1>() :
-           element.degree() == 2 ? of_degree<2>() :
-                                   of_degree<3>();
+    const ReferenceElement *result = nullptr;
+    with_degree(element.degree(), [&](const auto p) {
+      static const ReferenceElement of_degree{Element(p)};
+      result = &of_degree;
+    });
+    AssertThrow(result != nullptr, dealii::ExcInternalError());
+    return *result;
   }
 
   ReferenceElement::PointValues

@@ -200,7 +200,7 @@ namespace corotet
       {
         refuse_model(path);
       }
-    if (!reader.is_at_end() || (model.error.empty() && !fits_together(model)))
+    if (!reader.is_at_end() || !fits_together(model))
       refuse_model(path);
     return model;
   }

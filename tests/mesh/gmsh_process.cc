@@ -247,7 +247,12 @@ TEST(GmshProcess, OtherModels)
     [](GmshModel &changed) { changed.groups = {{4, 1, "a", {1}}}; },
     [](GmshModel &changed) { changed.curves = {{1, 1, {1, 2, 3}}}; },
     [](GmshModel &changed) { changed.curves = {{1, 15, {1}}}; },
-    [](GmshModel &changed) { changed.points = {{1, 1, {1, 2}}}; }};
+    [](GmshModel &changed) { changed.points = {{1, 1, {1, 2}}}; },
+    // A message does not excuse it.
+    [](GmshModel &changed) {
+      changed.error    = "no mesh";
+      changed.surfaces = {{1, 3, {1, 2, 3}}};
+    }};
   for (const auto &change : changes)
     {
       GmshModel changed = model;

@@ -12,7 +12,6 @@ namespace corotet
 {
   /// An element for scalar functions as deal.II has it; lives as long as the
   /// program.
-
   const dealii::FiniteElement<3> &
   finite_element(const Element element);
 } // namespace corotet
