@@ -254,19 +254,21 @@ namespace corotet
   }
 
   void
-  PMultigrid::choose_strength(const Discretization &discretization)
+  PMultigrid::choose_aggregates(const Discretization &discretization)
   {
-    // On stretched cells, aggregates of strong couplings are layers across:
-    // they are few enough. On flat ones they are lines of three nodes, half as
-    // many unknowns as before, whose factorisation takes longer than the
-    // iterations that it saves; the same is true of the largest bodies.
-    constexpr double       few  = 0.1;
-    constexpr unsigned int many = 300000;
-    if (has_strength || 3 * coarse_nodes->n_global_nodes() > many)
+    if (has_aggregates)
       return;
-    has_strength = true;
-    if (cell_proportions(discretization).share_stretched > few)
-      aggregation.set_strength(0.3);
+    has_aggregates = true;
+    // Ranks end where they like, through flat cells too, and what is strongly
+    // coupled across them then stays so in no aggregate. Lengthwise, stretched
+    // bodies are hardly cut at all.
+    constexpr double      few         = 0.1;
+    const CellProportions proportions = cell_proportions(discretization);
+    const bool            is_alone    = dealii::Utilities::MPI::n_mpi_processes(
+                            discretization.communicator()) == 1;
+    if (proportions.share_stretched > few ||
+        (is_alone && proportions.share_flat > few))
+      aggregation.set_least_similarity(0.3);
   }
 
   void
@@ -311,7 +313,7 @@ namespace corotet
       }
     if (coarse_solver == "aggregation")
       {
-        choose_strength(A.discretization());
+        choose_aggregates(A.discretization());
         aggregation.build(matrix, coarse_x.begin());
         return;
       }

@@ -24,8 +24,8 @@ namespace corotet
     prm.add_parameter("Coarse solver",
                       coarse_type,
                       "For degree 1: 'direct', a sparse factorisation; "
-                      "'aggregation', one cycle of smoothed aggregation with "
-                      "two levels; 'amg', one cycle of Trilinos ML, with the "
+                      "'aggregation', one cycle of smoothed aggregation; "
+                      "'amg', one cycle of Trilinos ML, with the "
                       "parameters of 'Linear solver/amg' (where Trilinos has "
                       "it); "
                       "'automatic', the direct one up to the limit below, then "

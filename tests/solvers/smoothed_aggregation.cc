@@ -57,7 +57,8 @@ TEST(SmoothedAggregation, IterationsHardlyGrow)
         const SpringBox     box({{4 * n, n, n}}, true, comm);
         SmoothedAggregation preconditioner;
         preconditioner.build(*box.matrix, box.positions().data());
-        EXPECT_LT(8 * preconditioner.n_aggregates(), box.pattern->n_global())
+        EXPECT_LT(8 * preconditioner.n_aggregates().front(),
+                  box.pattern->n_global())
           << n;
         return iterations(box, preconditioner);
       };
@@ -66,6 +67,30 @@ TEST(SmoothedAggregation, IterationsHardlyGrow)
       const int n_interfaces =
         dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
       EXPECT_LE(iterations_of(MPI_COMM_WORLD), alone + 2 * n_interfaces) << n;
+    }
+}
+
+// Levels of aggregates of aggregates, until the last one is small: they know
+// rigid motions, too.
+TEST(SmoothedAggregation, MoreLevels)
+{
+  const SpringBox     box({{60, 15, 15}}, true);
+  SmoothedAggregation preconditioner;
+  preconditioner.build(*box.matrix, box.positions().data());
+  EXPECT_EQ(preconditioner.n_aggregates().size(), 1u);
+  const int by_two = iterations(box, preconditioner);
+  for (const int most : {100, 10})
+    {
+      SmoothedAggregation with_more;
+      with_more.set_most_aggregates(most);
+      with_more.build(*box.matrix, box.positions().data());
+      const std::vector<int> n = with_more.n_aggregates();
+      EXPECT_GE(n.size(), 2u);
+      EXPECT_EQ(n.front(), preconditioner.n_aggregates().front());
+      EXPECT_LE(n.back(), most);
+      EXPECT_GT(n[n.size() - 2], most);
+      // One more on one rank, and on two.
+      EXPECT_LE(iterations(box, with_more), by_two + 3) << most;
     }
 }
 
@@ -96,12 +121,31 @@ TEST(SmoothedAggregation, NeedsRotations)
   EXPECT_GT(iterations(box, preconditioner), 1.5 * right);
 }
 
+// Nodes that nothing joins stay alone on any level: that must not go on for
+// ever.
+TEST(SmoothedAggregation, NodesWithoutNeighbours)
+{
+  SpringBox box({{40, 0, 0}}, false);
+  box.matrix->set_zero();
+  box.add_mass(2.);
+  SmoothedAggregation preconditioner;
+  preconditioner.set_most_aggregates(5);
+  preconditioner.build(*box.matrix, box.positions().data());
+  EXPECT_LE(iterations(box, preconditioner), 2);
+}
+
 // u.Pv = v.Pu up to the round-off of single precision, in both precisions.
-TEST(SmoothedAggregation, IsSymmetric)
+class Symmetry : public testing::TestWithParam<double>
+{};
+
+TEST_P(Symmetry, OfThreeLevels)
 {
   SpringBox           box({{9, 5, 4}}, true);
   SmoothedAggregation preconditioner(3);
+  preconditioner.set_most_aggregates(8);
+  preconditioner.set_least_similarity(GetParam());
   preconditioner.build(*box.matrix, box.positions().data());
+  EXPECT_GE(preconditioner.n_aggregates().size(), 2u);
   Vector             u = box.vector(), v(u), Pu(u), Pv(u), widened(u);
   const unsigned int n = u.locally_owned_size();
   std::vector<float> single_v(n), single_Pv(n);
@@ -124,6 +168,14 @@ TEST(SmoothedAggregation, IsSymmetric)
   EXPECT_NEAR(uPv, vPu, 1e-4 * size);
   EXPECT_NEAR(u_single_Pv, uPv, 1e-4 * size);
 }
+
+// With blocks of points, and with blocks of aggregates.
+INSTANTIATE_TEST_SUITE_P(SmoothedAggregation,
+                         Symmetry,
+                         testing::Values(0., 0.3),
+                         [](const auto &info) {
+                           return info.param == 0 ? "Points" : "Aggregates";
+                         });
 
 // New values in the same pattern; then no motion is without resistance.
 TEST(SmoothedAggregation, FollowsMatrixAndRefusesFreeBody)

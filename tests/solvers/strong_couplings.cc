@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Degree 1 on flat and on stretched cells: aggregates that follow strong
-// couplings keep iterations few, and p-multigrid asks for them by itself where
-// they cost less than they save, on stretched ones.
+// Degree 1 on flat and on stretched cells: aggregates of what moves alike keep
+// iterations few, on two levels, and p-multigrid asks for them by itself.
 
 #include <corotet/solvers/p_multigrid.h>
 #include <corotet/solvers/smoothed_aggregation.h>
@@ -46,10 +45,10 @@ namespace
   };
 
   unsigned int
-  iterations_of_aggregation(const ClampedBody &body, const double strength)
+  iterations_of_aggregation(const ClampedBody &body, const double threshold)
   {
     Cycle cycle;
-    cycle.aggregation.set_strength(strength);
+    cycle.aggregation.set_least_similarity(threshold);
     cycle.aggregation.build(body.A.matrix(), body.positions().begin());
     return iterations(body, cycle);
   }
@@ -69,10 +68,11 @@ namespace
 struct Proportions
 {
   const char *name, *size, *cells;
-  // What is measured on one rank, and on two, and a quarter. Aggregates and
-  // what smooths them end where a rank does, and so do strong couplings.
+  // What is measured on one rank, and on two, and a quarter. Aggregates end
+  // where a rank does, and so does what is coupled strongly: flat cells are cut
+  // through, and left to aggregates of all neighbours then.
   unsigned int most_alone, most_on_two;
-  bool         is_used;
+  bool         is_flat;
 };
 
 class StrongCouplings : public testing::TestWithParam<Proportions>
@@ -81,36 +81,41 @@ class StrongCouplings : public testing::TestWithParam<Proportions>
 TEST_P(StrongCouplings, IterationsStayFew)
 {
   const ClampedBody  body(GetParam().size, GetParam().cells, element_text(1));
-  const unsigned int strong = iterations_of_aggregation(body, 0.3);
-  const unsigned int all    = iterations_of_aggregation(body, 0);
-  report(GetParam().name, strong);
-  EXPECT_LE(strong,
-            dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ?
-              GetParam().most_alone :
-              GetParam().most_on_two);
-  EXPECT_GT(all, 2 * strong);
-  EXPECT_EQ(iterations_of_multigrid(body), GetParam().is_used ? strong : all);
+  const unsigned int alike = iterations_of_aggregation(body, 0.3);
+  const unsigned int all   = iterations_of_aggregation(body, 0);
+  const bool         is_alone =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+  report(GetParam().name, alike);
+  if (is_alone || !GetParam().is_flat)
+    {
+      EXPECT_LE(alike,
+                is_alone ? GetParam().most_alone : GetParam().most_on_two);
+      EXPECT_GT(all, 2 * alike);
+      EXPECT_EQ(iterations_of_multigrid(body), alike);
+    }
+  else
+    EXPECT_EQ(iterations_of_multigrid(body), all);
 }
 
 INSTANTIATE_TEST_SUITE_P(
   All,
   StrongCouplings,
   testing::Values(
-    Proportions{"flat by 10", "1, 1, 0.1", "8, 8, 8", 15, 30, false},
-    Proportions{"flat by 100", "1, 1, 0.01", "8, 8, 8", 22, 57, false},
-    Proportions{"stretched by 10", "10, 1, 1", "8, 8, 8", 13, 17, true},
-    Proportions{"stretched by 100", "100, 1, 1", "8, 8, 8", 13, 59, true}),
+    Proportions{"flat by 10", "1, 1, 0.1", "8, 8, 8", 12, 0, true},
+    Proportions{"flat by 100", "1, 1, 0.01", "8, 8, 8", 14, 0, true},
+    Proportions{"stretched by 10", "10, 1, 1", "8, 8, 8", 10, 13, false},
+    Proportions{"stretched by 100", "100, 1, 1", "8, 8, 8", 12, 45, false}),
   [](const auto &info) {
     std::string name = info.param.name;
     std::erase(name, ' ');
     return name;
   });
 
-// Cubes have couplings of one size: nothing changes, to the last bit.
-TEST(StrongCouplingsOfCubes, AreAll)
+// On cubes it is as good, and costs more: p-multigrid does without.
+TEST(StrongCouplingsOfCubes, AreNotAskedFor)
 {
   const ClampedBody body("2, 1, 1", "8, 4, 4", element_text(1));
-  EXPECT_EQ(iterations_of_aggregation(body, 0.3),
+  EXPECT_LE(iterations_of_aggregation(body, 0.3),
             iterations_of_aggregation(body, 0));
   EXPECT_EQ(iterations_of_multigrid(body), iterations_of_aggregation(body, 0));
 }

@@ -152,6 +152,17 @@ namespace corotet
       return {{row(node, 0), row(node, 1), row(node, 2)}};
     }
 
+    /// The first values of the d rows of a point, which is d / 3 nodes.
+    template <int d>
+    std::array<const double *, d>
+    rows_of(const int point) const
+    {
+      std::array<const double *, d> result;
+      for (int a = 0; a < d; ++a)
+        result[a] = row(d / 3 * point + a / 3, a % 3);
+      return result;
+    }
+
     /// The diagonal entry of an owned row, a local number.
     double &
     diagonal(const int row);

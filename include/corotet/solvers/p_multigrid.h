@@ -112,9 +112,10 @@ namespace corotet
     choose_units(const EffectiveOperator &A);
     void
     estimate_eigenvalues(const Discretization &discretization);
-    /// Lets aggregates follow strong couplings where cells are stretched.
+    /// Lets aggregates join what moves alike where cells are flat or
+    /// stretched.
     void
-    choose_strength(const Discretization &discretization);
+    choose_aggregates(const Discretization &discretization);
     void
     build_coarse_solver(const EffectiveOperator &A, const Vector &positions);
     /// Vector is that of double or float.
@@ -143,7 +144,7 @@ namespace corotet
     std::string                      coarse_solver;
     SparseCholesky      direct{SparseCholesky::Precision::single_precision};
     SmoothedAggregation aggregation;
-    bool                has_strength = false;
+    bool                has_aggregates = false;
     /// One of the further ones, once it is asked for.
     std::unique_ptr<CoarseSolver> other;
     std::vector<unsigned int>     coarse_prescribed;

@@ -5,25 +5,26 @@
 #define corotet_solvers_smoothed_aggregation_h
 
 #include <corotet/operators/block_matrix.h>
-#include <corotet/solvers/node_graph.h>
+#include <corotet/solvers/aggregation_level.h>
 #include <corotet/solvers/sparse_cholesky.h>
 
-#include <array>
 #include <memory>
 #include <vector>
 
 namespace corotet
 {
   /**
-   * One cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996) with two
-   * levels for a stiffness matrix A of 3 x 3 blocks, in single precision:
-   * symmetric and positive definite.
+   * One cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996) for a
+   * stiffness matrix A of 3 x 3 blocks, in single precision: symmetric and
+   * positive definite.
    *
-   * The coarse unknowns are the six rigid body motions of every aggregate of
-   * nodes, smoothed by one step of damped block Jacobi; they are found by a
-   * sparse factorisation on rank 0. The smoother is Chebyshev's polynomial of
-   * D^-1 A, D the diagonal blocks. What the coarse level is made of is computed
-   * in double precision; patterns are kept while that of A is the same.
+   * The unknowns of a coarser level are the six rigid body motions of every
+   * aggregate of points of the one above, smoothed by one step of damped block
+   * Jacobi. There are as many levels as it takes for the last one to be small;
+   * that is solved by a sparse factorisation on rank 0. The smoothers are
+   * Chebyshev polynomials of D^-1 A, D block diagonal. What levels are made of
+   * is computed in double precision; patterns are kept while that of A is the
+   * same.
    *
    * Aggregates stay within a rank, and so do their smoothed motions: the step
    * of damped Jacobi takes a neighbour on another rank to move with the
@@ -32,20 +33,31 @@ namespace corotet
   class SmoothedAggregation
   {
   public:
-    /// @p degree of the smoother.
-    explicit SmoothedAggregation(const unsigned int degree = 3);
+    /// @p degree of the smoothers.
+    explicit SmoothedAggregation(const unsigned int degree = 3)
+      : degree(degree)
+      , finest(degree)
+    {}
 
-    /// From the next pattern on, nodes are aggregated along strong couplings
-    /// only: |A_ij| / sqrt(|A_ii| |A_jj|) of these is at least @p strength
-    /// times the largest of node i or of node j [-]. With 0, which it is
-    /// without this call, all are strong. Flat and stretched cells need
-    /// about 0.3: their weak couplings leave errors rough that an aggregate
-    /// across them takes for smooth. On stretched ones it makes 1.6, on flat
-    /// ones 4 times as many aggregates.
+    /// From the next pattern on, an aggregate joins only what moves alike: the
+    /// similarity of two neighbours, see AggregationLevel, is at least @p
+    /// threshold times the largest of one of them [-]. D then has the diagonal
+    /// blocks of aggregates. With 0, which it is without this call, all
+    /// neighbours are joined, and D has those of points. Flat and stretched
+    /// cells need about 0.3: an aggregate across their weak couplings takes
+    /// for smooth what is not.
     void
-    set_strength(const double strength)
+    set_least_similarity(const double threshold)
     {
-      least_strength = strength;
+      least_similarity = threshold;
+    }
+
+    /// From the next pattern on, the last level has at most @p n aggregates, or
+    /// almost as many as the one above.
+    void
+    set_most_aggregates(const int n)
+    {
+      most_aggregates = n;
     }
 
     /// @p positions: three coordinates per owned node [m]. Throws
@@ -59,84 +71,27 @@ namespace corotet
     void
     vmult(Number *dst, const Number *src) const;
 
-    /// Of all ranks.
-    int
-    n_aggregates() const
-    {
-      return coarse_matrix->pattern()->n_global() / 2;
-    }
+    /// Of all ranks, on each level from the second one on.
+    std::vector<int>
+    n_aggregates() const;
 
   private:
-    /// Three rows of a block with a column per rigid motion, and two of zeros.
-    struct ProlongationBlock;
-    struct Motions;
-
+    template <typename Level>
     void
-    aggregate_nodes();
-    void
-    set_up_pattern();
-    void
-    copy_matrix(const BlockMatrix &A);
-    void
-    estimate_largest_eigenvalue();
-    void
-    build_coarse(const BlockMatrix &A, const double *positions);
-    Motions
-    rigid_motions(const std::vector<double> &positions) const;
-    void
-    smooth_motions(std::vector<ProlongationBlock> &prolongation,
-                   const BlockMatrix              &A,
-                   const Motions                  &motions,
-                   const std::vector<double>      &positions);
-    void
-    fill_coarse(const BlockMatrix                    &A,
-                const std::vector<ProlongationBlock> &prolongation);
-
-    void
-    apply(float *y, float *x) const;
-    void
-    smooth(float *x, const float *b, const bool x_is_zero) const;
-    void
-    correct(float *x, const float *residual) const;
-    void
-    cycle(float *x, const float *b) const;
+    cycle(const Level       &level,
+          const unsigned int n_above,
+          const bool         x_is_zero) const;
 
     const unsigned int degree;
-    double             least_strength = 0;
+    double             least_similarity = 0;
+    int                most_aggregates  = 4000;
 
-    /// That of A; none is none.
-    std::shared_ptr<const BlockPattern> pattern;
-    int                                 n_nodes = 0;
-
-    /// Aggregates are numbered through all ranks, rows are owned ones.
-    int              first_aggregate = 0;
-    std::vector<int> aggregates;
-    NodeGraph        nodes_of_aggregates;
-    /// With rows of ghosts.
-    NodeGraph     prolongation_pattern;
-    GhostExchange prolongation_ghosts;
-    NodeGraph     product_pattern;
-    /// Lower triangle only.
-    NodeGraph coarse_pattern;
-    /// Each aggregate has two nodes with three unknowns: its translations and
-    /// its rotations.
-    std::unique_ptr<BlockMatrix> coarse_matrix;
-
-    /// What A is divided by, a power of two, so that single precision holds it
-    /// whatever its size is.
-    double unit = 1;
-    /// Blocks of A / unit and inverses of its diagonal blocks, by columns.
-    std::vector<float>         blocks;
-    std::vector<float>         inverse_diagonal;
-    std::vector<unsigned char> is_prescribed;
-    double                     largest_eigenvalue = 0;
-    /// 3 x 6, by rows.
-    std::vector<float> prolongation_blocks;
-    SparseCholesky     coarse_factor;
-
-    /// With entries of ghosts.
-    mutable std::vector<float> solution, direction;
-    mutable std::vector<float> rhs, residual, product, coarse;
+    AggregationLevel<3>                               finest;
+    std::vector<std::unique_ptr<AggregationLevel<6>>> coarser;
+    SparseCholesky last_factor{SparseCholesky::Precision::single_precision};
+    mutable std::vector<float> last_unknowns;
+    MPI_Comm                   communicator = MPI_COMM_SELF;
+    int                        n_nodes      = 0;
   };
 } // namespace corotet
 

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Linear solves of bodies whose cells are well-shaped, flat and stretched: boxes that are clamped at a side and bent by their weight,
+statics to the program's tolerance by p-multigrid, with smoothed aggregation for degree 1. Run it inside of scripts/toolchain:
+
+    benchmarks/proportions.py [--degree 1] [--ranks 1] [--repetitions 2] [--programs PROGRAM [PROGRAM]] [--quick] [--document]
+
+Programs take turns, so that one can be compared with an older one; of each the better time is taken. --quick leaves out bodies of more
+than 60,000 unknowns of degree 1. --document writes the table of the first program into doc/algorithms.md.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "doc" / "algorithms.md"
+MARKS = ("<!-- aggregation -->\n", "\n<!-- end of aggregation -->")
+# Size, cuboids.
+BODIES = {
+    "well-shaped": [("4, 1, 1", "40, 10, 10"), ("4, 1, 1", "80, 20, 20"), ("4, 1, 1", "140, 35, 35")],
+    "flat by 10": [("1, 1, 0.1", "16, 16, 16"), ("1, 1, 0.1", "32, 32, 32")],
+    "flat by 30": [("1, 1, 0.0333", "16, 16, 16"), ("1, 1, 0.0333", "32, 32, 32")],
+    "flat by 100": [("1, 1, 0.01", "16, 16, 16"), ("1, 1, 0.01", "32, 32, 32")],
+    "stretched by 10": [("10, 1, 1", "16, 16, 16"), ("10, 1, 1", "32, 32, 32")],
+    "stretched by 100": [("100, 1, 1", "16, 16, 16"), ("100, 1, 1", "32, 32, 32")],
+    "plate of two layers, flat by 7": [("1, 1, 0.01", "80, 80, 2")],
+}
+QUICK = 60000
+CASE = """subsection Mesh
+  set Type = box
+  subsection box
+    set Size  = {size}
+    set Cells = {cells}
+  end
+end
+subsection Discretization
+  set Degree = {degree}
+end
+subsection Material
+  set Type = linear
+end
+subsection Boundary conditions
+  set Fixed = x-min
+end
+subsection Loads
+  set Gravity = 0; 0; -1
+end
+subsection Time integration
+  set Type = static
+end
+subsection Linear solver
+  set Type = p-multigrid
+  subsection p-multigrid
+    set Coarse solver = aggregation
+  end
+end
+subsection Output
+  set Overwrite = true
+end
+"""
+
+
+def solve(program, folder, case, ranks):
+    """Unknowns, iterations, seconds of assembly, set-up of the solver and solve, MB."""
+    (folder / "case.prm").write_text(case, encoding="utf-8")
+    launcher = ["mpirun", "--bind-to", "none", "-np", str(ranks)] if ranks > 1 else []
+    subprocess.run([*launcher, program, "case.prm", "--output", "results", "--quiet"], cwd=folder, check=True)
+    summary = json.loads((folder / "results" / "summary.json").read_text(encoding="utf-8"))
+    times = summary["wall_time"]
+    return summary["dofs"], summary["final"]["linear_iterations"], times["assembly"] + times["solve"], summary["peak_memory_bytes"] / 1e6
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--degree", type=int, default=1)
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--repetitions", type=int, default=2)
+    parser.add_argument("--programs", nargs="+", default=[str(ROOT / "build" / "release" / "corotet")])
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--document", action="store_true")
+    options = parser.parse_args()
+    lines = ["| body of degree 1 | unknowns | iterations | seconds | MB |", "|---|---:|---:|---:|---:|"]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        for name, sizes in BODIES.items():
+            for size, cells in sizes:
+                counts = [int(n) + 1 for n in cells.split(",")]
+                if options.quick and 3 * counts[0] * counts[1] * counts[2] > QUICK:
+                    continue
+                case = CASE.format(size=size, cells=cells, degree=options.degree)
+                runs = {program: [] for program in options.programs}
+                for _ in range(options.repetitions):
+                    for program in options.programs:
+                        runs[program].append(solve(os.path.abspath(program), folder, case, options.ranks))
+                for program, found in runs.items():
+                    unknowns, iterations, seconds, memory = min(found, key=lambda run: run[2])
+                    line = f"| {name} | {unknowns} | {iterations} | {seconds:.2g} | {memory:.0f} |"
+                    print(line + ("" if len(runs) == 1 else f" {program}"), flush=True)
+                    if program == options.programs[0]:
+                        lines.append(line)
+    if options.document:
+        before, rest = PAGE.read_text(encoding="utf-8").split(MARKS[0])
+        PAGE.write_text(before + MARKS[0] + "\n".join(lines) + MARKS[1] + rest.split(MARKS[1].strip())[1], encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

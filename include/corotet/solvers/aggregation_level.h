@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_aggregation_level_h
+#define corotet_solvers_aggregation_level_h
+
+#include <corotet/operators/block_matrix.h>
+#include <corotet/solvers/node_graph.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * What the d unknowns of a point are when all space moves rigidly: those of a
+   * node are the displacement at its place.
+   */
+  template <int d>
+  struct PointFrame
+  {
+    dealii::Tensor<1, 3> centre;
+  };
+
+  /// Those of an aggregate are a product of its @p motions, by rows, with the
+  /// displacement of its centre and the rotation about it.
+  template <>
+  struct PointFrame<6>
+  {
+    dealii::Tensor<1, 3>                 centre;
+    std::array<std::array<double, 6>, 6> motions{};
+  };
+
+  /**
+   * What a level of aggregation leaves to the next one: six unknowns for each
+   * aggregate.
+   */
+  struct AggregateProblem
+  {
+    /// Each aggregate is two nodes of three unknowns. Where this is the last
+    /// level, its lower triangle.
+    std::unique_ptr<BlockMatrix> matrix;
+    /// Where it has blocks of 6 x 6; null if this is the last level.
+    std::shared_ptr<const BlockPattern> aggregates;
+    /// Of the owned ones.
+    std::vector<PointFrame<6>> frames;
+  };
+
+  /**
+   * One level of smoothed aggregation: a matrix A whose points have d unknowns
+   * each, 3 or 6, in single precision, its smoother, and the way to the level
+   * of aggregates and back. See SmoothedAggregation.
+   *
+   * Members but those marked are collective.
+   */
+  template <int d>
+  class AggregationLevel
+  {
+  public:
+    /// @p degree of the smoother.
+    explicit AggregationLevel(const unsigned int degree);
+
+    /**
+     * @p A has the blocks of @p points, in pieces of 3 x 3; @p frames are those
+     * of the owned points. Aggregates join points whose similarity is at least
+     * @p threshold; with 0, all neighbours. More than @p most aggregates make a
+     * level with a next one.
+     */
+    void
+    build(const BlockMatrix                         &A,
+          const std::shared_ptr<const BlockPattern> &points,
+          std::vector<PointFrame<d>>                 frames,
+          const double                               threshold,
+          const int                                  most);
+
+    /// Since the last build(). Not collective.
+    const AggregateProblem &
+    coarse() const
+    {
+      return problem;
+    }
+
+    /// Of all ranks. Not collective.
+    int
+    n_aggregates() const
+    {
+      return n_all_aggregates;
+    }
+
+    /// What A is divided by, a power of two, so that single precision holds it
+    /// whatever its size is. Not collective.
+    double
+    unit() const
+    {
+      return the_unit;
+    }
+
+    /// The right-hand side of A / unit() x = b, owned entries. Not collective.
+    float *
+    right_hand_side() const
+    {
+      return rhs.data();
+    }
+
+    /// Owned entries first. Not collective.
+    const float *
+    solution() const
+    {
+      return x.data();
+    }
+
+    /// A Chebyshev polynomial of D^-1 A. D has the blocks of points, or, with a
+    /// threshold, those of aggregates.
+    void
+    smooth(const bool x_is_zero) const;
+
+    /// coarse = P^T (b - A x).
+    void
+    restrict_residual(float *coarse) const;
+
+    /// x += P coarse. Not collective.
+    void
+    prolongate_add(const float *coarse) const;
+
+  private:
+    struct ProlongationBlock;
+    struct Motions;
+
+    void
+    copy_matrix(const BlockMatrix &A);
+    void
+    invert_aggregates(const BlockMatrix &A);
+    /// Owned entries in [-0.5, 0.5), others for each number.
+    void
+    fill_without_pattern(std::vector<float> &values,
+                         const unsigned int  number) const;
+    void
+    estimate_largest_eigenvalue();
+    std::vector<double>
+    similarities(const std::vector<PointFrame<d>> &frames);
+    void
+    aggregate_points(const double                      threshold,
+                     const std::vector<PointFrame<d>> &frames);
+    void
+    set_up_pattern(const double                      threshold,
+                   const int                         most,
+                   const std::vector<PointFrame<d>> &frames);
+    void
+    build_coarse(const BlockMatrix &A, std::vector<PointFrame<d>> frames);
+    Motions
+    rigid_motions(const std::vector<PointFrame<d>> &frames);
+    void
+    multiply_by_motions(std::vector<ProlongationBlock>   &product,
+                        const BlockMatrix                &A,
+                        const Motions                    &motions,
+                        const std::vector<PointFrame<d>> &frames) const;
+    void
+    smooth_motions(std::vector<ProlongationBlock> &prolongation,
+                   const Motions                  &motions);
+    void
+    fill_coarse(const BlockMatrix                    &A,
+                const std::vector<ProlongationBlock> &prolongation);
+    void
+    apply(float *y, float *x) const;
+    void
+    scale(float *z, const float *r) const;
+    template <typename Action>
+    void
+    for_each_diagonal_block(const Action &action) const;
+    template <typename Action>
+    void
+    for_each_prolongation_block(const Action &action) const;
+
+    const unsigned int degree;
+
+    /// None before the first build().
+    std::shared_ptr<const BlockPattern> points;
+    int                                 n_points = 0;
+
+    /// Aggregates are numbered through all ranks, rows are owned ones.
+    int              first_aggregate  = 0;
+    int              n_all_aggregates = 0;
+    std::vector<int> aggregates;
+    NodeGraph        points_of_aggregates;
+    /// With rows of ghosts.
+    NodeGraph     prolongation_pattern;
+    GhostExchange prolongation_ghosts;
+    NodeGraph     product_pattern;
+    /// Its lower triangle only, if this is the last level.
+    NodeGraph        coarse_pattern;
+    AggregateProblem problem;
+
+    double the_unit = 1;
+    /// Blocks of A / unit and inverses of its diagonal blocks, by columns.
+    std::vector<float>         blocks;
+    std::vector<float>         inverse_diagonal;
+    std::vector<unsigned char> is_prescribed;
+    /// Inverses of the diagonal blocks of aggregates, by columns, where D has
+    /// these.
+    bool                     has_aggregate_blocks = false;
+    std::vector<float>       inverse_aggregates;
+    std::vector<std::size_t> starts_of_inverses;
+    double                   largest_eigenvalue = 0;
+    /// d x 6, by rows.
+    std::vector<float> prolongation_blocks;
+
+    /// The first two with entries of ghosts.
+    mutable std::vector<float> x, direction, rhs, residual, product, scaled;
+    mutable std::vector<float> block_product;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/solvers/aggregation_level.h>
+#include <corotet/solvers/largest_eigenvalue.h>
+#include <corotet/solvers/scaling.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Dense>
+
+namespace corotet
+{
+  template <int d>
+  AggregationLevel<d>::AggregationLevel(const unsigned int degree)
+    : degree(degree)
+  {}
+
+  template <int d>
+  void
+  AggregationLevel<d>::build(const BlockMatrix                         &A,
+                             const std::shared_ptr<const BlockPattern> &pattern,
+                             std::vector<PointFrame<d>>                 frames,
+                             const double threshold,
+                             const int    most)
+  {
+    const bool is_new = points != pattern;
+    if (is_new)
+      {
+        points   = pattern;
+        n_points = points->n_owned();
+        for (auto *vector : {&rhs, &residual, &product, &scaled})
+          vector->resize(d * n_points);
+        for (auto *vector : {&x, &direction})
+          vector->resize(d * points->exchange().n_items());
+      }
+    // Matrices of aggregates come divided.
+    if (d == 3)
+      the_unit = unit_of(A);
+    copy_matrix(A);
+    if (is_new)
+      {
+        has_aggregate_blocks = false;
+        if (threshold > 0)
+          estimate_largest_eigenvalue();
+        set_up_pattern(threshold, most, frames);
+        has_aggregate_blocks = threshold > 0;
+      }
+    if (has_aggregate_blocks)
+      invert_aggregates(A);
+    estimate_largest_eigenvalue();
+    build_coarse(A, std::move(frames));
+  }
+
+  template <int d>
+  void
+  AggregationLevel<d>::copy_matrix(const BlockMatrix &A)
+  {
+    using Block            = Eigen::Matrix<double, d, d>;
+    const NodeGraph &graph = points->graph();
+    // A load of the last column reaches beyond it.
+    blocks.resize(d * d * graph.columns.size() + 2);
+    inverse_diagonal.resize(d * d * n_points);
+    is_prescribed.resize(d * n_points);
+    float *block = blocks.data();
+    for (int i = 0; i < n_points; ++i)
+      {
+        const auto            rows     = A.template rows_of<d>(i);
+        const int            *columns  = &graph.columns[graph.starts[i]];
+        const int             n        = graph.starts[i + 1] - graph.starts[i];
+        Block                 diagonal = Block::Zero();
+        std::array<double, d> row_sums{};
+        for (int k = 0; k < n; ++k, block += d * d)
+          for (int a = 0; a < d; ++a)
+            for (int b = 0; b < d; ++b)
+              {
+                const double value = rows[a][d * k + b] / the_unit;
+                block[d * b + a]   = value;
+                row_sums[a] += std::abs(value);
+                if (columns[k] == i)
+                  diagonal(a, b) = value;
+              }
+        const Block inverse = diagonal.inverse();
+        for (int a = 0; a < d; ++a)
+          {
+            is_prescribed[d * i + a] = row_sums[a] == std::abs(diagonal(a, a));
+            for (int b = 0; b < d; ++b)
+              inverse_diagonal[d * d * i + d * b + a] = inverse(a, b);
+          }
+      }
+  }
+
+  template <int d>
+  void
+  AggregationLevel<d>::invert_aggregates(const BlockMatrix &A)
+  {
+    const NodeGraph &graph   = points->graph();
+    std::size_t      largest = 0;
+    starts_of_inverses.assign(1, 0);
+    for (int g = 0; g < points_of_aggregates.n_rows(); ++g)
+      {
+        const std::size_t n = d * (points_of_aggregates.starts[g + 1] -
+                                   points_of_aggregates.starts[g]);
+        largest             = std::max(largest, n);
+        starts_of_inverses.push_back(starts_of_inverses.back() + n * n);
+      }
+    inverse_aggregates.resize(starts_of_inverses.back());
+    block_product.resize(largest);
+    // Of a point in its aggregate.
+    std::vector<int> places(n_points);
+    for (int g = 0; g < points_of_aggregates.n_rows(); ++g)
+      {
+        const int  begin = points_of_aggregates.starts[g];
+        const int  n     = points_of_aggregates.starts[g + 1] - begin;
+        const int *own   = &points_of_aggregates.columns[begin];
+        for (int i = 0; i < n; ++i)
+          places[own[i]] = i;
+        dealii::LAPACKFullMatrix<double> inverse(d * n, d * n);
+        std::vector<double>              diagonal(d * n);
+        for (int i = 0; i < n; ++i)
+          {
+            const auto rows  = A.template rows_of<d>(own[i]);
+            const int  first = graph.starts[own[i]];
+            for (int k = first; k < graph.starts[own[i] + 1]; ++k)
+              if (const int j = graph.columns[k];
+                  j < n_points && aggregates[j] == aggregates[own[i]])
+                for (int a = 0; a < d; ++a)
+                  for (int b = 0; b < d; ++b)
+                    inverse(d * i + a, d * places[j] + b) =
+                      rows[a][d * (k - first) + b] / the_unit;
+          }
+        for (int i = 0; i < d * n; ++i)
+          diagonal[i] = inverse(i, i);
+        inverse.set_property(dealii::LAPACKSupport::symmetric);
+        try
+          {
+            inverse.invert();
+          }
+        // A body that is nowhere held, as a single aggregate.
+        catch (const dealii::ExceptionBase &)
+          {
+            inverse = 0.;
+            for (int i = 0; i < d * n; ++i)
+              inverse(i, i) = 1 / diagonal[i];
+          }
+        float *target = &inverse_aggregates[starts_of_inverses[g]];
+        for (int j = 0; j < d * n; ++j)
+          for (int i = 0; i < d * n; ++i)
+            *target++ = inverse(i, j);
+      }
+  }
+
+  template <int d>
+  void
+  AggregationLevel<d>::fill_without_pattern(std::vector<float> &values,
+                                            const unsigned int  number) const
+  {
+    unsigned int seed =
+      1 + dealii::Utilities::MPI::this_mpi_process(points->communicator()) +
+      1000003u * number;
+    for (int i = 0; i < d * n_points; ++i)
+      {
+        seed      = 1664525u * seed + 1013904223u;
+        values[i] = (seed >> 8) * 0x1p-24f - 0.5f;
+      }
+  }
+
+  /// Of D^-1 A: ten steps of Lanczos' method, and a margin.
+  template <int d>
+  void
+  AggregationLevel<d>::estimate_largest_eigenvalue()
+  {
+    constexpr int       n_steps = 10;
+    const int           n       = d * n_points;
+    std::vector<double> diagonal, beside;
+    std::vector<float> &r = rhs, &z = residual, &p = direction;
+    const auto          dot = [&](const auto &u, const auto &v) {
+      double own = 0;
+      for (int i = 0; i < n; ++i)
+        own += static_cast<double>(u[i]) * v[i];
+      return dealii::Utilities::MPI::sum(own, points->communicator());
+    };
+    fill_without_pattern(r, 0);
+    // In terms of D, so that the start is as rough as A is.
+    for (int i = 0; i < n_points; ++i)
+      for (int a = 0; a < d; ++a)
+        r[d * i + a] /= inverse_diagonal[d * d * i + (d + 1) * a];
+    std::fill(p.begin(), p.end(), 0.f);
+    double rz = 0, alpha = 1, beta = 0;
+    for (int step = 0; step < n_steps; ++step)
+      {
+        const double last_rz = rz;
+        scale(z.data(), r.data());
+        rz   = dot(r, z);
+        beta = step == 0 ? 0. : rz / last_rz;
+        for (int i = 0; i < n; ++i)
+          p[i] = z[i] + static_cast<float>(beta) * p[i];
+        apply(product.data(), p.data());
+        const double pAp = dot(product, p);
+        if (!(pAp > 0) || !(rz > 0))
+          break;
+        const double last_alpha = alpha;
+        alpha                   = rz / pAp;
+        diagonal.push_back(1 / alpha + beta / last_alpha);
+        if (step > 0)
+          beside.push_back(std::sqrt(beta) / last_alpha);
+        for (int i = 0; i < n; ++i)
+          r[i] -= static_cast<float>(alpha) * product[i];
+      }
+    largest_eigenvalue = diagonal.empty() ?
+                           1. :
+                           1.1 * largest_of_tridiagonal(diagonal, beside).first;
+  }
+
+  // One member at a time, as others are in files of their own.
+  template AggregationLevel<3>::AggregationLevel(const unsigned int);
+  template AggregationLevel<6>::AggregationLevel(const unsigned int);
+  template void
+  AggregationLevel<3>::build(const BlockMatrix &,
+                             const std::shared_ptr<const BlockPattern> &,
+                             std::vector<PointFrame<3>>,
+                             const double,
+                             const int);
+  template void
+  AggregationLevel<6>::build(const BlockMatrix &,
+                             const std::shared_ptr<const BlockPattern> &,
+                             std::vector<PointFrame<6>>,
+                             const double,
+                             const int);
+} // namespace corotet

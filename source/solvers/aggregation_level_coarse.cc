@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/solvers/aggregation_level.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace corotet
+{
+  namespace
+  {
+    /// Values of six motions, side by side.
+    using Modes [[gnu::vector_size(64)]] = double;
+
+    template <int d>
+    using Rows = std::array<const double *, d>;
+
+    /// What the unknowns of a point are when all space moves so.
+    template <int d, typename SpaceMotions>
+    std::array<Modes, d>
+    motions_at(const PointFrame<d> &point, const SpaceMotions &space)
+    {
+      const auto           r           = point.centre - space.centre;
+      std::array<Modes, 3> translation = space.translation;
+      for (int a = 0; a < 3; ++a)
+        {
+          const int b = (a + 1) % 3, c = (a + 2) % 3;
+          translation[a] += space.rotation[b] * r[c] - space.rotation[c] * r[b];
+        }
+      if constexpr (d == 3)
+        return translation;
+      else
+        {
+          std::array<Modes, 6> result{};
+          for (int m = 0; m < 6; ++m)
+            for (int a = 0; a < 3; ++a)
+              result[m] += point.motions[m][a] * translation[a] +
+                           point.motions[m][3 + a] * space.rotation[a];
+          return result;
+        }
+    }
+
+    /// Makes six vectors orthonormal, in Gram and Schmidt's way: component i
+    /// of vector m is rows[i][m] for i < n. What is left of a dependent one is
+    /// zero: as small as round-off of the translations, which come first, or of
+    /// the rotations. Combines the columns of the rows behind these likewise.
+    void
+    make_orthonormal(std::vector<Modes> &rows, const std::size_t n)
+    {
+      const auto dot = [&](const int m, const int l) {
+        double sum = 0;
+        for (std::size_t i = 0; i < n; ++i)
+          sum += rows[i][m] * rows[i][l];
+        return sum;
+      };
+      std::array<double, 2> largest{};
+      for (int m = 0; m < 6; ++m)
+        largest[m / 3] = std::max(largest[m / 3], dot(m, m));
+      for (int m = 0; m < 6; ++m)
+        {
+          for (int l = 0; l < m; ++l)
+            {
+              const double part = dot(m, l);
+              for (Modes &row : rows)
+                row[m] -= part * row[l];
+            }
+          const double left = dot(m, m);
+          const double scale =
+            left > 1e-8 * largest[m / 3] ? 1 / std::sqrt(left) : 0.;
+          for (Modes &row : rows)
+            row[m] *= scale;
+        }
+    }
+
+    /// target += the block of the matrix from column k on times b.
+    template <int d>
+    void
+    add_product(std::array<Modes, d>       &target,
+                const Rows<d>              &rows,
+                const int                   k,
+                const std::array<Modes, d> &b)
+    {
+      for (int a = 0; a < d; ++a)
+        for (int c = 0; c < d; ++c)
+          target[a] += rows[a][k + c] * b[c];
+    }
+
+    /// Motions that an aggregate lacks get a 1 on the diagonal. Columns of the
+    /// pattern have global numbers; a row of the matrix has its owned ones
+    /// first.
+    void
+    copy_blocks(BlockMatrix                             &matrix,
+                const NodeGraph                         &pattern,
+                const std::vector<std::array<Modes, 6>> &blocks,
+                const int                                first)
+    {
+      const int end_of_owned = first + pattern.n_rows();
+      for (int i = 0; i < pattern.n_rows(); ++i)
+        {
+          const auto columns = [&](const int number) {
+            return std::lower_bound(pattern.columns.begin() + pattern.starts[i],
+                                    pattern.columns.begin() +
+                                      pattern.starts[i + 1],
+                                    number) -
+                   pattern.columns.begin();
+          };
+          const int begin   = pattern.starts[i];
+          const int n_below = columns(first) - begin;
+          const int n_owned = columns(end_of_owned) - begin - n_below;
+          const int own     = columns(first + i) - begin - n_below;
+          for (int m = 0; m < 6; ++m)
+            {
+              double *values = matrix.row(2 * i + m / 3, m % 3);
+              for (int k = 0; k < pattern.starts[i + 1] - begin; ++k)
+                {
+                  const int place = k < n_below           ? n_owned + k :
+                                    k < n_below + n_owned ? k - n_below :
+                                                            k;
+                  for (int l = 0; l < 6; ++l)
+                    values[6 * place + l] = blocks[begin + k][m][l];
+                }
+              double &diagonal = values[6 * own + m];
+              if (diagonal == 0)
+                diagonal = 1;
+            }
+        }
+    }
+  } // namespace
+
+  template <int d>
+  struct AggregationLevel<d>::ProlongationBlock
+  {
+    std::array<Modes, d> rows{};
+  };
+
+  /// The coarse unknowns' motions of the owned points, and of each aggregate as
+  /// if it filled all space.
+  template <int d>
+  struct AggregationLevel<d>::Motions
+  {
+    /// Six motions of all space: displacements of @p centre, and rotations
+    /// about it.
+    struct OfSpace
+    {
+      dealii::Tensor<1, 3> centre;
+      std::array<Modes, 3> translation{}, rotation{};
+    };
+
+    std::vector<std::array<Modes, d>> points;
+    std::vector<OfSpace>              aggregates;
+  };
+
+  template <int d>
+  void
+  AggregationLevel<d>::build_coarse(const BlockMatrix         &A,
+                                    std::vector<PointFrame<d>> frames)
+  {
+    frames.resize(points->exchange().n_items());
+    points->exchange().update(frames.data());
+    std::vector<ProlongationBlock> prolongation(
+      prolongation_pattern.columns.size());
+    const Motions motions = rigid_motions(frames);
+    multiply_by_motions(prolongation, A, motions, frames);
+    smooth_motions(prolongation, motions);
+    prolongation_ghosts.update(prolongation.data());
+    fill_coarse(A, prolongation);
+  }
+
+  /// Those of each aggregate, orthonormal; zero where A has a prescribed
+  /// unknown, or where an aggregate is too small to have six. Fills the frames
+  /// of aggregates.
+  template <int d>
+  typename AggregationLevel<d>::Motions
+  AggregationLevel<d>::rigid_motions(const std::vector<PointFrame<d>> &frames)
+  {
+    const int n_own = points_of_aggregates.n_rows();
+    Motions   motions;
+    motions.points.resize(n_points);
+    motions.aggregates.resize(n_own);
+    problem.frames.resize(n_own);
+    std::vector<Modes> rows, rigid_rows;
+    for (int g = 0; g < n_own; ++g)
+      {
+        const int *begin =
+          &points_of_aggregates.columns[points_of_aggregates.starts[g]];
+        const int n =
+          points_of_aggregates.starts[g + 1] - points_of_aggregates.starts[g];
+        // Translations along the axes, and rotations about them.
+        typename Motions::OfSpace &space = motions.aggregates[g];
+        for (int i = 0; i < n; ++i)
+          space.centre += frames[begin[i]].centre / n;
+        for (int a = 0; a < 3; ++a)
+          {
+            space.translation[a][a]  = 1;
+            space.rotation[a][3 + a] = 1;
+          }
+        rigid_rows.clear();
+        for (int i = 0; i < n; ++i)
+          {
+            const auto point = motions_at(frames[begin[i]], space);
+            for (int a = 0; a < d; ++a)
+              rigid_rows.push_back(is_prescribed[d * begin[i] + a] ? Modes{} :
+                                                                     point[a]);
+          }
+        rows = rigid_rows;
+        rows.insert(rows.end(),
+                    space.translation.begin(),
+                    space.translation.end());
+        rows.insert(rows.end(), space.rotation.begin(), space.rotation.end());
+        make_orthonormal(rows, d * n);
+        for (int i = 0; i < n; ++i)
+          std::copy_n(&rows[d * i], d, motions.points[begin[i]].begin());
+        std::copy_n(&rows[d * n], 3, space.translation.begin());
+        std::copy_n(&rows[d * n + 3], 3, space.rotation.begin());
+
+        PointFrame<6> &frame = problem.frames[g];
+        frame                = PointFrame<6>();
+        frame.centre         = space.centre;
+        for (int i = 0; i < d * n; ++i)
+          for (int m = 0; m < 6; ++m)
+            for (int l = 0; l < 6; ++l)
+              frame.motions[m][l] += rows[i][m] * rigid_rows[i][l];
+      }
+    return motions;
+  }
+
+  /// A / unit times the motions. Ghosts move with the aggregate of the row.
+  template <int d>
+  void
+  AggregationLevel<d>::multiply_by_motions(
+    std::vector<ProlongationBlock>   &product,
+    const BlockMatrix                &A,
+    const Motions                    &motions,
+    const std::vector<PointFrame<d>> &frames) const
+  {
+    const NodeGraph &graph = points->graph();
+    // Of owned aggregates.
+    std::vector<int> place(points_of_aggregates.n_rows());
+    for (int i = 0; i < n_points; ++i)
+      {
+        for (int k = prolongation_pattern.starts[i];
+             k < prolongation_pattern.starts[i + 1];
+             ++k)
+          place[prolongation_pattern.columns[k] - first_aggregate] = k;
+        const Rows<d> rows = A.template rows_of<d>(i);
+        for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
+          {
+            const int  j        = graph.columns[k];
+            const bool is_ghost = j >= n_points;
+            const int  g = aggregates[is_ghost ? i : j] - first_aggregate;
+            add_product<d>(product[place[g]].rows,
+                           rows,
+                           d * (k - graph.starts[i]),
+                           is_ghost ?
+                             motions_at(frames[j], motions.aggregates[g]) :
+                             motions.points[j]);
+          }
+        for (int k = prolongation_pattern.starts[i];
+             k < prolongation_pattern.starts[i + 1];
+             ++k)
+          for (Modes &row : product[k].rows)
+            row /= the_unit;
+      }
+  }
+
+  /// Calls action(points, their number, inverse) for each diagonal block of D,
+  /// which has the unknowns of these points; its inverse is given by columns.
+  template <int d>
+  template <typename Action>
+  void
+  AggregationLevel<d>::for_each_diagonal_block(const Action &action) const
+  {
+    if (has_aggregate_blocks)
+      for (int g = 0; g < points_of_aggregates.n_rows(); ++g)
+        {
+          const int begin = points_of_aggregates.starts[g];
+          action(&points_of_aggregates.columns[begin],
+                 points_of_aggregates.starts[g + 1] - begin,
+                 &inverse_aggregates[starts_of_inverses[g]]);
+        }
+    else
+      for (int i = 0; i < n_points; ++i)
+        action(&i, 1, &inverse_diagonal[d * d * i]);
+  }
+
+  /// From the product of A / unit and the motions to the product of
+  /// I - omega D^-1 A / unit and the motions, omega = 4/3 over the largest
+  /// eigenvalue.
+  template <int d>
+  void
+  AggregationLevel<d>::smooth_motions(
+    std::vector<ProlongationBlock> &prolongation,
+    const Motions                  &motions)
+  {
+    const double                   omega = 4. / 3 / largest_eigenvalue;
+    std::vector<ProlongationBlock> products;
+    prolongation_blocks.resize(
+      6 * d * static_cast<std::size_t>(prolongation_pattern.starts[n_points]));
+    // Points of one block have the same columns in the prolongation.
+    for_each_diagonal_block(
+      [&](const int *own, const int n, const float *inverse) {
+        const auto &starts    = prolongation_pattern.starts;
+        const int   n_columns = starts[own[0] + 1] - starts[own[0]];
+        products.clear();
+        for (int i = 0; i < n; ++i)
+          products.insert(products.end(),
+                          &prolongation[starts[own[i]]],
+                          &prolongation[starts[own[i]]] + n_columns);
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < n_columns; ++k)
+            {
+              const int          entry = starts[own[i]] + k;
+              ProlongationBlock &block = prolongation[entry];
+              block                    = ProlongationBlock();
+              if (prolongation_pattern.columns[entry] == aggregates[own[i]])
+                block.rows = motions.points[own[i]];
+              for (int j = 0; j < n; ++j)
+                for (int b = 0; b < d; ++b)
+                  for (int a = 0; a < d; ++a)
+                    block.rows[a] -= omega *
+                                     inverse[d * n * (d * j + b) + d * i + a] *
+                                     products[n_columns * j + k].rows[b];
+              for (int a = 0; a < d; ++a)
+                for (int m = 0; m < 6; ++m)
+                  prolongation_blocks[6 * (d * static_cast<std::size_t>(entry) +
+                                           a) +
+                                      m] = block.rows[a][m];
+            }
+      });
+  }
+
+  /// P^T A P / unit.
+  template <int d>
+  void
+  AggregationLevel<d>::fill_coarse(
+    const BlockMatrix                    &A,
+    const std::vector<ProlongationBlock> &prolongation)
+  {
+    const NodeGraph                  &graph = points->graph();
+    std::vector<std::array<Modes, 6>> matrix(coarse_pattern.columns.size());
+    std::vector<int>                  place(n_all_aggregates);
+    std::vector<ProlongationBlock>    row_blocks;
+    for (int i = 0; i < n_points; ++i)
+      {
+        const int *columns =
+          &product_pattern.columns[product_pattern.starts[i]];
+        const int n = product_pattern.starts[i + 1] - product_pattern.starts[i];
+        row_blocks.assign(n, ProlongationBlock());
+        for (int k = 0; k < n; ++k)
+          place[columns[k]] = k;
+        const Rows<d> rows = A.template rows_of<d>(i);
+        for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
+          {
+            const int j = graph.columns[k];
+            for (int l = prolongation_pattern.starts[j];
+                 l < prolongation_pattern.starts[j + 1];
+                 ++l)
+              add_product<d>(
+                row_blocks[place[prolongation_pattern.columns[l]]].rows,
+                rows,
+                d * (k - graph.starts[i]),
+                prolongation[l].rows);
+          }
+        for (int l = prolongation_pattern.starts[i];
+             l < prolongation_pattern.starts[i + 1];
+             ++l)
+          {
+            const int I = prolongation_pattern.columns[l] - first_aggregate;
+            const int last =
+              coarse_pattern.columns[coarse_pattern.starts[I + 1] - 1];
+            int               entry = coarse_pattern.starts[I];
+            ProlongationBlock p     = prolongation[l];
+            for (Modes &row : p.rows)
+              row /= the_unit;
+            for (int k = 0; k < n && columns[k] <= last; ++k)
+              {
+                while (coarse_pattern.columns[entry] != columns[k])
+                  ++entry;
+                for (int m = 0; m < 6; ++m)
+                  for (int a = 0; a < d; ++a)
+                    matrix[entry][m] += p.rows[a][m] * row_blocks[k].rows[a];
+              }
+          }
+      }
+    copy_blocks(*problem.matrix, coarse_pattern, matrix, first_aggregate);
+  }
+
+  template void
+  AggregationLevel<3>::build_coarse(const BlockMatrix &,
+                                    std::vector<PointFrame<3>>);
+  template void
+  AggregationLevel<6>::build_coarse(const BlockMatrix &,
+                                    std::vector<PointFrame<6>>);
+} // namespace corotet
