@@ -80,14 +80,8 @@ namespace corotet
     }
   } // namespace
 
-  /**
-   * How alike the displacements of neighbours are, for each entry of the graph
-   * of points: the inverse of their squared difference, in terms of their
-   * size, when what the smoother leaves of motions without pattern is looked
-   * at (the algebraic distance; Brandt, Brannick, Kahl, Livshits 2015). That
-   * sees what is coupled strongly whatever the signs in A are, which the size
-   * of blocks does not on flat cells. Zero for ghosts.
-   */
+  /// They see what is coupled strongly whatever the signs in A are. The sizes
+  /// of its blocks do not: on flat cells, large ones cancel each other.
   template <int d>
   std::vector<double>
   AggregationLevel<d>::similarities(const std::vector<PointFrame<d>> &frames)

@@ -256,12 +256,13 @@ namespace corotet
   void
   PMultigrid::choose_aggregates(const Discretization &discretization)
   {
-    if (has_aggregates)
+    if (has_chosen_aggregates)
       return;
-    has_aggregates = true;
-    // Ranks end where they like, through flat cells too, and what is strongly
-    // coupled across them then stays so in no aggregate. Lengthwise, stretched
-    // bodies are hardly cut at all.
+    has_chosen_aggregates = true;
+    // Aggregates end where a rank does. Partitions cut through lines of flat
+    // cells, whose nodes are coupled strongly: aggregates of what is left of
+    // these are worse than those of all neighbours. Stretched cells are cut in
+    // few places only.
     constexpr double      few         = 0.1;
     const CellProportions proportions = cell_proportions(discretization);
     const bool            is_alone    = dealii::Utilities::MPI::n_mpi_processes(

@@ -149,7 +149,7 @@ namespace corotet
     std::array<const double *, 3>
     rows(const int node) const
     {
-      return {{row(node, 0), row(node, 1), row(node, 2)}};
+      return rows_of<3>(node);
     }
 
     /// The first values of the d rows of a point, which is d / 3 nodes.

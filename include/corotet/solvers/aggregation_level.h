@@ -66,9 +66,11 @@ namespace corotet
 
     /**
      * @p A has the blocks of @p points, in pieces of 3 x 3; @p frames are those
-     * of the owned points. Aggregates join points whose similarity is at least
-     * @p threshold; with 0, all neighbours. More than @p most aggregates make a
-     * level with a next one.
+     * of the owned points. Aggregates join neighbours that move alike: their
+     * similarity, see similarities(), is at least @p threshold times the
+     * largest of one of them [-]; with 0, all. More than @p most aggregates
+     * make a level with a next one, unless these are almost as many as the
+     * points.
      */
     void
     build(const BlockMatrix                         &A,
@@ -140,6 +142,11 @@ namespace corotet
                          const unsigned int  number) const;
     void
     estimate_largest_eigenvalue();
+    /// How alike neighbours move, for each entry of the graph of points, zero
+    /// for ghosts: the inverse of the squared difference of their
+    /// displacements, in terms of the squares of both, when the smoother has
+    /// been applied to motions without pattern (the algebraic distance; Brandt,
+    /// Brannick, Kahl, Livshits 2015).
     std::vector<double>
     similarities(const std::vector<PointFrame<d>> &frames);
     void

@@ -144,7 +144,7 @@ namespace corotet
     std::string                      coarse_solver;
     SparseCholesky      direct{SparseCholesky::Precision::single_precision};
     SmoothedAggregation aggregation;
-    bool                has_aggregates = false;
+    bool                has_chosen_aggregates = false;
     /// One of the further ones, once it is asked for.
     std::unique_ptr<CoarseSolver> other;
     std::vector<unsigned int>     coarse_prescribed;

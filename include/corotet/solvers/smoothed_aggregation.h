@@ -39,9 +39,8 @@ namespace corotet
       , finest(degree)
     {}
 
-    /// From the next pattern on, an aggregate joins only what moves alike: the
-    /// similarity of two neighbours, see AggregationLevel, is at least @p
-    /// threshold times the largest of one of them [-]. D then has the diagonal
+    /// From the next pattern on, an aggregate joins only what moves alike, see
+    /// AggregationLevel::build() for @p threshold [-]. D then has the diagonal
     /// blocks of aggregates. With 0, which it is without this call, all
     /// neighbours are joined, and D has those of points. Flat and stretched
     /// cells need about 0.3: an aggregate across their weak couplings takes
@@ -89,6 +88,7 @@ namespace corotet
     AggregationLevel<3>                               finest;
     std::vector<std::unique_ptr<AggregationLevel<6>>> coarser;
     SparseCholesky last_factor{SparseCholesky::Precision::single_precision};
+    /// Of the owned aggregates of the last level, six each.
     mutable std::vector<float> last_unknowns;
     MPI_Comm                   communicator = MPI_COMM_SELF;
     int                        n_nodes      = 0;
