@@ -4,9 +4,6 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/memory.h>
 #include <corotet/mesh/box_mesh.h>
-#include <corotet/mesh/triangulation.h>
-
-#include <deal.II/grid/grid_generator.h>
 
 #include <fmt/format.h>
 
@@ -72,6 +69,90 @@ namespace corotet
                       shortest,
                       farthest));
     }
+
+
+
+    std::vector<dealii::Point<3>>
+    vertices(const std::array<double, 3>       &origin,
+             const std::array<double, 3>       &size,
+             const std::array<unsigned int, 3> &n_cuboids)
+    {
+      std::vector<dealii::Point<3>> result;
+      for (unsigned int k = 0; k <= n_cuboids[2]; ++k)
+        for (unsigned int j = 0; j <= n_cuboids[1]; ++j)
+          for (unsigned int i = 0; i <= n_cuboids[0]; ++i)
+            result.emplace_back(origin[0] + size[0] / n_cuboids[0] * i,
+                                origin[1] + size[1] / n_cuboids[1] * j,
+                                origin[2] + size[2] / n_cuboids[2] * k);
+      return result;
+    }
+
+
+
+    // Adds the faces of a cell on the sides of the box: they have three corners
+    // of the cell on that side of its cuboid.
+    void
+    add_faces(SerialMesh                        &mesh,
+              const SerialMesh::Cell            &cell,
+              const std::array<unsigned int, 4> &corners,
+              const std::array<unsigned int, 3> &cuboid,
+              const std::array<unsigned int, 3> &n_cuboids)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        for (const unsigned int side : {0, 1})
+          {
+            if (cuboid[d] != (side == 0 ? 0 : n_cuboids[d] - 1))
+              continue;
+            std::array<unsigned int, 4> on_side{};
+            unsigned int                n_on_side = 0;
+            for (unsigned int i = 0; i < 4; ++i)
+              if ((corners[i] >> d) % 2 == side)
+                on_side[n_on_side++] = cell.vertices[i];
+            if (n_on_side == 3)
+              mesh.faces.push_back(
+                {{{on_side[0], on_side[1], on_side[2]}}, 2 * d + side});
+          }
+    }
+
+
+
+    // Adds cells and faces; the vertices of the box are numbered with x
+    // fastest.
+    void
+    add_cells(SerialMesh &mesh, const std::array<unsigned int, 3> &n_cuboids)
+    {
+      // So are those of a cuboid. Neighbours are mirrored: their diagonals
+      // meet.
+      using Tetrahedra          = std::array<std::array<unsigned int, 4>, 5>;
+      constexpr Tetrahedra even = {{{{0, 1, 2, 4}},
+                                    {{2, 1, 3, 7}},
+                                    {{1, 4, 5, 7}},
+                                    {{2, 4, 7, 6}},
+                                    {{1, 2, 4, 7}}}};
+      constexpr Tetrahedra odd  = {{{{0, 1, 3, 5}},
+                                    {{0, 3, 2, 6}},
+                                    {{0, 4, 5, 6}},
+                                    {{3, 5, 7, 6}},
+                                    {{0, 3, 6, 5}}}};
+
+      std::array<unsigned int, 3> cuboid;
+      auto &[i, j, k] = cuboid;
+      for (k = 0; k < n_cuboids[2]; ++k)
+        for (j = 0; j < n_cuboids[1]; ++j)
+          for (i = 0; i < n_cuboids[0]; ++i)
+            for (const auto &corners : (i + j + k) % 2 == 0 ? even : odd)
+              {
+                SerialMesh::Cell &cell = mesh.cells.emplace_back();
+                cell.region            = 0;
+                for (unsigned int v = 0; v < 4; ++v)
+                  cell.vertices[v] =
+                    ((k + corners[v] / 4) * (n_cuboids[1] + 1) + j +
+                     corners[v] / 2 % 2) *
+                      (n_cuboids[0] + 1) +
+                    i + corners[v] % 2;
+                add_faces(mesh, cell, corners, cuboid, n_cuboids);
+              }
+    }
   } // namespace
 
 
@@ -102,20 +183,9 @@ namespace corotet
 
     check_resolution(origin, size, n_cells);
 
-    dealii::Point<3> lower, upper;
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        lower[d] = origin[d];
-        upper[d] = origin[d] + size[d];
-      }
-    dealii::Triangulation<3> tria;
-    dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(
-      tria, {n_cells.begin(), n_cells.end()}, lower, upper, true);
-
-    SerialMesh mesh = make_serial_mesh(tria);
-    // deal.II numbers the octants.
-    for (SerialMesh::Cell &cell : mesh.cells)
-      cell.region = 0;
+    SerialMesh mesh;
+    mesh.vertices = vertices(origin, size, n_cells);
+    add_cells(mesh, n_cells);
     mesh.regions.names    = {{0, "body"}};
     mesh.boundaries.names = {{0, "x-min"},
                              {1, "x-max"},

@@ -36,6 +36,15 @@ namespace corotet
 
 
 
+    std::array<unsigned int, 3>
+    ascending_vertices(std::array<unsigned int, 3> vertices)
+    {
+      std::sort(vertices.begin(), vertices.end());
+      return vertices;
+    }
+
+
+
     // The line and what it was cut into, to the last.
     void
     add_parts(std::vector<SerialMesh::Edge>                 &edges,
@@ -64,8 +73,17 @@ namespace corotet
 
   PartsOfCells::PartsOfCells(const SerialMesh &mesh)
     : mesh(mesh)
+    , is_on_face(mesh.vertices.size())
     , is_end(mesh.vertices.size())
   {
+    faces.reserve(mesh.faces.size());
+    for (const SerialMesh::Face &face : mesh.faces)
+      {
+        faces.emplace_back(ascending_vertices(face.vertices), face.boundary);
+        for (const unsigned int v : face.vertices)
+          is_on_face[v] = true;
+      }
+    std::sort(faces.begin(), faces.end());
     edges.reserve(mesh.edges.size());
     for (std::size_t i = 0; i < mesh.edges.size(); ++i)
       {
@@ -95,6 +113,37 @@ namespace corotet
          ++edge)
       result.push_back(edge->second);
     return result;
+  }
+
+
+
+  void
+  PartsOfCells::add_faces(std::vector<CellPart>  &parts,
+                          const SerialMesh::Cell &cell,
+                          const unsigned int      name) const
+  {
+    const std::array<unsigned int, 4> &v = cell.vertices;
+    std::array<bool, 4>                is_on{};
+    for (unsigned int i = 0; i < 4; ++i)
+      is_on[i] = is_on_face[v[i]];
+    if (is_on[0] + is_on[1] + is_on[2] + is_on[3] < 3)
+      return;
+    // As deal.II numbers them.
+    constexpr unsigned int corners_of_faces[4][3] = {{0, 1, 2},
+                                                     {0, 1, 3},
+                                                     {0, 2, 3},
+                                                     {1, 2, 3}};
+    for (unsigned int f = 0; f < 4; ++f)
+      {
+        const auto [a, b, c] = corners_of_faces[f];
+        if (!is_on[a] || !is_on[b] || !is_on[c])
+          continue;
+        const auto vertices = ascending_vertices({{v[a], v[b], v[c]}});
+        const auto face =
+          std::lower_bound(faces.begin(), faces.end(), std::pair(vertices, 0u));
+        if (face != faces.end() && face->first == vertices)
+          parts.push_back({name, f, face->second});
+      }
   }
 
 

@@ -7,6 +7,7 @@
 #include <corotet/base/text.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/local_mesh.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 #include <corotet/mesh/mesh_sources.h>
@@ -250,97 +251,17 @@ namespace corotet
     if (!corners.names.empty())
       names += "; corners: " + list(place_names.corners);
     log.line(names);
-    distribute(mesh, tria);
-    distribute_curved_nodes(mesh);
-    if (!edges.names.empty() || !corners.names.empty())
-      distribute_edges_and_corners(mesh);
-  }
 
-
-
-  void
-  Mesh::distribute_curved_nodes(const SerialMesh &mesh)
-  {
-    using namespace dealii::Utilities;
-    const MPI_Comm comm = communicator();
-    curve_degree        = MPI::broadcast(comm, mesh.geometry_degree, 0);
+    LocalMesh local = distribute(mesh, comm);
+    mesh            = {};
+    tria.create(local);
+    edges_of_cells   = std::move(local.edges);
+    corners_of_cells = std::move(local.corners);
+    curve_degree     = local.geometry_degree;
     if (curve_degree == 1)
       return;
-    // Cells are numbered on rank 0, and known by these numbers elsewhere.
-    std::vector<unsigned int> cells;
-    for (const auto &cell : tria.active_cell_iterators())
-      if (!cell->is_artificial())
-        cells.push_back(cell->id().get_coarse_cell_id());
-    std::vector<std::vector<double>> nodes_of_ranks;
-    const unsigned int               n = n_curved_nodes();
-    for (const auto &cells_of_rank : MPI::gather(comm, cells))
-      {
-        // Of each cell whether it is curved, and then its nodes.
-        std::vector<double> &nodes = nodes_of_ranks.emplace_back();
-        for (const unsigned int c : cells_of_rank)
-          {
-            const bool is_curved = mesh.cells[c].curve != SerialMesh::straight;
-            nodes.push_back(is_curved);
-            for (unsigned int i = 0; is_curved && i < n; ++i)
-              for (unsigned int a = 0; a < 3; ++a)
-                nodes.push_back(
-                  corotet::curved_nodes(mesh, mesh.cells[c])[i][a]);
-          }
-      }
-    const std::vector<double> nodes = MPI::scatter(comm, nodes_of_ranks);
-    const double             *next  = nodes.data();
-    curves.resize(tria.n_active_cells(), SerialMesh::straight);
-    for (const auto &cell : tria.active_cell_iterators())
-      if (!cell->is_artificial() && *next++ != 0)
-        {
-          curves[cell->active_cell_index()] = nodes_of_curves.size() / n;
-          for (unsigned int i = 0; i < n; ++i, next += 3)
-            nodes_of_curves.emplace_back(next[0], next[1], next[2]);
-        }
-  }
-
-
-
-  void
-  Mesh::distribute_edges_and_corners(const SerialMesh &mesh)
-  {
-    using namespace dealii::Utilities;
-    const MPI_Comm comm = communicator();
-    // Cells are numbered on rank 0, and known by these numbers elsewhere.
-    std::vector<unsigned int> cells, active_indices;
-    for (const auto &cell : tria.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cells.push_back(cell->id().get_coarse_cell_id());
-          active_indices.push_back(cell->active_cell_index());
-        }
-    // Of each rank those of edges and those of corners, three numbers each.
-    std::vector<std::vector<std::vector<unsigned int>>> parts_of_ranks;
-    const PartsOfCells                                  parts(mesh);
-    for (const auto &cells_of_rank : MPI::gather(comm, cells))
-      {
-        std::vector<CellPart> edges, corners;
-        for (unsigned int c = 0; c < cells_of_rank.size(); ++c)
-          {
-            const SerialMesh::Cell &cell = mesh.cells[cells_of_rank[c]];
-            parts.add_edges(edges, cell, c);
-            parts.add_corners(corners, cell, c);
-          }
-        auto &numbers = parts_of_ranks.emplace_back();
-        for (const auto *found : {&edges, &corners})
-          {
-            numbers.emplace_back();
-            for (const auto &[cell, number, id] : *found)
-              numbers.back().insert(numbers.back().end(), {cell, number, id});
-          }
-      }
-    const auto received = MPI::scatter(comm, parts_of_ranks);
-    for (const auto &[numbers, result] :
-         {std::pair(&received[0], &edges_of_cells),
-          std::pair(&received[1], &corners_of_cells)})
-      for (std::size_t i = 0; i + 3 <= numbers->size(); i += 3)
-        result->push_back({active_indices[(*numbers)[i]],
-                           (*numbers)[i + 1],
-                           (*numbers)[i + 2]});
+    nodes_of_curves = std::move(local.curved_nodes);
+    for (const SerialMesh::Cell &cell : local.cells)
+      curves.push_back(cell.curve);
   }
 } // namespace corotet

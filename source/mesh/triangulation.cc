@@ -6,8 +6,6 @@
 #include <corotet/mesh/triangulation.h>
 
 #include <deal.II/base/utilities.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 #include <numeric>
@@ -22,29 +20,6 @@ namespace corotet
     swapped(const dealii::types::boundary_id id)
     {
       return id == 0 ? unnamed_boundary : id == unnamed_boundary ? 0 : id;
-    }
-
-
-
-    // One subdomain per rank, none of them empty.
-    void
-    partition(dealii::Triangulation<3> &tria, const unsigned int n_ranks)
-    {
-      dealii::GridTools::partition_triangulation(
-        n_ranks, tria, dealii::SparsityTools::Partitioner::metis);
-
-      std::vector<bool> has_cells(n_ranks, false);
-      for (const auto &cell : tria.active_cell_iterators())
-        has_cells[cell->subdomain_id()] = true;
-      if (std::find(has_cells.begin(), has_cells.end(), false) ==
-          has_cells.end())
-        return;
-
-      // METIS may leave ranks without cells where there are few of them. Equal
-      // pieces of the curve are good enough then.
-      const std::size_t n_cells = tria.n_active_cells();
-      for (const auto &cell : tria.active_cell_iterators())
-        cell->set_subdomain_id(cell->active_cell_index() * n_ranks / n_cells);
     }
 
 
@@ -211,38 +186,4 @@ namespace corotet
       corner.vertex = new_number[corner.vertex];
   }
 
-
-
-  void
-  distribute(const SerialMesh                                     &mesh,
-             dealii::parallel::fullydistributed::Triangulation<3> &tria)
-  {
-    const MPI_Comm     comm    = tria.get_communicator();
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
-    const auto description     = dealii::TriangulationDescription::Utilities::
-      create_description_from_triangulation_in_groups<3, 3>(
-        [&](dealii::Triangulation<3> &serial) {
-          make_triangulation(mesh, serial);
-        },
-        [&](dealii::Triangulation<3> &serial,
-            const MPI_Comm,
-            const unsigned int) { partition(serial, n_ranks); },
-        comm,
-        n_ranks);
-    tria.create_triangulation(description);
-
-    // Where the known part of the mesh ends, at the far side of ghost cells,
-    // deal.II sees a surface with the boundary id 0. It is none of the body's.
-    auto cell = tria.begin_active();
-    for (const auto &data : description.cell_infos[0])
-      {
-        for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f) &&
-              std::none_of(data.boundary_ids.begin(),
-                           data.boundary_ids.end(),
-                           [&](const auto &id) { return id.first == f; }))
-            cell->face(f)->set_boundary_id(unnamed_boundary);
-        ++cell;
-      }
-  }
 } // namespace corotet

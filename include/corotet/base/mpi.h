@@ -6,7 +6,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdint>
 #include <functional>
+#include <type_traits>
+#include <vector>
 
 namespace corotet
 {
@@ -43,6 +46,39 @@ namespace corotet
    */
   void
   on_all_ranks(const MPI_Comm comm, const std::function<void()> &action);
+
+  /**
+   * Sends an array of numbers, or of structures of numbers, to another rank,
+   * which calls receive_array(). Of any length, also above 2 GiB.
+   */
+  template <typename T>
+  void
+  send_array(const std::vector<T> &array,
+             const unsigned int    receiver,
+             const MPI_Comm        comm)
+  {
+    static_assert(std::is_trivially_destructible_v<T>);
+    const std::uint64_t n_bytes = sizeof(T) * array.size();
+    const auto          type =
+      dealii::Utilities::MPI::create_mpi_data_type_n_bytes(n_bytes);
+    MPI_Send(&n_bytes, 1, MPI_UINT64_T, receiver, 0, comm);
+    MPI_Send(array.data(), 1, *type, receiver, 0, comm);
+  }
+
+  /// Its counterpart.
+  template <typename T>
+  void
+  receive_array(std::vector<T>    &array,
+                const unsigned int sender,
+                const MPI_Comm     comm)
+  {
+    std::uint64_t n_bytes = 0;
+    MPI_Recv(&n_bytes, 1, MPI_UINT64_T, sender, 0, comm, MPI_STATUS_IGNORE);
+    array.resize(n_bytes / sizeof(T));
+    const auto type =
+      dealii::Utilities::MPI::create_mpi_data_type_n_bytes(n_bytes);
+    MPI_Recv(array.data(), 1, *type, sender, 0, comm, MPI_STATUS_IGNORE);
+  }
 
   /**
    * Runs a whole @p program on every rank and returns its exit status: 0, that

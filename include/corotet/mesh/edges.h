@@ -18,7 +18,8 @@ namespace corotet
   constexpr std::array<std::array<unsigned int, 2>, 6> ends_of_edges{
     {{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{1, 3}}, {{2, 3}}}};
 
-  /// A cell's edge, by its number in ends_of_edges, or vertex that has a name.
+  /// A cell's face, by its number in deal.II, edge, by its number in
+  /// ends_of_edges, or vertex that has a name.
   struct CellPart
   {
     unsigned int cell;
@@ -27,8 +28,8 @@ namespace corotet
   };
 
   /**
-   * Finds the named edges and corners of a mesh, which must outlive this
-   * object, in its cells.
+   * Finds the faces on named boundaries, named edges and corners of a mesh,
+   * which must outlive this object, in its cells.
    */
   class PartsOfCells
   {
@@ -36,6 +37,10 @@ namespace corotet
     explicit PartsOfCells(const SerialMesh &mesh);
 
     /// Appends those of the cell, which is called @p name in what is appended.
+    void
+    add_faces(std::vector<CellPart>  &parts,
+              const SerialMesh::Cell &cell,
+              const unsigned int      name) const;
     void
     add_edges(std::vector<CellPart>  &parts,
               const SerialMesh::Cell &cell,
@@ -54,11 +59,14 @@ namespace corotet
     using Ends = std::array<unsigned int, 2>;
 
     const SerialMesh &mesh;
+    /// Ascending vertices of each face, and its boundary; sorted.
+    std::vector<std::pair<std::array<unsigned int, 3>, unsigned int>> faces;
     /// Ascending ends of each edge, and its index; sorted.
     std::vector<std::pair<Ends, std::size_t>> edges;
     /// Vertex and id of each corner, sorted.
     std::vector<Ends> corners;
-    /// Whether a vertex is an end of an edge: most are none.
+    /// Whether a vertex is on a face, or an end of an edge: most are not.
+    std::vector<bool> is_on_face;
     std::vector<bool> is_end;
   };
 

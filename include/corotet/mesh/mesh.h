@@ -6,13 +6,13 @@
 
 #include <corotet/base/log.h>
 #include <corotet/base/selectable.h>
+#include <corotet/mesh/distributed_triangulation.h>
 #include <corotet/mesh/edges.h>
 #include <corotet/mesh/mesh_names.h>
 #include <corotet/mesh/mesh_source.h>
 #include <corotet/mesh/selections.h>
 
 #include <deal.II/base/array_view.h>
-#include <deal.II/distributed/fully_distributed_tria.h>
 
 #include <string>
 
@@ -136,11 +136,6 @@ namespace corotet
     }
 
   private:
-    void
-    distribute_curved_nodes(const SerialMesh &mesh);
-    void
-    distribute_edges_and_corners(const SerialMesh &mesh);
-
     /// Of a curved cell.
     unsigned int
     n_curved_nodes() const
@@ -148,11 +143,11 @@ namespace corotet
       return (curve_degree + 1) * (curve_degree + 2) * (curve_degree + 3) / 6;
     }
 
-    dealii::parallel::fullydistributed::Triangulation<3> tria;
-    MeshNames                                            region_names;
-    PlaceNames                                           place_names;
-    std::vector<CellPart>                                edges_of_cells;
-    std::vector<CellPart>                                corners_of_cells;
+    DistributedTriangulation tria;
+    MeshNames                region_names;
+    PlaceNames               place_names;
+    std::vector<CellPart>    edges_of_cells;
+    std::vector<CellPart>    corners_of_cells;
 
     unsigned int curve_degree = 1;
     /// Number of each active cell among the curved ones, or

@@ -6,7 +6,6 @@
 
 #include <corotet/mesh/serial_mesh.h>
 
-#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/grid/tria.h>
 
 namespace corotet
@@ -41,16 +40,6 @@ namespace corotet
    */
   void
   sort_along_curve(SerialMesh &mesh);
-
-  /**
-   * Distributes a checked mesh that rank 0 has over the ranks of the
-   * communicator of @p tria, so that they share few faces and have equally many
-   * cells (METIS). Rank 0 must have at least as many cells as there are ranks.
-   * On each rank the cells keep their order. Collective.
-   */
-  void
-  distribute(const SerialMesh                                     &mesh,
-             dealii::parallel::fullydistributed::Triangulation<3> &tria);
 } // namespace corotet
 
 #endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_distributed_triangulation_h
+#define corotet_mesh_distributed_triangulation_h
+
+#include <corotet/mesh/local_mesh.h>
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+
+namespace corotet
+{
+  /**
+   * deal.II's distributed triangulation, made of each rank's own part of a
+   * mesh. deal.II makes it of a whole one on rank 0, which needs a second
+   * triangulation there; and of each cell it makes a description, which it
+   * copies, sorts twice and searches by cell number, for refinements that no
+   * mesh here has. That took four times as long as the triangulation itself.
+   *
+   * All cells are on level 0, with the index, active cell index and coarse cell
+   * index that they have in the LocalMesh.
+   */
+  class DistributedTriangulation
+    : public dealii::parallel::fullydistributed::Triangulation<3>
+  {
+  public:
+    explicit DistributedTriangulation(const MPI_Comm comm);
+
+    /// Once. Faces on no named boundary get the id unnamed_boundary
+    /// (triangulation.h). Collective.
+    void
+    create(const LocalMesh &mesh);
+
+  private:
+    using dealii::parallel::fullydistributed::Triangulation<
+      3>::create_triangulation;
+
+    unsigned int
+    coarse_cell_id_to_coarse_cell_index(
+      const dealii::types::coarse_cell_id id) const override;
+
+    dealii::types::coarse_cell_id
+    coarse_cell_index_to_coarse_cell_id(
+      const unsigned int index) const override;
+
+    /// deal.II calls it when the cells are there: it is where they get their
+    /// owners.
+    void
+    update_number_cache() override;
+
+    std::vector<dealii::types::coarse_cell_id> numbers;
+    std::vector<dealii::types::subdomain_id>   owners;
+  };
+} // namespace corotet
+
+#endif
