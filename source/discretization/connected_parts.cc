@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/discretization/connected_parts.h>
+#include <corotet/mesh/ghost_cells.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <numeric>
@@ -63,12 +63,10 @@ namespace corotet
   ConnectedParts::ConnectedParts(const Discretization &discretization)
     : part_of_node(discretization.n_owned_nodes(), invalid_unsigned_int)
   {
-    const std::vector<unsigned int> part_of_active_cell =
-      number_parts(discretization);
+    const std::vector<unsigned int> parts = number_parts(discretization);
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-      part_of_cell.push_back(
-        part_of_active_cell[discretization.active_cell_index(c)]);
-    find_joints(discretization, part_of_active_cell);
+      part_of_cell.push_back(parts[discretization.cell_in_local_mesh(c)]);
+    find_joints(discretization, parts);
     measure(discretization);
   }
 
@@ -76,45 +74,42 @@ namespace corotet
   {
     using Pairs = std::set<std::pair<unsigned int, unsigned int>>;
 
-    // A number for each active cell, owned or ghost, no two of different parts
-    // alike, and that of a part on one rank the same; numbers that mean the
-    // same part; and how many there are at most.
+    // A number for each cell, owned or ghost, no two of different parts alike,
+    // and that of a part on one rank the same; numbers that mean the same part;
+    // and how many there are at most.
     std::tuple<std::vector<unsigned int>, Pairs, unsigned int>
-    labels_by_rank(
-      const dealii::parallel::fullydistributed::Triangulation<3> &tria,
-      const MPI_Comm                                              comm)
+    labels_by_rank(const LocalMesh &mesh)
     {
-      DisjointSets sets(tria.n_active_cells());
-      for (const auto &cell : tria.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const unsigned int f : cell->face_indices())
-            if (!cell->at_boundary(f) && cell->neighbor(f)->is_locally_owned())
-              sets.unite(cell->active_cell_index(),
-                         cell->neighbor(f)->active_cell_index());
+      const MPI_Comm comm = mesh.communicator;
+      DisjointSets   sets(mesh.cells.size());
+      // Calls action(cell, neighbor) for the faces of owned cells.
+      const auto for_each_neighbor = [&](const auto &action) {
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (mesh.is_owned(c))
+            for (const unsigned int neighbor : mesh.neighbors[c])
+              if (neighbor != LocalMesh::no_cell)
+                action(c, neighbor);
+      };
+      for_each_neighbor([&](const unsigned int c, const unsigned int neighbor) {
+        if (mesh.is_owned(neighbor))
+          sets.unite(c, neighbor);
+      });
       auto [labels, n_own] = sets.numbers();
       unsigned int first   = 0;
       MPI_Exscan(&n_own, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
       for (unsigned int &label : labels)
         label += first;
-      std::vector<unsigned int> &of_cells = labels;
-      dealii::GridTools::exchange_cell_data_to_ghosts<unsigned int>(
-        tria,
-        [&](const auto &cell) { return of_cells[cell->active_cell_index()]; },
-        [&](const auto &cell, const unsigned int label) {
-          of_cells[cell->active_cell_index()] = label;
-        });
+      GhostCells(mesh).update(labels);
 
-      Pairs pairs;
-      for (const auto &cell : tria.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            const unsigned int label = labels[cell->active_cell_index()];
-            pairs.insert({label, label});
-            for (const unsigned int f : cell->face_indices())
-              if (!cell->at_boundary(f) && cell->neighbor(f)->is_ghost())
-                pairs.insert(
-                  {label, labels[cell->neighbor(f)->active_cell_index()]});
-          }
+      const std::vector<unsigned int> &of_cells = labels;
+      Pairs                            pairs;
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        if (mesh.is_owned(c))
+          pairs.insert({of_cells[c], of_cells[c]});
+      for_each_neighbor([&](const unsigned int c, const unsigned int neighbor) {
+        if (!mesh.is_owned(neighbor))
+          pairs.insert({of_cells[c], of_cells[neighbor]});
+      });
       return {labels,
               of_all_ranks(pairs, comm),
               dealii::Utilities::MPI::sum(n_own, comm)};
@@ -124,9 +119,9 @@ namespace corotet
   std::vector<unsigned int>
   ConnectedParts::number_parts(const Discretization &discretization)
   {
-    const auto    &tria            = discretization.mesh().triangulation();
-    const MPI_Comm comm            = discretization.communicator();
-    auto [labels, pairs, n_labels] = labels_by_rank(tria, comm);
+    const LocalMesh &mesh          = discretization.mesh().local();
+    const MPI_Comm   comm          = mesh.communicator;
+    auto [labels, pairs, n_labels] = labels_by_rank(mesh);
 
     // What is one across ranks. Ghost cells' own numbers are not in use.
     DisjointSets sets(n_labels);
@@ -138,14 +133,12 @@ namespace corotet
       if (parts[numbers[a]] == invalid_unsigned_int)
         parts[numbers[a]] = n_parts++;
     Pairs part_regions;
-    for (const auto &cell : tria.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          unsigned int &label = labels[cell->active_cell_index()];
-          label               = parts[numbers[label]];
-          if (cell->is_locally_owned())
-            part_regions.insert({label, cell->material_id()});
-        }
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        labels[c] = parts[numbers[labels[c]]];
+        if (mesh.is_owned(c))
+          part_regions.insert({labels[c], mesh.cells[c].region});
+      }
     regions.resize(n_parts);
     for (const auto &[part, region] : of_all_ranks(part_regions, comm))
       regions[part].insert(region);
@@ -161,26 +154,20 @@ namespace corotet
         std::fill(part_of_node.begin(), part_of_node.end(), 0u);
         return;
       }
-    const auto &dofs  = discretization.dof_handler();
-    const auto &owned = dofs.locally_owned_dofs();
-    std::vector<dealii::types::global_dof_index> cell_dofs(
-      dofs.get_fe().dofs_per_cell);
+    // In the order of the mesh: the first of its parts has the node.
+    std::vector<unsigned int> cells(discretization.n_local_cells());
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      cells[discretization.cell_in_local_mesh(c)] = c;
     std::set<std::pair<unsigned int, unsigned int>> others;
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          const unsigned int part = part_of_cell[cell->active_cell_index()];
-          cell->get_dof_indices(cell_dofs);
-          for (const auto dof : cell_dofs)
-            if (dof % 3 == 0 && owned.is_element(dof))
-              {
-                const unsigned int node = owned.index_within_set(dof) / 3;
-                if (part_of_node[node] == invalid_unsigned_int)
-                  part_of_node[node] = part;
-                else if (part_of_node[node] != part)
-                  others.insert({node, part});
-              }
-        }
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      for (const unsigned int node : discretization.cell_nodes(cells[c]))
+        if (node < part_of_node.size())
+          {
+            if (part_of_node[node] == invalid_unsigned_int)
+              part_of_node[node] = part_of_cell[c];
+            else if (part_of_node[node] != part_of_cell[c])
+              others.insert({node, part_of_cell[c]});
+          }
     for (const auto &[node, part] : others)
       joints.push_back({node, part_of_node[node], part});
   }

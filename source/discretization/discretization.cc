@@ -3,10 +3,10 @@
 
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/finite_element.h>
+#include <corotet/mesh/ghost_cells.h>
 #include <corotet/mesh/triangulation.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
 #include <algorithm>
@@ -22,36 +22,29 @@ namespace corotet
     , mesh_pointer(&mesh)
     , fe(corotet::finite_element(element), 3)
     , linear_mapping(corotet::finite_element(Element(1)))
-    , dofs(mesh.triangulation())
   {
-    dofs.distribute_dofs(fe);
-    const std::vector<CellIterator> cells = order_cells();
-    renumber_nodes(cells);
-    vector_partitioner =
-      std::make_shared<const dealii::Utilities::MPI::Partitioner>(
-        dofs.locally_owned_dofs(),
-        dealii::DoFTools::extract_locally_relevant_dofs(dofs),
-        mesh.communicator());
-    set_up_cells(cells);
+    const LocalNodes nodes(mesh.local(), element);
+    order_cells(nodes);
+    make_partitioner(nodes, number_nodes(nodes));
+    set_up_cells();
   }
 
-  std::vector<Discretization::CellIterator>
-  Discretization::order_cells()
+
+
+  void
+  Discretization::order_cells(const LocalNodes &nodes)
   {
-    const dealii::IndexSet       &owned = dofs.locally_owned_dofs();
-    std::vector<CellIterator>     inner, ghosted, ghosts;
-    std::vector<global_dof_index> cell_dofs(fe.dofs_per_cell);
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_ghost())
-        ghosts.push_back(cell);
-      else if (cell->is_locally_owned())
+    const LocalMesh          &mesh = mesh_pointer->local();
+    std::vector<unsigned int> inner, ghosted, ghosts;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (!mesh.is_owned(c))
+        ghosts.push_back(c);
+      else
         {
-          cell->get_dof_indices(cell_dofs);
-          const bool all_owned =
-            std::all_of(cell_dofs.begin(),
-                        cell_dofs.end(),
-                        [&](const auto dof) { return owned.is_element(dof); });
-          (all_owned ? inner : ghosted).push_back(cell);
+          bool all_owned = true;
+          for (unsigned int i = 0; i < n_cell_nodes; ++i)
+            all_owned &= nodes.owners[nodes.node(c, i)] == mesh.rank;
+          (all_owned ? inner : ghosted).push_back(c);
         }
     n_owned       = inner.size() + ghosted.size();
     ghosted_cells = {inner.size() / 2, inner.size() / 2 + ghosted.size()};
@@ -61,58 +54,117 @@ namespace corotet
     if (mesh_pointer->geometry_degree() > 1 && degree() > 1)
       gather_curved(inner);
     inner.insert(inner.end(), ghosts.begin(), ghosts.end());
-    return inner;
+    local_mesh_cells = std::move(inner);
   }
 
-  void
-  Discretization::renumber_nodes(const std::vector<CellIterator> &cells)
+
+
+  std::vector<global_dof_index>
+  Discretization::number_nodes(const LocalNodes &nodes)
   {
-    const dealii::IndexSet        owned = dofs.locally_owned_dofs();
-    std::vector<global_dof_index> new_numbers(owned.n_elements(),
-                                              invalid_dof_index);
-    std::vector<global_dof_index> cell_dofs(fe.dofs_per_cell);
-    global_dof_index              next =
-      owned.is_empty() ? 0 : *owned.begin() + owned.n_elements();
+    const LocalMesh   &mesh = mesh_pointer->local();
+    const unsigned int n_owned_nodes =
+      std::count(nodes.owners.begin(), nodes.owners.end(), mesh.rank);
+    const auto [first, n_nodes] = dealii::Utilities::MPI::partial_and_total_sum(
+      static_cast<global_dof_index>(n_owned_nodes), mesh.communicator);
+
+    std::vector<global_dof_index> numbers(nodes.owners.size(),
+                                          invalid_dof_index);
+    global_dof_index              next = first + n_owned_nodes;
     // Going backwards, a node's number is taken where the sweep needs it last.
     const auto number_backwards = [&](const unsigned int begin,
                                       const unsigned int end) {
       for (unsigned int c = end; c-- > begin;)
-        {
-          cells[c]->get_dof_indices(cell_dofs);
-          for (unsigned int i = n_cell_nodes; i-- > 0;)
-            for (unsigned int a = 3; a-- > 0;)
-              {
-                const global_dof_index dof =
-                  cell_dofs[fe.component_to_system_index(a, i)];
-                if (!owned.is_element(dof))
-                  continue;
-                global_dof_index &number =
-                  new_numbers[owned.index_within_set(dof)];
-                if (number == invalid_dof_index)
-                  number = --next;
-              }
-        }
+        for (unsigned int i = n_cell_nodes; i-- > 0;)
+          {
+            const unsigned int node = nodes.node(local_mesh_cells[c], i);
+            if (nodes.owners[node] == mesh.rank &&
+                numbers[node] == invalid_dof_index)
+              numbers[node] = --next;
+          }
     };
-    number_backwards(n_owned, cells.size());
-    first_shared = owned.is_empty() ? 0 : (next - *owned.begin()) / 3;
+    number_backwards(n_owned, local_mesh_cells.size());
+    first_shared = next - first;
     number_backwards(0, n_owned);
-    dofs.renumber_dofs(new_numbers);
+
+    // The owner of a node has a cell with it, which is a ghost to all that have
+    // cells with the node: at first the owned cells get the numbers of their
+    // nodes, and then they are known to who has them as ghosts.
+    const GhostCells              ghosts(mesh);
+    std::vector<global_dof_index> of_cells(nodes.of_cells.size());
+    for (unsigned int round = 0; round < 2; ++round)
+      {
+        for (std::size_t k = 0; k < of_cells.size(); ++k)
+          of_cells[k] = numbers[nodes.of_cells[k]];
+        ghosts.update(of_cells, n_cell_nodes);
+        for (std::size_t k = 0; k < of_cells.size(); ++k)
+          if (of_cells[k] != invalid_dof_index)
+            numbers[nodes.of_cells[k]] = of_cells[k];
+      }
+    return numbers;
   }
 
+
+
   void
-  Discretization::set_up_cells(const std::vector<CellIterator> &cells)
+  Discretization::make_partitioner(const LocalNodes                    &nodes,
+                                   const std::vector<global_dof_index> &numbers)
   {
+    const LocalMesh              &mesh = mesh_pointer->local();
+    std::vector<global_dof_index> own, others;
+    for (unsigned int node = 0; node < numbers.size(); ++node)
+      (nodes.owners[node] == mesh.rank ? own : others).push_back(numbers[node]);
+    const global_dof_index n_global =
+      dealii::Utilities::MPI::sum(static_cast<global_dof_index>(own.size()),
+                                  mesh.communicator);
+    dealii::IndexSet owned(3 * n_global), ghosts(3 * n_global);
+    if (!own.empty())
+      {
+        const auto first = *std::min_element(own.begin(), own.end());
+        owned.add_range(3 * first, 3 * (first + own.size()));
+      }
+    std::sort(others.begin(), others.end());
+    std::vector<global_dof_index> unknowns;
+    for (const global_dof_index node : others)
+      for (unsigned int a = 0; a < 3; ++a)
+        unknowns.push_back(3 * node + a);
+    ghosts.add_indices(unknowns.begin(), unknowns.end());
+    vector_partitioner =
+      std::make_shared<const dealii::Utilities::MPI::Partitioner>(
+        owned, ghosts, mesh.communicator);
+
+    for (const unsigned int cell : local_mesh_cells)
+      for (unsigned int i = 0; i < n_cell_nodes; ++i)
+        nodes_of_cells.push_back(vector_partitioner->global_to_local(
+                                   3 * numbers[nodes.node(cell, i)]) /
+                                 3);
+  }
+
+
+
+  void
+  Discretization::set_up_cells()
+  {
+    const LocalMesh &mesh = mesh_pointer->local();
     initialize_vector(positions);
-    std::vector<global_dof_index>        cell_dofs(fe.dofs_per_cell);
     const std::vector<dealii::Point<3>> &unit_points =
       fe.base_element(0).get_unit_support_points();
-    for (unsigned int c = 0; c < cells.size(); ++c)
+    std::vector<std::array<unsigned int, 4>> boundaries(mesh.cells.size(),
+                                                        {{unnamed_boundary,
+                                                          unnamed_boundary,
+                                                          unnamed_boundary,
+                                                          unnamed_boundary}});
+    for (const auto &[cell, face, boundary] : mesh.faces)
+      boundaries[cell][face] = boundary;
+    geometries.reserve(mesh.cells.size());
+    for (unsigned int c = 0; c < local_mesh_cells.size(); ++c)
       {
-        const CellIterator &cell = cells[c];
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
+        const unsigned int      in_mesh = local_mesh_cells[c];
+        const SerialMesh::Cell &cell    = mesh.cells[in_mesh];
+        for (unsigned int f = 0; f < 4; ++f)
+          if (mesh.neighbors[in_mesh][f] == LocalMesh::no_cell)
             {
-              const BoundaryFace face{c, f, cell->face(f)->boundary_id()};
+              const BoundaryFace face{c, f, boundaries[in_mesh][f]};
               if (c < n_owned)
                 surface.push_back(face);
               else if (face.boundary != unnamed_boundary)
@@ -121,35 +173,62 @@ namespace corotet
                 surface_of_ghosts.push_back(face);
             }
 
-        active_indices.push_back(cell->active_cell_index());
-        mesh_cells.push_back(cell->id().get_coarse_cell_id());
-
-        dealii::Tensor<2, 3> jacobian;
+        const dealii::Point<3> &origin = mesh.vertices[cell.vertices[0]];
+        dealii::Tensor<2, 3>    jacobian;
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int a = 0; a < 3; ++a)
-            jacobian[a][k] = cell->vertex(k + 1)[a] - cell->vertex(0)[a];
+            jacobian[a][k] = mesh.vertices[cell.vertices[k + 1]][a] - origin[a];
         geometries.push_back(
-          {invert(jacobian), determinant(jacobian) / 6, cell->material_id()});
+          {invert(jacobian), determinant(jacobian) / 6, cell.region});
 
-        cell->get_dof_indices(cell_dofs);
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
           {
-            const unsigned int dof = vector_partitioner->global_to_local(
-              cell_dofs[fe.component_to_system_index(0, i)]);
-            nodes_of_cells.push_back(dof / 3);
-            const dealii::Tensor<1, 3> x =
-              cell->vertex(0) + jacobian * unit_points[i];
+            const dealii::Tensor<1, 3> x = origin + jacobian * unit_points[i];
             for (unsigned int a = 0; a < 3; ++a)
-              positions.local_element(dof + a) = x[a];
+              positions.local_element(3 * cell_nodes(c)[i] + a) = x[a];
           }
       }
     positions.set_ghost_state(true);
     make_batches();
     if (mesh_pointer->geometry_degree() > 1 && degree() > 1)
       {
-        curve_positions(cells);
+        curve_positions();
         set_up_curved_cells();
       }
+  }
+
+
+
+  const dealii::DoFHandler<3> &
+  Discretization::dof_handler() const
+  {
+    if (dofs)
+      return *dofs;
+    const auto &tria = mesh_pointer->triangulation();
+    dofs             = std::make_unique<dealii::DoFHandler<3>>(tria);
+    dofs->distribute_dofs(fe);
+    // Both give nodes that ranks share to the lowest of them.
+    const dealii::IndexSet        owned = dofs->locally_owned_dofs();
+    std::vector<global_dof_index> numbers(owned.n_elements());
+    std::vector<global_dof_index> cell_dofs(fe.dofs_per_cell);
+    for (unsigned int c = 0; c < n_owned; ++c)
+      {
+        dealii::DoFHandler<3>::active_cell_iterator(&tria,
+                                                    0,
+                                                    local_mesh_cells[c],
+                                                    dofs.get())
+          ->get_dof_indices(cell_dofs);
+        for (unsigned int i = 0; i < n_cell_nodes; ++i)
+          for (unsigned int a = 0; a < 3; ++a)
+            {
+              const auto dof = cell_dofs[fe.component_to_system_index(a, i)];
+              if (owned.is_element(dof))
+                numbers[owned.index_within_set(dof)] =
+                  3 * global_node(cell_nodes(c)[i]) + a;
+            }
+      }
+    dofs->renumber_dofs(numbers);
+    return *dofs;
   }
 
 

@@ -26,7 +26,7 @@ namespace corotet
   } // namespace
 
   void
-  Discretization::gather_curved(std::vector<CellIterator> &cells) const
+  Discretization::gather_curved(std::vector<unsigned int> &cells) const
   {
     const auto sort = [&](const unsigned int begin, const unsigned int end) {
       // Curved cells at the end of a window, then at the start of the next.
@@ -35,10 +35,8 @@ namespace corotet
         std::stable_partition(
           cells.begin() + c,
           cells.begin() + std::min(c + window, end),
-          [&](const CellIterator &cell) {
-            const bool is_curved =
-              !mesh_pointer->curved_nodes(cell->active_cell_index()).empty();
-            return is_curved == first;
+          [&](const unsigned int cell) {
+            return mesh_pointer->curved_nodes(cell).empty() != first;
           });
     };
     sort(0, ghosted_cells.first);
@@ -47,7 +45,7 @@ namespace corotet
   }
 
   void
-  Discretization::curve_positions(const std::vector<CellIterator> &cells)
+  Discretization::curve_positions()
   {
     const unsigned int q = mesh_pointer->geometry_degree();
     const unsigned int r = std::min(q, degree());
@@ -55,17 +53,16 @@ namespace corotet
     const MapAtPoints at_r(q, map_points(r));
     const MapAtPoints at_nodes(r, fe.base_element(0).get_unit_support_points());
     std::vector<Point<3>> nodes(at_r.n_points());
-    curved_cells.resize(cells.size());
-    for (unsigned int c = 0; c < cells.size(); ++c)
+    curved_cells.resize(n_local_cells());
+    for (unsigned int c = 0; c < n_local_cells(); ++c)
       {
-        const auto curve =
-          mesh_pointer->curved_nodes(cells[c]->active_cell_index());
+        const auto curve = mesh_pointer->curved_nodes(local_mesh_cells[c]);
         if (curve.empty())
           continue;
         curved_cells[c] = 1;
         for (unsigned int v = 0; v < 4; ++v)
-          Assert(curve[v].distance(cells[c]->vertex(v)) <=
-                   1e-10 * cells[c]->diameter(),
+          Assert(curve[v].distance(node_position(cell_nodes(c)[v])) <=
+                   1e-10 * std::cbrt(std::abs(geometries[c].volume)),
                  dealii::ExcInternalError());
         for (unsigned int i = 0; i < nodes.size(); ++i)
           nodes[i] = at_r.position(curve.data(), i);

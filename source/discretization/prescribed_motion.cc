@@ -85,10 +85,9 @@ namespace corotet
         mark_nodes(face.cell, reference.face_nodes[face.face]);
     if (place.edges.empty() && place.corners.empty())
       return;
-    std::vector<unsigned int> local_cells(
-      discretization.mesh().triangulation().n_active_cells());
+    std::vector<unsigned int> local_cells(discretization.n_local_cells());
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-      local_cells[discretization.active_cell_index(c)] = c;
+      local_cells[discretization.cell_in_local_mesh(c)] = c;
     for (const auto &[cell, edge, id] : discretization.mesh().named_edges())
       if (contains(place.edges, id))
         mark_nodes(local_cells[cell], reference.edge_nodes[edge]);

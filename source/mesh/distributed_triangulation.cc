@@ -18,18 +18,11 @@ namespace corotet
 
 
 
-  DistributedTriangulation::DistributedTriangulation(const MPI_Comm comm)
-    : Base(comm)
-  {}
-
-
-
-  void
-  DistributedTriangulation::create(const LocalMesh &mesh)
+  DistributedTriangulation::DistributedTriangulation(const LocalMesh &mesh)
+    : Base(mesh.communicator)
+    , numbers(mesh.numbers)
+    , owners(mesh.owners)
   {
-    numbers = mesh.numbers;
-    owners  = mesh.owners;
-
     // Without the descriptions of single cells, which say nothing that is not
     // known here.
     dealii::TriangulationDescription::Description<3> description;

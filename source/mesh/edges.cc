@@ -128,11 +128,6 @@ namespace corotet
       is_on[i] = is_on_face[v[i]];
     if (is_on[0] + is_on[1] + is_on[2] + is_on[3] < 3)
       return;
-    // As deal.II numbers them.
-    constexpr unsigned int corners_of_faces[4][3] = {{0, 1, 2},
-                                                     {0, 1, 3},
-                                                     {0, 2, 3},
-                                                     {1, 2, 3}};
     for (unsigned int f = 0; f < 4; ++f)
       {
         const auto [a, b, c] = corners_of_faces[f];

@@ -19,7 +19,7 @@ namespace corotet
     using ImportedFace = ImportedMesh::Face;
 
     // The corners of the face of a tetrahedron that does not have its vertex k.
-    constexpr std::array<std::array<unsigned int, 3>, 4> corners_of_faces{
+    constexpr std::array<std::array<unsigned int, 3>, 4> corners_without{
       {{{1, 2, 3}}, {{0, 2, 3}}, {{0, 1, 3}}, {{0, 1, 2}}}};
 
     ImportedFace
@@ -58,7 +58,7 @@ namespace corotet
             const unsigned int *nodes = nodes_of(imported, n_nodes, c);
             ImportedFace        corners;
             for (unsigned int i = 0; i < 3; ++i)
-              corners[i] = nodes[corners_of_faces[k][i]];
+              corners[i] = nodes[corners_without[k][i]];
             faces.push_back({ascending(corners), c, k});
           }
       std::sort(faces.begin(),

@@ -6,15 +6,16 @@
 #include <corotet/mesh/local_mesh.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <numeric>
+#include <memory>
 #include <utility>
+
+#include "shared_vertices.h"
 
 namespace corotet
 {
   namespace
   {
-    constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+    constexpr unsigned int none = LocalMesh::no_cell;
 
     // Work of a curved cell, if that of a straight one is 1: the matrix-free
     // product takes about three times as long, that with the exact tangent as
@@ -63,7 +64,7 @@ namespace corotet
         , names(mesh)
         , local_number(mesh.vertices.size(), none)
       {
-        find_cells_beside(n_ranks);
+        find_cells_beside();
       }
 
       LocalMesh
@@ -79,54 +80,21 @@ namespace corotet
       }
 
     private:
-      unsigned int
-      owner(const std::size_t cell) const
-      {
-        return std::upper_bound(first_cell.begin(), first_cell.end(), cell) -
-               first_cell.begin() - 1;
-      }
-
       // Of each rank, the cells of others that share a vertex with its own.
       void
-      find_cells_beside(const unsigned int n_ranks)
+      find_cells_beside()
       {
-        // The rank of the first cell at each vertex, and further ones.
-        std::vector<unsigned int> first_rank(mesh.vertices.size(), none);
-        std::vector<std::pair<unsigned int, unsigned int>> ranks_of_vertices;
-        for (unsigned int rank = 0; rank < n_ranks; ++rank)
-          for (std::size_t c = first_cell[rank]; c < first_cell[rank + 1]; ++c)
-            for (const unsigned int v : mesh.cells[c].vertices)
-              if (first_rank[v] == none)
-                first_rank[v] = rank;
-              else if (first_rank[v] != rank)
-                {
-                  ranks_of_vertices.emplace_back(v, first_rank[v]);
-                  ranks_of_vertices.emplace_back(v, rank);
-                }
-        std::sort(ranks_of_vertices.begin(), ranks_of_vertices.end());
-        ranks_of_vertices.erase(std::unique(ranks_of_vertices.begin(),
-                                            ranks_of_vertices.end()),
-                                ranks_of_vertices.end());
-        std::vector<bool> is_shared(mesh.vertices.size(), false);
-        for (const auto &[v, rank] : ranks_of_vertices)
-          is_shared[v] = true;
-
-        for (unsigned int rank = 0; rank < n_ranks; ++rank)
-          for (std::size_t c = first_cell[rank]; c < first_cell[rank + 1]; ++c)
-            for (const unsigned int v : mesh.cells[c].vertices)
-              if (is_shared[v])
-                for (auto other = std::lower_bound(ranks_of_vertices.begin(),
-                                                   ranks_of_vertices.end(),
-                                                   std::pair(v, 0u));
-                     other != ranks_of_vertices.end() && other->first == v;
-                     ++other)
-                  {
-                    std::vector<std::size_t> &cells =
-                      cells_beside[other->second];
-                    if (other->second != rank &&
-                        (cells.empty() || cells.back() != c))
-                      cells.push_back(c);
-                  }
+        for (unsigned int rank = 0; rank < cells_beside.size(); ++rank)
+          owners.insert(owners.end(),
+                        first_cell[rank + 1] - first_cell[rank],
+                        rank);
+        const SharedVertices shared(mesh.cells, owners, mesh.vertices.size());
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+          shared.for_each_rank_at(mesh.cells[c], [&](const unsigned int rank) {
+            std::vector<std::size_t> &cells = cells_beside[rank];
+            if (rank != owners[c] && (cells.empty() || cells.back() != c))
+              cells.push_back(c);
+          });
       }
 
       void
@@ -145,7 +113,7 @@ namespace corotet
         for (const auto c : part.numbers)
           {
             part.cells.push_back(mesh.cells[c]);
-            part.owners.push_back(owner(c));
+            part.owners.push_back(owners[c]);
           }
       }
 
@@ -202,13 +170,70 @@ namespace corotet
             }
       }
 
-      const SerialMesh                     &mesh;
-      const std::vector<std::size_t>        first_cell;
-      std::vector<std::vector<std::size_t>> cells_beside;
-      const PartsOfCells                    names;
+      const SerialMesh &mesh;
+      // Of each rank, and the number of cells.
+      const std::vector<std::size_t> first_cell;
+      // Of each cell.
+      std::vector<dealii::types::subdomain_id> owners;
+      std::vector<std::vector<std::size_t>>    cells_beside;
+      const PartsOfCells                       names;
       // Of each vertex of the mesh, while a part is made.
       std::vector<unsigned int> local_number;
     };
+
+
+
+    // Each face is put down at its lowest vertex by the first of its cells, and
+    // taken away by the second: so the lists are short.
+    void
+    find_neighbors(LocalMesh &mesh)
+    {
+      struct OpenFace
+      {
+        unsigned int middle, highest;
+        unsigned int cell, face;
+        unsigned int next;
+      };
+      std::vector<unsigned int> first(mesh.vertices.size(), none);
+      std::vector<OpenFace>     open;
+      unsigned int              free = none;
+      mesh.neighbors.assign(mesh.cells.size(), {{none, none, none, none}});
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        for (unsigned int f = 0; f < 4; ++f)
+          {
+            std::array<unsigned int, 3> v;
+            for (unsigned int i = 0; i < 3; ++i)
+              v[i] = mesh.cells[c].vertices[corners_of_faces[f][i]];
+            std::sort(v.begin(), v.end());
+            unsigned int *link = &first[v[0]];
+            while (*link != none &&
+                   (open[*link].middle != v[1] || open[*link].highest != v[2]))
+              link = &open[*link].next;
+            if (*link != none)
+              {
+                const unsigned int found               = *link;
+                OpenFace          &other               = open[found];
+                mesh.neighbors[c][f]                   = other.cell;
+                mesh.neighbors[other.cell][other.face] = c;
+                *link                                  = other.next;
+                other.next                             = free;
+                free                                   = found;
+                continue;
+              }
+            const OpenFace face{v[1], v[2], c, f, first[v[0]]};
+            if (free == none)
+              {
+                first[v[0]] = open.size();
+                open.push_back(face);
+              }
+            else
+              {
+                first[v[0]]       = free;
+                free              = open[free].next;
+                open[first[v[0]]] = face;
+              }
+          }
+    }
 
 
 
@@ -257,7 +282,11 @@ namespace corotet
         if (my_rank == receiver)
           result = std::move(part);
       }
+    result.communicator    = comm;
+    result.rank            = my_rank;
+    result.n_global_cells  = MPI::broadcast(comm, mesh.cells.size(), 0);
     result.geometry_degree = MPI::broadcast(comm, mesh.geometry_degree, 0);
+    find_neighbors(result);
     return result;
   }
 } // namespace corotet

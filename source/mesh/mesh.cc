@@ -7,7 +7,6 @@
 #include <corotet/base/text.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
-#include <corotet/mesh/local_mesh.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 #include <corotet/mesh/mesh_sources.h>
@@ -203,8 +202,7 @@ namespace corotet
              Log                       &log,
              const unsigned int         element_degree,
              const SelectionParameters &selections)
-    : tria(comm)
-    , region_names("region", {})
+    : region_names("region", {})
     , place_names({})
   {
     NamedSets regions, boundaries, edges, corners;
@@ -252,16 +250,16 @@ namespace corotet
       names += "; corners: " + list(place_names.corners);
     log.line(names);
 
-    LocalMesh local = distribute(mesh, comm);
-    mesh            = {};
-    tria.create(local);
-    edges_of_cells   = std::move(local.edges);
-    corners_of_cells = std::move(local.corners);
-    curve_degree     = local.geometry_degree;
-    if (curve_degree == 1)
-      return;
-    nodes_of_curves = std::move(local.curved_nodes);
-    for (const SerialMesh::Cell &cell : local.cells)
-      curves.push_back(cell.curve);
+    local_mesh = distribute(mesh, comm);
+  }
+
+
+
+  const dealii::parallel::fullydistributed::Triangulation<3> &
+  Mesh::triangulation() const
+  {
+    if (!tria)
+      tria = std::make_unique<DistributedTriangulation>(local_mesh);
+    return *tria;
   }
 } // namespace corotet

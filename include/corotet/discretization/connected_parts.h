@@ -49,7 +49,7 @@ namespace corotet
     std::vector<std::set<unsigned int>> regions;
 
   private:
-    /// Numbers the parts; the part of each active cell, owned or ghost.
+    /// Numbers the parts; the part of each cell of the LocalMesh.
     std::vector<unsigned int>
     number_parts(const Discretization &discretization);
     void

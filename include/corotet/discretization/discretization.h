@@ -4,6 +4,7 @@
 #ifndef corotet_discretization_discretization_h
 #define corotet_discretization_discretization_h
 
+#include <corotet/discretization/local_nodes.h>
 #include <corotet/discretization/nodes.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/mesh/mesh.h>
@@ -12,6 +13,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -38,8 +40,8 @@ namespace corotet
   struct BoundaryFace
   {
     unsigned int cell;
-    /// Number of the face in the cell, 0 to 3, as
-    /// dealii::ReferenceCells::Tetrahedron numbers it.
+    /// Number of the face in the cell, 0 to 3, as corners_of_faces and
+    /// dealii::ReferenceCells::Tetrahedron number it.
     unsigned int face;
     unsigned int boundary;
   };
@@ -72,7 +74,7 @@ namespace corotet
     dealii::types::global_dof_index
     n_global_cells() const
     {
-      return mesh_pointer->triangulation().n_global_active_cells();
+      return mesh_pointer->local().n_global_cells;
     }
 
     const CellGeometry &
@@ -107,18 +109,18 @@ namespace corotet
       return J;
     }
 
-    /// deal.II's active_cell_index() of local cell @p cell.
+    /// Number of local cell @p cell in the mesh's LocalMesh.
     unsigned int
-    active_cell_index(const unsigned int cell) const
+    cell_in_local_mesh(const unsigned int cell) const
     {
-      return active_indices[cell];
+      return local_mesh_cells[cell];
     }
 
     /// Number of local cell @p cell in the mesh, whatever its partition.
     dealii::types::coarse_cell_id
     mesh_cell(const unsigned int cell) const
     {
-      return mesh_cells[cell];
+      return mesh_pointer->local().numbers[local_mesh_cells[cell]];
     }
 
     /// The surface, as far as it belongs to owned cells.
@@ -168,46 +170,47 @@ namespace corotet
       return linear_mapping;
     }
 
-    /// For deal.II's tools; its numbering is the one described above.
+    /// For deal.II's tools; its numbering is the one described above. Made, and
+    /// its triangulation, when it is asked for; the first call is collective.
     const dealii::DoFHandler<3> &
-    dof_handler() const
-    {
-      return dofs;
-    }
+    dof_handler() const;
 
   private:
-    using CellIterator = dealii::DoFHandler<3>::active_cell_iterator;
-
-    /// All local cells, in the order of Nodes.
-    std::vector<CellIterator>
-    order_cells();
+    /// All cells of the LocalMesh, in the order of Nodes.
+    void
+    order_cells(const LocalNodes &nodes);
     /// Puts curved cells side by side where they are near each other.
     void
-    gather_curved(std::vector<CellIterator> &cells) const;
+    gather_curved(std::vector<unsigned int> &cells) const;
+    /// Global numbers.
+    std::vector<dealii::types::global_dof_index>
+    number_nodes(const LocalNodes &nodes);
     void
-    renumber_nodes(const std::vector<CellIterator> &cells);
+    make_partitioner(
+      const LocalNodes                                   &nodes,
+      const std::vector<dealii::types::global_dof_index> &numbers);
     void
-    set_up_cells(const std::vector<CellIterator> &cells);
+    set_up_cells();
     /// Positions of the nodes of curved cells.
     void
-    curve_positions(const std::vector<CellIterator> &cells);
+    curve_positions();
     /// Geometries of curved cells, and what kernels need of them.
     void
     set_up_curved_cells();
 
-    const Mesh           *mesh_pointer;
-    dealii::FESystem<3>   fe;
-    dealii::MappingFE<3>  linear_mapping;
-    dealii::DoFHandler<3> dofs;
+    const Mesh          *mesh_pointer;
+    dealii::FESystem<3>  fe;
+    dealii::MappingFE<3> linear_mapping;
 
-    std::vector<CellGeometry>                  geometries;
-    std::vector<unsigned int>                  active_indices;
-    std::vector<dealii::types::coarse_cell_id> mesh_cells;
-    std::vector<BoundaryFace>                  surface;
-    std::vector<BoundaryFace>                  surface_of_ghosts;
-    Vector                                     positions;
+    std::vector<unsigned int> local_mesh_cells;
+    std::vector<CellGeometry> geometries;
+    std::vector<BoundaryFace> surface;
+    std::vector<BoundaryFace> surface_of_ghosts;
+    Vector                    positions;
     /// By local cell; empty if no cell of any rank is curved.
     std::vector<unsigned char> curved_cells;
+
+    mutable std::unique_ptr<dealii::DoFHandler<3>> dofs;
   };
 } // namespace corotet
 

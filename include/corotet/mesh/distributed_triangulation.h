@@ -18,18 +18,15 @@ namespace corotet
    * mesh here has. That took four times as long as the triangulation itself.
    *
    * All cells are on level 0, with the index, active cell index and coarse cell
-   * index that they have in the LocalMesh.
+   * index that they have in the LocalMesh. Faces on no named boundary have the
+   * id unnamed_boundary (triangulation.h).
    */
   class DistributedTriangulation
     : public dealii::parallel::fullydistributed::Triangulation<3>
   {
   public:
-    explicit DistributedTriangulation(const MPI_Comm comm);
-
-    /// Once. Faces on no named boundary get the id unnamed_boundary
-    /// (triangulation.h). Collective.
-    void
-    create(const LocalMesh &mesh);
+    /// Collective.
+    explicit DistributedTriangulation(const LocalMesh &mesh);
 
   private:
     using dealii::parallel::fullydistributed::Triangulation<

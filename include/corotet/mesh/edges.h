@@ -18,7 +18,11 @@ namespace corotet
   constexpr std::array<std::array<unsigned int, 2>, 6> ends_of_edges{
     {{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{1, 3}}, {{2, 3}}}};
 
-  /// A cell's face, by its number in deal.II, edge, by its number in
+  /// And the corners of its faces, ascending, as deal.II numbers these.
+  constexpr std::array<std::array<unsigned int, 3>, 4> corners_of_faces{
+    {{{0, 1, 2}}, {{0, 1, 3}}, {{0, 2, 3}}, {{1, 2, 3}}}};
+
+  /// A cell's face, by its number in corners_of_faces, edge, by its number in
   /// ends_of_edges, or vertex that has a name.
   struct CellPart
   {

@@ -11,6 +11,8 @@
 
 #include <mpi.h>
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace corotet
@@ -21,6 +23,20 @@ namespace corotet
    */
   struct LocalMesh
   {
+    /// Of a face that no other local cell has.
+    static constexpr unsigned int no_cell =
+      dealii::numbers::invalid_unsigned_int;
+
+    bool
+    is_owned(const unsigned int cell) const
+    {
+      return owners[cell] == rank;
+    }
+
+    MPI_Comm     communicator   = MPI_COMM_NULL;
+    unsigned int rank           = 0;
+    std::size_t  n_global_cells = 0;
+
     std::vector<dealii::Point<3>> vertices;
     /// With numbers of local vertices and local curves.
     std::vector<SerialMesh::Cell> cells;
@@ -28,6 +44,11 @@ namespace corotet
     /// it.
     std::vector<dealii::types::coarse_cell_id> numbers;
     std::vector<dealii::types::subdomain_id>   owners;
+
+    /// The cell behind each face, as corners_of_faces numbers them, or no_cell:
+    /// that is the surface of the body, or for ghost cells also where the known
+    /// part of the mesh ends.
+    std::vector<std::array<unsigned int, 4>> neighbors;
 
     /// Faces of all cells on named boundaries; named edges and vertices of the
     /// owned cells. Each list by cells, ascending.

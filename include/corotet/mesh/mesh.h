@@ -14,6 +14,7 @@
 
 #include <deal.II/base/array_view.h>
 
+#include <memory>
 #include <string>
 
 namespace corotet
@@ -64,14 +65,22 @@ namespace corotet
          const unsigned int         element_degree = 3,
          const SelectionParameters &selections     = {});
 
-    /// Cells carry the region as material id and the surface's faces the
-    /// boundary as boundary id, or unnamed_boundary (triangulation.h) where
-    /// they belong to none.
-    const dealii::parallel::fullydistributed::Triangulation<3> &
-    triangulation() const
+    /// What this rank has of it: its own cells and those beside them.
+    const LocalMesh &
+    local() const
     {
-      return tria;
+      return local_mesh;
     }
+
+    /**
+     * The same for deal.II's tools, with the cells in the same order: made when
+     * it is asked for, which takes longer than all else. Cells carry the region
+     * as material id and the surface's faces the boundary as boundary id, or
+     * unnamed_boundary (triangulation.h) where they belong to none. The first
+     * call is collective.
+     */
+    const dealii::parallel::fullydistributed::Triangulation<3> &
+    triangulation() const;
 
     const MeshNames &
     regions() const
@@ -92,47 +101,45 @@ namespace corotet
       return place_names;
     }
 
-    /// Edges with names of the owned cells, which are called by their
-    /// active_cell_index(), in ascending order.
+    /// Edges with names of the owned cells, in ascending order of these.
     const std::vector<CellPart> &
     named_edges() const
     {
-      return edges_of_cells;
+      return local_mesh.edges;
     }
 
     /// Vertices with names, in the same way.
     const std::vector<CellPart> &
     named_corners() const
     {
-      return corners_of_cells;
+      return local_mesh.corners;
     }
 
     MPI_Comm
     communicator() const
     {
-      return tria.get_communicator();
+      return local_mesh.communicator;
     }
 
-    /// Degree q of the maps of curved cells; 1 if there are none. The
-    /// triangulation has the straight cells with the same vertices.
+    /// Degree q of the maps of curved cells; 1 if there are none.
     unsigned int
     geometry_degree() const
     {
-      return curve_degree;
+      return local_mesh.geometry_degree;
     }
 
     /**
-     * Images of the support points of FE_SimplexP(q) under the map of a curved
-     * cell, owned or ghost, that the triangulation gives this
-     * active_cell_index(); none if it is straight.
+     * Images of the support points of FE_SimplexP(q) under the map of a local
+     * cell, owned or ghost; none if it is straight.
      */
     dealii::ArrayView<const dealii::Point<3>>
     curved_nodes(const unsigned int cell) const
     {
-      if (curve_degree == 1 || curves[cell] == SerialMesh::straight)
+      const unsigned int curve = local_mesh.cells[cell].curve;
+      if (curve == SerialMesh::straight)
         return {};
       const std::size_t n = n_curved_nodes();
-      return {nodes_of_curves.data() + n * curves[cell], n};
+      return {local_mesh.curved_nodes.data() + n * curve, n};
     }
 
   private:
@@ -140,20 +147,15 @@ namespace corotet
     unsigned int
     n_curved_nodes() const
     {
-      return (curve_degree + 1) * (curve_degree + 2) * (curve_degree + 3) / 6;
+      const unsigned int q = geometry_degree();
+      return (q + 1) * (q + 2) * (q + 3) / 6;
     }
 
-    DistributedTriangulation tria;
-    MeshNames                region_names;
-    PlaceNames               place_names;
-    std::vector<CellPart>    edges_of_cells;
-    std::vector<CellPart>    corners_of_cells;
+    LocalMesh  local_mesh;
+    MeshNames  region_names;
+    PlaceNames place_names;
 
-    unsigned int curve_degree = 1;
-    /// Number of each active cell among the curved ones, or
-    /// SerialMesh::straight; empty if there are none.
-    std::vector<unsigned int>     curves;
-    std::vector<dealii::Point<3>> nodes_of_curves;
+    mutable std::unique_ptr<DistributedTriangulation> tria;
   };
 } // namespace corotet
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_ghost_cells_h
+#define corotet_mesh_ghost_cells_h
+
+#include <corotet/mesh/local_mesh.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <type_traits>
+
+namespace corotet
+{
+  /**
+   * Which owned cells of a rank are ghosts on others, and the other way round:
+   * what is to be sent to give ghosts the values of their owners. Every rank
+   * finds that out by itself, as it has all cells around its own.
+   */
+  class GhostCells
+  {
+  public:
+    explicit GhostCells(const LocalMesh &mesh);
+
+    /// Of @p values, @p n of each local cell, those of ghosts become what their
+    /// owners have. One message to each rank that owns ghosts. Collective.
+    template <typename T>
+    void
+    update(std::vector<T> &values, const unsigned int n = 1) const
+    {
+      static_assert(std::is_trivially_copyable_v<T>);
+      std::vector<std::vector<T>> sent, received;
+      std::vector<MPI_Request>    requests;
+      for (const Neighbor &neighbor : neighbors)
+        {
+          std::vector<T> &to   = sent.emplace_back();
+          std::vector<T> &from = received.emplace_back();
+          for (const unsigned int c : neighbor.owned)
+            to.insert(to.end(),
+                      values.begin() + std::size_t(c) * n,
+                      values.begin() + (std::size_t(c) + 1) * n);
+          from.resize(neighbor.ghosts.size() * n);
+        }
+      for (unsigned int i = 0; i < neighbors.size(); ++i)
+        {
+          const auto start =
+            [&](auto *data, auto call, const std::size_t size) {
+              const auto type =
+                dealii::Utilities::MPI::create_mpi_data_type_n_bytes(size *
+                                                                     sizeof(T));
+              call(data,
+                   1,
+                   *type,
+                   neighbors[i].rank,
+                   0,
+                   comm,
+                   &requests.emplace_back());
+            };
+          start(received[i].data(), MPI_Irecv, received[i].size());
+          start(sent[i].data(), MPI_Isend, sent[i].size());
+        }
+      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+      for (unsigned int i = 0; i < neighbors.size(); ++i)
+        for (std::size_t g = 0; g < neighbors[i].ghosts.size(); ++g)
+          std::copy_n(received[i].begin() + g * n,
+                      n,
+                      values.begin() + std::size_t(neighbors[i].ghosts[g]) * n);
+    }
+
+  private:
+    struct Neighbor
+    {
+      unsigned int rank;
+      /// Local cells, ascending.
+      std::vector<unsigned int> owned, ghosts;
+    };
+
+    MPI_Comm              comm;
+    std::vector<Neighbor> neighbors;
+  };
+} // namespace corotet
+
+#endif
