@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace corotet
 {
@@ -127,15 +128,15 @@ namespace corotet
 
 
 
-    std::vector<CellFace>
-    sorted_cell_faces(const SerialMesh &mesh)
+    // Calls action(face) for each face of each cell.
+    template <typename Action>
+    void
+    for_each_cell_face(const SerialMesh &mesh, const Action &action)
     {
       constexpr unsigned int outward[4][3] = {{1, 2, 3},
                                               {0, 3, 2},
                                               {0, 1, 3},
                                               {0, 2, 1}};
-      std::vector<CellFace>  faces;
-      faces.reserve(4 * mesh.cells.size());
       for (const SerialMesh::Cell &cell : mesh.cells)
         for (const auto &corners : outward)
           {
@@ -144,13 +145,34 @@ namespace corotet
               v[i] = cell.vertices[corners[i]];
             const bool even = (v[0] < v[1]) ^ (v[1] < v[2]) ^ (v[0] < v[2]);
             std::sort(v.begin(), v.end());
-            faces.push_back({v, even});
+            action(CellFace{v, even});
           }
-      std::sort(faces.begin(),
-                faces.end(),
-                [](const CellFace &a, const CellFace &b) {
-                  return a.vertices < b.vertices;
-                });
+    }
+
+
+
+    // By their vertices. Those with the same lowest vertex are few, and sorted
+    // among themselves: several times faster than sorting them all.
+    std::vector<CellFace>
+    sorted_cell_faces(const SerialMesh &mesh)
+    {
+      // Where the faces of each lowest vertex begin, and where the next goes.
+      std::vector<std::size_t> begin(mesh.vertices.size() + 1, 0);
+      for_each_cell_face(mesh, [&](const CellFace &face) {
+        ++begin[face.vertices[0] + 1];
+      });
+      std::partial_sum(begin.begin(), begin.end(), begin.begin());
+      std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+      std::vector<CellFace>    faces(begin.back());
+      for_each_cell_face(mesh, [&](const CellFace &face) {
+        faces[next[face.vertices[0]]++] = face;
+      });
+      for (std::size_t v = 0; v < next.size(); ++v)
+        std::sort(faces.begin() + begin[v],
+                  faces.begin() + begin[v + 1],
+                  [](const CellFace &a, const CellFace &b) {
+                    return a.vertices < b.vertices;
+                  });
       return faces;
     }
 

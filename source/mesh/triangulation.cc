@@ -8,7 +8,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
+#include <utility>
 
 namespace corotet
 {
@@ -67,13 +68,18 @@ namespace corotet
         dealii::Utilities::inverse_Hilbert_space_filling_curve<3>(coordinates,
                                                                   n_bits);
 
-      std::vector<unsigned int> order(centres.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(),
-                       order.end(),
-                       [&](const unsigned int a, const unsigned int b) {
-                         return place[a] < place[b];
-                       });
+      // Cells at the same place keep their order.
+      std::vector<std::pair<std::uint64_t, unsigned int>> places;
+      places.reserve(centres.size());
+      for (unsigned int c = 0; c < centres.size(); ++c)
+        places.emplace_back(dealii::Utilities::pack_integers<3>(place[c],
+                                                                n_bits),
+                            c);
+      std::sort(places.begin(), places.end());
+      std::vector<unsigned int> order;
+      order.reserve(centres.size());
+      for (const auto &[key, c] : places)
+        order.push_back(c);
       return order;
     }
   } // namespace

@@ -6,10 +6,14 @@
 
 #include <corotet/mesh/box_mesh.h>
 #include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/triangulation.h>
+
+#include <deal.II/grid/grid_generator.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "mesh/tools.h"
 
@@ -118,4 +122,30 @@ TEST(BoxMesh, Refusals)
   for (const std::string cells : {"1, 1", "1, 0, 1", "1, 1.5, 1"})
     EXPECT_THROW(make_box("0,0,0", "1,1,1", cells), dealii::ExceptionBase)
       << cells;
+}
+
+// The cells are those of deal.II's generator, in its order; so are the faces,
+// in any order.
+TEST(BoxMesh, IsDealIIs)
+{
+  dealii::Triangulation<3> tria;
+  dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(
+    tria, {4, 3, 1}, {-1, 2, 0.5}, {1, 2.5, 0.75}, true);
+  const SerialMesh expected = make_serial_mesh(tria);
+  const SerialMesh mesh     = make_box("-1, 2, 0.5", "2, 0.5, 0.25", "4, 3, 1");
+  ASSERT_EQ(mesh.vertices.size(), expected.vertices.size());
+  for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+    EXPECT_LE(mesh.vertices[v].distance(expected.vertices[v]), 1e-15);
+  ASSERT_EQ(mesh.cells.size(), expected.cells.size());
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    EXPECT_EQ(mesh.cells[c].vertices, expected.cells[c].vertices);
+  const auto faces_of = [](const SerialMesh &mesh) {
+    std::multiset<std::pair<std::set<unsigned int>, unsigned int>> faces;
+    for (const SerialMesh::Face &face : mesh.faces)
+      faces.emplace(std::set<unsigned int>(face.vertices.begin(),
+                                           face.vertices.end()),
+                    face.boundary);
+    return faces;
+  };
+  EXPECT_EQ(faces_of(mesh), faces_of(expected));
 }

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What each rank has of a mesh, compared with the whole mesh, which every rank
+// has in these tests, and with deal.II's triangulation.
+
+#include <corotet/mesh/box_mesh.h>
+#include <corotet/mesh/distributed_triangulation.h>
+#include <corotet/mesh/ghost_cells.h>
+#include <corotet/mesh/triangulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+using namespace corotet;
+
+namespace
+{
+  // Sorted as that of a run.
+  SerialMesh
+  sorted_box(const std::string &cells)
+  {
+    BoxMesh                  source;
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("Size", "2, 0.5, 1");
+    prm.set("Cells", cells);
+    SerialMesh mesh = source.create("");
+    sort_along_curve(mesh);
+    return mesh;
+  }
+} // namespace
+
+// Each cell has one owner, and owners are in the order of the cells. Beside its
+// own a rank has exactly the cells that share a vertex with these. All that is
+// known of a cell is that of the mesh.
+TEST(LocalMesh, CellsOfTheMesh)
+{
+  const SerialMesh   whole = sorted_box("4, 3, 3");
+  const unsigned int n_ranks =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const LocalMesh mesh = distribute(whole, MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.n_global_cells, whole.cells.size());
+  EXPECT_TRUE(std::is_sorted(mesh.numbers.begin(), mesh.numbers.end()));
+
+  std::vector<unsigned int> n_owners(whole.cells.size(), 0);
+  std::set<unsigned int>    own_vertices, expected;
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.is_owned(c))
+      {
+        ++n_owners[mesh.numbers[c]];
+        const auto &vertices = whole.cells[mesh.numbers[c]].vertices;
+        own_vertices.insert(vertices.begin(), vertices.end());
+      }
+  const unsigned int n_own = std::count(n_owners.begin(), n_owners.end(), 1u);
+  EXPECT_NEAR(n_own, double(whole.cells.size()) / n_ranks, 1);
+  dealii::Utilities::MPI::sum(n_owners, MPI_COMM_WORLD, n_owners);
+  EXPECT_EQ(std::count(n_owners.begin(), n_owners.end(), 1u),
+            std::ptrdiff_t(whole.cells.size()));
+  EXPECT_TRUE(std::is_sorted(mesh.owners.begin(), mesh.owners.end()));
+
+  for (unsigned int c = 0; c < whole.cells.size(); ++c)
+    for (const unsigned int v : whole.cells[c].vertices)
+      if (own_vertices.count(v) > 0)
+        expected.insert(c);
+  EXPECT_TRUE(std::equal(mesh.numbers.begin(),
+                         mesh.numbers.end(),
+                         expected.begin(),
+                         expected.end()));
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    {
+      const SerialMesh::Cell &cell = whole.cells[mesh.numbers[c]];
+      EXPECT_EQ(mesh.cells[c].region, cell.region);
+      for (unsigned int v = 0; v < 4; ++v)
+        EXPECT_EQ(mesh.vertices[mesh.cells[c].vertices[v]],
+                  whole.vertices[cell.vertices[v]]);
+    }
+}
+
+// Rank 0 has it, the others get it.
+TEST(LocalMesh, ComesFromRankZero)
+{
+  const SerialMesh whole = sorted_box("3, 2, 2");
+  const bool       is_root =
+    dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const LocalMesh expected = distribute(whole, MPI_COMM_WORLD);
+  const LocalMesh mesh =
+    distribute(is_root ? whole : SerialMesh(), MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.n_global_cells, whole.cells.size());
+  EXPECT_EQ(mesh.vertices, expected.vertices);
+  EXPECT_EQ(mesh.numbers, expected.numbers);
+  EXPECT_EQ(mesh.owners, expected.owners);
+  EXPECT_EQ(mesh.neighbors, expected.neighbors);
+  ASSERT_EQ(mesh.faces.size(), expected.faces.size());
+  for (unsigned int i = 0; i < mesh.faces.size(); ++i)
+    EXPECT_EQ(mesh.faces[i].id, expected.faces[i].id);
+}
+
+// Neighbours, owners, numbers and boundaries are those that deal.II finds by
+// itself, or is told.
+TEST(LocalMesh, AgreesWithDealII)
+{
+  const LocalMesh mesh = distribute(sorted_box("4, 3, 2"), MPI_COMM_WORLD);
+  const DistributedTriangulation tria(mesh);
+  ASSERT_EQ(tria.n_active_cells(), mesh.cells.size());
+  EXPECT_EQ(tria.n_global_active_cells(), mesh.n_global_cells);
+  std::vector<std::array<unsigned int, 4>> boundaries(
+    mesh.cells.size(),
+    {{unnamed_boundary, unnamed_boundary, unnamed_boundary, unnamed_boundary}});
+  for (const auto &[cell, face, boundary] : mesh.faces)
+    boundaries[cell][face] = boundary;
+  unsigned int n_on_surface = 0;
+  for (const auto &cell : tria.active_cell_iterators())
+    {
+      const unsigned int c = cell->active_cell_index();
+      EXPECT_EQ(cell->subdomain_id(), mesh.owners[c]);
+      EXPECT_EQ(cell->id().get_coarse_cell_id(), mesh.numbers[c]);
+      for (const unsigned int f : cell->face_indices())
+        if (cell->at_boundary(f))
+          {
+            EXPECT_EQ(mesh.neighbors[c][f], LocalMesh::no_cell);
+            EXPECT_EQ(cell->face(f)->boundary_id(), boundaries[c][f]);
+            n_on_surface += mesh.is_owned(c);
+          }
+        else
+          EXPECT_EQ(mesh.neighbors[c][f],
+                    cell->neighbor(f)->active_cell_index());
+    }
+  EXPECT_EQ(dealii::Utilities::MPI::sum(n_on_surface, MPI_COMM_WORLD),
+            4u * (4 * 3 + 4 * 2 + 3 * 2));
+}
+
+// Ghosts get what their owners have, whatever they had before; owned cells keep
+// what they have.
+TEST(LocalMesh, GhostsAreUpdated)
+{
+  const LocalMesh mesh = distribute(sorted_box("4, 2, 3"), MPI_COMM_WORLD);
+  std::vector<std::uint64_t> values;
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    for (unsigned int i = 0; i < 3; ++i)
+      values.push_back(mesh.is_owned(c) ? 10 * mesh.numbers[c] + i : 7);
+  GhostCells(mesh).update(values, 3);
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    for (unsigned int i = 0; i < 3; ++i)
+      EXPECT_EQ(values[3 * c + i], 10 * mesh.numbers[c] + i);
+}
+
+// Curved cells count twice: with those of the first half of the box, the first
+// of two ranks has a third of all cells. No rank is without one, though the
+// work of one cell may be more than a share.
+TEST(LocalMesh, EqualWork)
+{
+  const unsigned int n_ranks =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const unsigned int rank =
+    dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  SerialMesh        mesh    = sorted_box("4, 3, 3");
+  const std::size_t n_cells = mesh.cells.size();
+  mesh.geometry_degree      = 2;
+  mesh.curved_nodes.resize(10 * (n_cells / 2));
+  for (unsigned int c = 0; c < n_cells / 2; ++c)
+    {
+      mesh.cells[c].curve           = c;
+      mesh.curved_nodes[10 * c + 9] = dealii::Point<3>(c, 0, 0);
+    }
+  const LocalMesh local = distribute(mesh, MPI_COMM_WORLD);
+  unsigned int    work = 0, n_curved = 0;
+  for (unsigned int c = 0; c < local.cells.size(); ++c)
+    {
+      const unsigned int curve = local.cells[c].curve;
+      EXPECT_EQ(curve == SerialMesh::straight, local.numbers[c] >= n_cells / 2);
+      if (local.is_owned(c))
+        work += curve == SerialMesh::straight ? 1 : 2;
+      if (curve == SerialMesh::straight)
+        continue;
+      EXPECT_EQ(curve, n_curved++);
+      EXPECT_EQ(local.curved_nodes[10 * curve + 9][0], local.numbers[c]);
+    }
+  EXPECT_NEAR(work, 1.5 * n_cells / n_ranks, 2);
+
+  mesh.cells.resize(n_ranks);
+  const LocalMesh few = distribute(mesh, MPI_COMM_WORLD);
+  for (unsigned int c = 0; c < few.cells.size(); ++c)
+    EXPECT_EQ(few.is_owned(c), few.numbers[c] == rank);
+}
