@@ -3,6 +3,7 @@
 
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/finite_element.h>
+#include <corotet/discretization/local_nodes.h>
 #include <corotet/mesh/ghost_cells.h>
 #include <corotet/mesh/triangulation.h>
 

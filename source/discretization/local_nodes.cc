@@ -5,6 +5,7 @@
 #include <corotet/discretization/local_nodes.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace corotet
 {

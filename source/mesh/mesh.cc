@@ -5,8 +5,10 @@
 #include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
+#include <corotet/base/timing.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/distributed_triangulation.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 #include <corotet/mesh/mesh_sources.h>
@@ -30,8 +32,13 @@ namespace corotet
     {
       SerialMesh mesh;
       on_root(comm, [&] {
-        mesh =
-          parameters.source.selected().create(folder, parameters.n_refinements);
+        double seconds = 0;
+        {
+          ScopedTimer timer(seconds);
+          mesh = parameters.source.selected().create(folder,
+                                                     parameters.n_refinements);
+        }
+        mesh.read_time = seconds;
       });
       return mesh;
     }
@@ -220,7 +227,10 @@ namespace corotet
       for (auto *points : {&mesh.vertices, &mesh.curved_nodes})
         for (dealii::Point<3> &point : *points)
           point *= scale;
-      sort_along_curve(mesh);
+      {
+        ScopedTimer timer(seconds_partition);
+        sort_along_curve(mesh);
+      }
 
       log_quality(mesh, element_degree, log);
       for (const std::string &remark : mesh.remarks)
@@ -250,6 +260,8 @@ namespace corotet
       names += "; corners: " + list(place_names.corners);
     log.line(names);
 
+    seconds_read = mesh.read_time;
+    ScopedTimer timer(seconds_partition);
     local_mesh = distribute(mesh, comm);
   }
 
@@ -259,7 +271,7 @@ namespace corotet
   Mesh::triangulation() const
   {
     if (!tria)
-      tria = std::make_unique<DistributedTriangulation>(local_mesh);
+      tria = std::make_unique<const DistributedTriangulation>(local_mesh);
     return *tria;
   }
 } // namespace corotet

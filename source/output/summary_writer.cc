@@ -39,6 +39,8 @@ namespace corotet
       object["total_mass"]     = summary.total_mass;
       object.update(results);
       object["wall_time"]         = {{"setup", summary.wall_times.setup},
+                                     {"read", summary.wall_times.read},
+                                     {"partition", summary.wall_times.partition},
                                      {"assembly", summary.wall_times.assembly},
                                      {"solve", summary.wall_times.solve},
                                      {"output", summary.wall_times.output},

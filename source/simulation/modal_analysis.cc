@@ -95,7 +95,9 @@ namespace corotet
     check_shift();
     the_body.describe(log);
     note_what_is_ignored();
-    wall_times.setup = seconds();
+    wall_times.setup     = seconds();
+    wall_times.read      = the_body.mesh.read_time();
+    wall_times.partition = the_body.mesh.partition_time();
   }
 
   void

@@ -29,7 +29,9 @@ namespace corotet
       check_supports();
     check_start(system, parameters, stepper.state(), log);
     warn_of_forces(system.equation(), parameters, log);
-    wall_times.setup = seconds();
+    wall_times.setup     = seconds();
+    wall_times.read      = the_body.mesh.read_time();
+    wall_times.partition = the_body.mesh.partition_time();
   }
 
   void

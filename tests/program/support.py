@@ -31,7 +31,7 @@ MODES_COLUMNS = ("mode frequency angular_frequency eigenvalue residual modal_mas
                  "mass_share_x mass_share_y mass_share_z").split()
 MODES_SUMMARY_KEYS = ("status version git_revision dealii_version ranks cells nodes dofs degree mesh_volume total_mass modes frequencies "
                       "wall_time peak_memory_bytes").split()
-WALL_TIME_KEYS = "setup assembly solve output total".split()
+WALL_TIME_KEYS = "setup read partition assembly solve output total".split()
 
 
 def read_history(directory):

@@ -36,7 +36,8 @@ namespace corotet
   };
 
   /**
-   * Where the wall time [s] of a run went.
+   * Where the wall time [s] of a run went. Reading or making the mesh, and
+   * giving each rank its part, are parts of the set-up.
    */
   struct WallTimes
   {
@@ -44,6 +45,9 @@ namespace corotet
     double assembly = 0;
     double solve    = 0;
     double output   = 0;
+
+    double read      = 0;
+    double partition = 0;
   };
 } // namespace corotet
 

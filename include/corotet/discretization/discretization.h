@@ -4,7 +4,6 @@
 #ifndef corotet_discretization_discretization_h
 #define corotet_discretization_discretization_h
 
-#include <corotet/discretization/local_nodes.h>
 #include <corotet/discretization/nodes.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/mesh/mesh.h>
@@ -19,6 +18,8 @@
 
 namespace corotet
 {
+  struct LocalNodes;
+
   /**
    * Geometry of a cell: x = p0 + J xi, with xi in the reference tetrahedron; of
    * a curved cell J at its centre.

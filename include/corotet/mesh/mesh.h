@@ -6,13 +6,13 @@
 
 #include <corotet/base/log.h>
 #include <corotet/base/selectable.h>
-#include <corotet/mesh/distributed_triangulation.h>
-#include <corotet/mesh/edges.h>
+#include <corotet/mesh/local_mesh.h>
 #include <corotet/mesh/mesh_names.h>
 #include <corotet/mesh/mesh_source.h>
 #include <corotet/mesh/selections.h>
 
 #include <deal.II/base/array_view.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
 
 #include <memory>
 #include <string>
@@ -115,6 +115,20 @@ namespace corotet
       return local_mesh.corners;
     }
 
+    /// Wall times [s] on rank 0: what reading or making the mesh took, and
+    /// sorting and distributing its cells.
+    double
+    read_time() const
+    {
+      return seconds_read;
+    }
+
+    double
+    partition_time() const
+    {
+      return seconds_partition;
+    }
+
     MPI_Comm
     communicator() const
     {
@@ -151,11 +165,15 @@ namespace corotet
       return (q + 1) * (q + 2) * (q + 3) / 6;
     }
 
+    double     seconds_read      = 0;
+    double     seconds_partition = 0;
     LocalMesh  local_mesh;
     MeshNames  region_names;
     PlaceNames place_names;
 
-    mutable std::unique_ptr<DistributedTriangulation> tria;
+    mutable std::unique_ptr<
+      const dealii::parallel::fullydistributed::Triangulation<3>>
+      tria;
   };
 } // namespace corotet
 

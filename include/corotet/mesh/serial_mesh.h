@@ -87,6 +87,9 @@ namespace corotet
     /// generated mesh.
     std::string origin;
 
+    /// Wall time [s] that reading or making it took.
+    double read_time = 0;
+
     /// What the user should know about how the mesh was made: lines for the
     /// log.
     std::vector<std::string> remarks;
