@@ -4,7 +4,6 @@
 // What each rank has of a mesh, compared with the whole mesh, which every rank
 // has in these tests, and with deal.II's triangulation.
 
-#include <corotet/mesh/box_mesh.h>
 #include <corotet/mesh/distributed_triangulation.h>
 #include <corotet/mesh/ghost_cells.h>
 #include <corotet/mesh/triangulation.h>
@@ -16,7 +15,10 @@
 #include <algorithm>
 #include <set>
 
+#include "mesh/tools.h"
+
 using namespace corotet;
+using namespace corotet::tests;
 
 namespace
 {
@@ -24,12 +26,7 @@ namespace
   SerialMesh
   sorted_box(const std::string &cells)
   {
-    BoxMesh                  source;
-    dealii::ParameterHandler prm;
-    source.declare_parameters(prm);
-    prm.set("Size", "2, 0.5, 1");
-    prm.set("Cells", cells);
-    SerialMesh mesh = source.create("");
+    SerialMesh mesh = box_of_2_by_half_by_1(cells);
     sort_along_curve(mesh);
     return mesh;
   }

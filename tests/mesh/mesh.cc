@@ -18,23 +18,11 @@
 #include "mesh/tools.h"
 
 using namespace corotet;
-using namespace corotet;
 using namespace corotet::tests;
 
 namespace
 {
   const MPI_Comm comm = MPI_COMM_WORLD;
-
-  SerialMesh
-  box(const std::string &cells)
-  {
-    BoxMesh                  source;
-    dealii::ParameterHandler prm;
-    source.declare_parameters(prm);
-    prm.set("Size", "2, 0.5, 1");
-    prm.set("Cells", cells);
-    return source.create("");
-  }
 
   Mesh
   make_mesh(const SerialMesh  &mesh,
@@ -95,13 +83,13 @@ namespace
 
 TEST(Mesh, Distribution)
 {
-  expect_box(make_mesh(box("8, 2, 4")), 5 * 8 * 2 * 4, 1);
+  expect_box(make_mesh(box_of_2_by_half_by_1("8, 2, 4")), 5 * 8 * 2 * 4, 1);
 }
 
 // Pieces of equal size, but for one cell.
 TEST(Mesh, Balance)
 {
-  const Mesh   mesh    = make_mesh(box("8, 2, 4"));
+  const Mesh   mesh    = make_mesh(box_of_2_by_half_by_1("8, 2, 4"));
   const double n_cells = mesh.triangulation().n_locally_owned_active_cells();
   const double average = 320. / dealii::Utilities::MPI::n_mpi_processes(comm);
   EXPECT_NEAR(n_cells, average, 1);
@@ -111,16 +99,18 @@ TEST(Mesh, Balance)
 // factor on lengths.
 TEST(Mesh, RefinementAndScale)
 {
-  expect_box(make_mesh(box("2, 1, 1"), 1), 10 * 8, 1);
-  expect_box(make_mesh(box("2, 1, 1"), 2), 10 * 64, 1);
-  expect_box(make_mesh(box("2, 1, 1"), 2, 0.001), 10 * 64, 0.001);
+  expect_box(make_mesh(box_of_2_by_half_by_1("2, 1, 1"), 1), 10 * 8, 1);
+  expect_box(make_mesh(box_of_2_by_half_by_1("2, 1, 1"), 2), 10 * 64, 1);
+  expect_box(make_mesh(box_of_2_by_half_by_1("2, 1, 1"), 2, 0.001),
+             10 * 64,
+             0.001);
 }
 
 // A refined mesh is as good as one that was made so fine: it passes the checks
 // that a mesh from elsewhere has to pass.
 TEST(Mesh, RefinedMeshIsConforming)
 {
-  SerialMesh mesh = box("2, 1, 1");
+  SerialMesh mesh = box_of_2_by_half_by_1("2, 1, 1");
   refine_uniformly(mesh, 2);
   check_mesh(mesh);
   sort_along_curve(mesh);
@@ -133,7 +123,7 @@ TEST(Mesh, RefinedMeshIsConforming)
 // would give it the one of x-min; no name selects it. Regions are kept.
 TEST(Mesh, RegionsAndUnnamedSurface)
 {
-  SerialMesh mesh = box("4, 1, 2");
+  SerialMesh mesh = box_of_2_by_half_by_1("4, 1, 2");
   std::erase_if(mesh.faces,
                 [](const auto &face) { return face.boundary != 3; });
   for (SerialMesh::Cell &cell : mesh.cells)
@@ -160,7 +150,7 @@ TEST(Mesh, RegionsAndUnnamedSurface)
 // ghost cells' faces included.
 TEST(Mesh, GhostFacesAreNoSurface)
 {
-  const Mesh   mesh     = make_mesh(box("8, 2, 4"));
+  const Mesh   mesh     = make_mesh(box_of_2_by_half_by_1("8, 2, 4"));
   const double place[6] = {0, 2, 0, 0.5, 0, 1};
   for (const auto &cell : mesh.triangulation().active_cell_iterators())
     for (const auto &face : cell->face_iterators())
@@ -178,7 +168,7 @@ TEST(Mesh, GhostFacesAreNoSurface)
 // that the curve does it. On several ranks there are a few jumps more.)
 TEST(Mesh, OrderAlongCurve)
 {
-  SerialMesh mesh = box("16, 4, 8");
+  SerialMesh mesh = box_of_2_by_half_by_1("16, 4, 8");
   // A fixed permutation: 1009 has no divisor in common with 5 * 16 * 4 * 8.
   std::vector<SerialMesh::Cell> shuffled;
   for (std::size_t i = 0; i < mesh.cells.size(); ++i)
@@ -235,12 +225,12 @@ TEST(Mesh, FromParameters)
 // A refusal on rank 0 reaches every rank; none is left waiting.
 TEST(Mesh, RefusalsReachEveryRank)
 {
-  SerialMesh inverted = box("1, 1, 1");
+  SerialMesh inverted = box_of_2_by_half_by_1("1, 1, 1");
   std::swap(inverted.cells[3].vertices[0], inverted.cells[3].vertices[1]);
   EXPECT_NE(refusal([&] { make_mesh(inverted); }).find("(inverted)"),
             std::string::npos);
 
-  EXPECT_EQ(refusal([&] { make_mesh(box("1, 1, 1"), 9); }),
+  EXPECT_EQ(refusal([&] { make_mesh(box_of_2_by_half_by_1("1, 1, 1"), 9); }),
             "Mesh/Refinements: too many cells: found 9 refinements, which "
             "make 6.71e+08 cells of 5; at most 3e+08 are allowed");
 
@@ -309,7 +299,7 @@ namespace
     SerialMesh
     create(const std::string &, const unsigned int) const override
     {
-      SerialMesh mesh = box("4, 1, 2");
+      SerialMesh mesh = box_of_2_by_half_by_1("4, 1, 2");
       for (auto &vertex : mesh.vertices)
         vertex[2] *= height;
       return mesh;

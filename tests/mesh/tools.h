@@ -5,6 +5,7 @@
 #define corotet_tests_mesh_tools_h
 
 #include <corotet/base/exceptions.h>
+#include <corotet/mesh/box_mesh.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/mesh_quality.h>
@@ -20,6 +21,18 @@
 
 namespace corotet::tests
 {
+  /// The generated box of these lengths, of so many cuboids.
+  inline SerialMesh
+  box_of_2_by_half_by_1(const std::string &cells)
+  {
+    BoxMesh                  source;
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("Size", "2, 0.5, 1");
+    prm.set("Cells", cells);
+    return source.create("");
+  }
+
   inline SerialMesh
   read_gmsh(const std::string &file,
             const std::string &folder        = "",

@@ -15,8 +15,8 @@ namespace corotet
    * mesh. deal.II makes it of a whole one on rank 0, which needs a second
    * triangulation there; and of each cell it makes a description, which it
    * copies, sorts twice and searches by cell number, for refinements that no
-   * mesh here has. Setting up 1.5 million cells took 34 s with
-   * that, and 14 s with this class.
+   * mesh here has. Setting up 1.5 million cells took 34 s with that, and 14 s
+   * with this class.
    *
    * All cells are on level 0, with the index, active cell index and coarse cell
    * index that they have in the LocalMesh. Faces on no named boundary have the

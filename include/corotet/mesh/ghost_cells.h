@@ -8,7 +8,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <type_traits>
+#include <vector>
 
 namespace corotet
 {
