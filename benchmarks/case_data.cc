@@ -61,8 +61,10 @@ namespace corotet::benchmarks
   const CompressedRows &
   CaseData::compressed_rows()
   {
+    // Its values may be those of a deformed body, of a benchmark before.
+    const BlockMatrix &values = matrix();
     if (!the_rows)
-      the_rows.emplace(matrix());
+      the_rows.emplace(values);
     return *the_rows;
   }
 

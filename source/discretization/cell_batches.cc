@@ -36,6 +36,7 @@ namespace corotet
 
   CellBatches::CellBatches(const Nodes &nodes)
     : n_cell_nodes(nodes.n_nodes_per_cell())
+    , n_local_nodes(nodes.n_local_nodes())
     , n_owned_cells(nodes.n_owned_cells())
     , n_owned(divide_up(n_owned_cells, batch_size * floats_per_batch) *
               floats_per_batch)
@@ -62,6 +63,8 @@ namespace corotet
           numbers + n;
       }
     plan_chunks(nodes);
+    if (exceed_caches<double>())
+      plan_fetches(nodes);
   }
 
   void
@@ -87,5 +90,29 @@ namespace corotet
     constexpr unsigned int size = batches_per_chunk * batch_size;
     ghosted_chunks              = {nodes.cells_with_ghosts().first / size,
                                    divide_up(nodes.cells_with_ghosts().second, size)};
+  }
+
+  void
+  CellBatches::plan_fetches(const Nodes &nodes)
+  {
+    // One more than the batch that had a node last.
+    std::vector<unsigned int> last_use(nodes.n_local_nodes(), 0);
+    fetch_starts.reserve(n_batches() + 1 + floats_per_batch);
+    fetch_starts.push_back(0);
+    for (unsigned int b = 0; b < n_batches(); ++b)
+      {
+        for (const unsigned int *n = this->nodes(b); n < this->nodes(b + 1);
+             ++n)
+          {
+            unsigned int &last = last_use[*n];
+            if (last == 0 || last + batches_per_chunk <= b)
+              fetched_nodes.push_back(*n);
+            last = b + 1;
+          }
+        fetch_starts.push_back(fetched_nodes.size());
+      }
+    fetch_starts.resize(n_batches() + 1 + floats_per_batch,
+                        fetched_nodes.size());
+    fetched_nodes.shrink_to_fit();
   }
 } // namespace corotet

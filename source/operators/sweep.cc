@@ -21,6 +21,15 @@ namespace corotet
       static constexpr bool         with_mass      = terms != Terms::stiffness;
       static constexpr unsigned int n_batches      = n_lanes<T> / batch_size;
 
+      static COROTET_ALWAYS_INLINE void
+      fetch(Data &data, const unsigned int batch)
+      {
+        if constexpr (with_stiffness)
+          fetch_object(data.coefficients + batch / n_batches);
+        if constexpr (with_mass)
+          fetch_object(data.masses + batch / n_batches);
+      }
+
       template <typename IsCurved>
       static COROTET_ALWAYS_INLINE void
       apply(const IsCurved,

@@ -10,16 +10,18 @@
 
 #include <filesystem>
 
+#include "../source_path.h"
+
 using namespace corotet;
+using namespace corotet::tests;
 
 TEST(Programs, AreFoundFromTheProgram)
 {
   const std::filesystem::path script =
     find_installed("share/corotet/scripts/draw_study");
   EXPECT_TRUE(script.is_absolute()) << script;
-  EXPECT_TRUE(std::filesystem::equivalent(script,
-                                          COROTET_SOURCE_DIR
-                                          "/scripts/draw_study"));
+  EXPECT_TRUE(
+    std::filesystem::equivalent(script, source_path("scripts/draw_study")));
   EXPECT_EQ(find_installed("share/no such file"), "");
 }
 

@@ -22,7 +22,7 @@ using dealii::Point;
 
 namespace
 {
-  const std::string meshes = COROTET_SOURCE_DIR "/meshes";
+  const std::string meshes = source_path("meshes");
   const std::string sphere = "sphere_octant.geo";
 
   std::size_t

@@ -177,7 +177,7 @@ TEST(FileMesh, NamesAndColours)
 TEST(FileMesh, ShippedParts)
 {
   const double     pi   = dealii::numbers::PI;
-  const SerialMesh clip = read_file(COROTET_SOURCE_DIR "/meshes/clip.inp");
+  const SerialMesh clip = read_file(source_path("meshes/clip.inp"));
   EXPECT_EQ(clip.geometry_degree, 2u);
   const double volume = (pi / 2 * (12. * 12. - 10. * 10.) + 2 * 30. * 2.) * 8.;
   EXPECT_NEAR(mesh_quality(clip).volume, 1e-9 * volume, 1e-13 * volume);
@@ -185,7 +185,7 @@ TEST(FileMesh, ShippedParts)
             1u);
 
   const SerialMesh mount =
-    read_file(COROTET_SOURCE_DIR "/meshes/rubber_mount.step", "8", "2");
+    read_file(source_path("meshes/rubber_mount.step"), "8", "2");
   EXPECT_EQ(MeshNames("region", mount.regions).known(),
             (Known{"lower plate", "rubber", "upper plate"}));
   EXPECT_NEAR(mesh_quality(mount).volume,

@@ -12,7 +12,6 @@
 #include "mesh/tools.h"
 
 using namespace corotet;
-using namespace corotet;
 using namespace corotet::tests;
 
 namespace
@@ -194,12 +193,11 @@ TEST(GmshMesh, FileNames)
 // A mesh has its size; asking for another one must not be ignored silently.
 TEST(GmshMesh, ElementSizeOfAMesh)
 {
-  EXPECT_EQ(refusal([] {
-              read_gmsh("bracket.msh", COROTET_SOURCE_DIR "/meshes", "0.01");
-            }),
+  EXPECT_EQ(refusal(
+              [] { read_gmsh("bracket.msh", source_path("meshes"), "0.01"); }),
             "Mesh/gmsh/Element size: only a geometry can be given an element "
-            "size: found 0.01 for '" COROTET_SOURCE_DIR
-            "/meshes/bracket.msh'; 0 is allowed");
+            "size: found 0.01 for '" +
+              source_path("meshes/bracket.msh") + "'; 0 is allowed");
 }
 
 TEST(GmshMesh, BrokenFiles)

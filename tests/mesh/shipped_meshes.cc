@@ -13,7 +13,6 @@
 #include "mesh/tools.h"
 
 using namespace corotet;
-using namespace corotet;
 using namespace corotet::tests;
 
 namespace
@@ -54,7 +53,7 @@ TEST_P(ShippedMesh, LoadsAndPassesTheChecks)
     {
       SCOPED_TRACE(extension);
       SerialMesh mesh =
-        read_gmsh(GetParam().name + extension, COROTET_SOURCE_DIR "/meshes");
+        read_gmsh(GetParam().name + extension, source_path("meshes"));
       check_mesh(mesh);
       // Of round surfaces on straight cells, by the geometry or by facets.
       EXPECT_EQ(mesh.remarks.size(), GetParam().tolerance > 1e-9 ? 1u : 0u);

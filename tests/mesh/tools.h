@@ -17,6 +17,7 @@
 #include <functional>
 
 #include "../refusal.h"
+#include "../source_path.h"
 #include "../temporary_folder.h"
 
 namespace corotet::tests

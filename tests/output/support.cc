@@ -12,6 +12,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "../source_path.h"
+
 namespace test_output
 {
   using corotet::SerialMesh;
@@ -217,7 +219,8 @@ namespace test_output
     int status = 0;
     if (on_rank_0())
       status = std::system(
-        ("python3 " COROTET_SOURCE_DIR "/tests/output/" + command).c_str());
+        ("python3 " + corotet::tests::source_path("tests/output/") + command)
+          .c_str());
     return mpi::broadcast(MPI_COMM_WORLD, status, 0);
   }
 } // namespace test_output

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "../curved_mesh.h"
+#include "../source_path.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -41,7 +42,7 @@ namespace
     SerialMesh mesh;
     // Only one rank makes the mesh.
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      mesh = source.create(COROTET_SOURCE_DIR "/meshes", n_refinements);
+      mesh = source.create(source_path("meshes"), n_refinements);
     mesh.n_refinements = 0;
     return mesh;
   }

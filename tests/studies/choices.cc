@@ -14,7 +14,10 @@
 #include <filesystem>
 #include <sstream>
 
+#include "../source_path.h"
+
 using namespace corotet;
+using namespace corotet::tests;
 
 namespace
 {
@@ -60,7 +63,7 @@ TEST(Choices, FirstSentence)
 TEST(Choices, Everything)
 {
   for (const auto &entry :
-       std::filesystem::directory_iterator(COROTET_SOURCE_DIR "/parameters"))
+       std::filesystem::directory_iterator(source_path("parameters")))
     if (entry.path().extension() == ".prm")
       {
         const std::string name = entry.path().stem().string();

@@ -7,6 +7,7 @@
 #include <corotet/base/simd.h>
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,26 @@ namespace corotet
       return at_end[batch];
     }
 
+    /// Whether sweeps should ask for nodes_to_fetch() ahead: their vectors of
+    /// numbers of type T are too large for the caches of a processor core.
+    template <typename T>
+    bool
+    exceed_caches() const
+    {
+      return n_local_nodes > max_cached_nodes * (sizeof(double) / sizeof(T));
+    }
+
+    /// If they exceed_caches<double>(): nodes of batches [batch, end) that the
+    /// batches just before do not have, which leaves them far away from the
+    /// processor.
+    /// @p end may be beyond n_batches() by floats_per_batch.
+    std::span<const unsigned int>
+    nodes_to_fetch(const unsigned int batch, const unsigned int end) const
+    {
+      return {fetched_nodes.data() + fetch_starts[batch],
+              fetched_nodes.data() + fetch_starts[end]};
+    }
+
     const std::vector<Chunk> &
     chunks() const
     {
@@ -110,11 +131,23 @@ namespace corotet
     void
     plan_chunks(const Nodes &nodes);
 
+    void
+    plan_fetches(const Nodes &nodes);
+
+    /// A sweep reads three numbers of each node and adds to four. Asking ahead
+    /// pays if these take more than 3 MiB: second-level caches have half a
+    /// megabyte to two, and those behind them are shared and slower.
+    static constexpr unsigned int max_cached_nodes =
+      (3 << 20) / (7 * sizeof(double));
+
     unsigned int                          n_cell_nodes;
+    unsigned int                          n_local_nodes;
     unsigned int                          n_owned_cells;
     unsigned int                          n_owned;
     std::vector<unsigned int>             node_numbers;
     std::vector<unsigned char>            at_end;
+    std::vector<unsigned int>             fetched_nodes;
+    std::vector<unsigned int>             fetch_starts;
     std::vector<Chunk>                    plan;
     std::pair<unsigned int, unsigned int> ghosted_chunks;
     std::shared_ptr<const CurvedBatches>  curved_batches;

@@ -9,6 +9,16 @@
 
 namespace corotet
 {
+  /// Asks for an object that will be read.
+  template <typename Object>
+  COROTET_ALWAYS_INLINE void
+  fetch_object(const Object *object)
+  {
+    const char *const bytes = reinterpret_cast<const char *>(object);
+    for (std::size_t i = 0; i < sizeof(Object); i += 64)
+      __builtin_prefetch(bytes + i, 0);
+  }
+
   /**
    * The loop over batches of cells around one kind of work: gather, compute,
    * add. It knows neither vectors nor ranks; cell_loop.h does. An Operation has
@@ -18,7 +28,12 @@ namespace corotet
    *   - apply(is_curved, data, batch, source, sums): adds to @p sums, four
    *     numbers per local node, what the cells of a batch make of @p source.
    *     is_curved is std::true_type or std::false_type, always the latter if
-   * the operation has a member ignores_curvature.
+   * the operation has a member ignores_curvature;
+   *   - fetch(data, batch), if it wants to: asks for what else it reads there.
+   *
+   * Where vectors are larger than the caches, what the next batch needs is on
+   * its way while a batch is worked on: waiting for scattered nodes would take
+   * as long as the work.
    */
   template <typename Operation>
   class BatchSweep
@@ -59,9 +74,34 @@ namespace corotet
                 const Number      *source,
                 Number            *sums)
     {
+      const bool ahead = data.batches.template exceed_caches<Number>();
       for (unsigned int batch = first; batch < end;
            batch += Operation::n_batches)
-        Operation::apply(is_curved, data, batch, source, sums);
+        {
+          if (ahead)
+            fetch(data, batch + Operation::n_batches, source, sums);
+          Operation::apply(is_curved, data, batch, source, sums);
+        }
+    }
+
+    static COROTET_ALWAYS_INLINE void
+    fetch(Data              &data,
+          const unsigned int batch,
+          const Number      *source,
+          Number            *sums)
+    {
+      const auto nodes =
+        data.batches.nodes_to_fetch(batch, batch + Operation::n_batches);
+      // Some sweeps have no source, some no sums.
+      if (source != nullptr)
+        for (const unsigned int node : nodes)
+          __builtin_prefetch(source + 3 * static_cast<std::size_t>(node), 0);
+      if (sums != nullptr)
+        for (const unsigned int node : nodes)
+          __builtin_prefetch(sums + 4 * static_cast<std::size_t>(node), 1);
+      if constexpr (requires { Operation::fetch(data, batch); })
+        if (batch < data.batches.n_owned_batches())
+          Operation::fetch(data, batch);
     }
   };
 
