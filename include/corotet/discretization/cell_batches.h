@@ -103,10 +103,10 @@ namespace corotet
       return n_local_nodes > max_cached_nodes * (sizeof(double) / sizeof(T));
     }
 
-    /// If they exceed_caches<double>(): nodes of batches [batch, end) that the
-    /// batches just before do not have, which leaves them far away from the
-    /// processor.
-    /// @p end may be beyond n_batches() by floats_per_batch.
+    /// Local numbers of the nodes of batches [batch, end) that the 8 *
+    /// floats_per_batch batches before do not have, which leaves them far away
+    /// from the processor. Only if they exceed_caches<double>(). @p end may be
+    /// beyond n_batches() by floats_per_batch.
     std::span<const unsigned int>
     nodes_to_fetch(const unsigned int batch, const unsigned int end) const
     {
@@ -140,12 +140,14 @@ namespace corotet
     static constexpr unsigned int max_cached_nodes =
       (3 << 20) / (7 * sizeof(double));
 
-    unsigned int                          n_cell_nodes;
-    unsigned int                          n_local_nodes;
-    unsigned int                          n_owned_cells;
-    unsigned int                          n_owned;
-    std::vector<unsigned int>             node_numbers;
-    std::vector<unsigned char>            at_end;
+    unsigned int               n_cell_nodes;
+    unsigned int               n_local_nodes;
+    unsigned int               n_owned_cells;
+    unsigned int               n_owned;
+    std::vector<unsigned int>  node_numbers;
+    std::vector<unsigned char> at_end;
+    /// nodes_to_fetch() of all batches, and where those of each start; empty
+    /// for small bodies.
     std::vector<unsigned int>             fetched_nodes;
     std::vector<unsigned int>             fetch_starts;
     std::vector<Chunk>                    plan;

@@ -9,7 +9,7 @@
 
 namespace corotet
 {
-  /// Asks for an object that will be read.
+  /// Asks for the cache lines of an object that will be read soon.
   template <typename Object>
   COROTET_ALWAYS_INLINE void
   fetch_object(const Object *object)
@@ -28,7 +28,7 @@ namespace corotet
    *   - apply(is_curved, data, batch, source, sums): adds to @p sums, four
    *     numbers per local node, what the cells of a batch make of @p source.
    *     is_curved is std::true_type or std::false_type, always the latter if
-   * the operation has a member ignores_curvature;
+   *     the operation has a member ignores_curvature;
    *   - fetch(data, batch), if it wants to: asks for what else it reads there.
    *
    * Where vectors are larger than the caches, what the next batch needs is on
