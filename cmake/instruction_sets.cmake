@@ -16,6 +16,7 @@ function(corotet_add_instruction_set set)
   target_compile_options(${target} PRIVATE -march=${set})
   set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/glibc-hwcaps/${set})
   add_dependencies(${target} corotet_version)
+  corotet_compile_together(${target} 24)
   install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/${set} COMPONENT program NAMELINK_SKIP)
 endfunction()
 
