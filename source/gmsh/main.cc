@@ -13,24 +13,24 @@
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "model.h"
 #include "sandbox.h"
 
 namespace
 {
-  // Whether all bytes went to the descriptor @p file.
-  bool
-  write_all(const int file, const std::string &bytes)
+  // Writes all bytes, or ends the process.
+  void
+  write_all(const int file, std::string_view bytes)
   {
-    for (std::size_t done = 0; done < bytes.size();)
+    while (!bytes.empty())
       {
-        const ssize_t n = write(file, bytes.data() + done, bytes.size() - done);
+        const ssize_t n = write(file, bytes.data(), bytes.size());
         if (n <= 0)
-          return false;
-        done += n;
+          std::_Exit(3);
+        bytes.remove_prefix(n);
       }
-    return true;
   }
 } // namespace
 
@@ -86,10 +86,9 @@ main(const int argc, char **argv)
       model                   = {};
       model.error             = error;
     }
-  std::string bytes;
-  BytesWriter writer(bytes);
+  BytesWriter writer(
+    [&](const std::string_view bytes) { write_all(result, bytes); });
   transfer(writer, model);
-  const bool written = write_all(result, bytes);
   // Nothing is left to be saved; destructors could fail on a broken model.
-  std::_Exit(written ? 0 : 3);
+  std::_Exit(0);
 }

@@ -255,8 +255,10 @@ namespace corotet::gmsh_program
         {
           if (request.format != "geo" && request.is_geometry)
             {
-              model.groups = read_shapes(request);
-              model.remark = generate_shapes(request.element_size);
+              model.groups             = read_shapes(request, model.remark);
+              const std::string remark = generate_shapes(request.element_size);
+              if (!remark.empty())
+                model.remark += (model.remark.empty() ? "" : "; ") + remark;
               return;
             }
           gmsh::open(request.path);

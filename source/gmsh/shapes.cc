@@ -9,7 +9,8 @@
 #include <cstdio>
 #include <map>
 #include <set>
-#include <stdexcept>
+
+#include "sewing.h"
 
 namespace corotet::gmsh_program
 {
@@ -86,28 +87,14 @@ namespace corotet::gmsh_program
     import_solids(const GmshRequest &request)
     {
       gmsh::vectorpair shapes, solids;
-      for (const double sew : {0., 1.})
-        {
-          gmsh::clear();
-          // Surfaces that close are sewn to solids, if there are no solids.
-          gmsh::option::setNumber("Geometry.OCCImportLabels", 1);
-          gmsh::option::setNumber("Geometry.OCCSewFaces", sew);
-          gmsh::option::setNumber("Geometry.OCCMakeSolids", sew);
-          gmsh::model::occ::importShapes(request.path,
-                                         shapes,
-                                         true,
-                                         request.format);
-          gmsh::model::occ::synchronize();
-          gmsh::model::getEntities(solids, 3);
-          if (!solids.empty())
-            return solids;
-        }
-      gmsh::vectorpair surfaces;
-      gmsh::model::getEntities(surfaces, 2);
-      throw std::runtime_error("the geometry has no solid: found " +
-                               std::to_string(surfaces.size()) +
-                               " surfaces, which do not close; needed are "
-                               "solids");
+      gmsh::option::setNumber("Geometry.OCCImportLabels", 1);
+      gmsh::model::occ::importShapes(request.path,
+                                     shapes,
+                                     true,
+                                     request.format);
+      gmsh::model::occ::synchronize();
+      gmsh::model::getEntities(solids, 3);
+      return solids;
     }
 
 
@@ -171,10 +158,12 @@ namespace corotet::gmsh_program
 
 
   std::vector<GmshModel::Group>
-  read_shapes(const GmshRequest &request)
+  read_shapes(const GmshRequest &request, std::string &remark)
   {
-    const gmsh::vectorpair        solids = import_solids(request);
+    gmsh::vectorpair              solids = import_solids(request);
     std::map<Entity, std::string> names  = names_of_solids(solids);
+    if (solids.empty())
+      solids = sew_solids(request, remark);
     if (solids.size() > 1)
       glue(solids, names);
     std::vector<GmshModel::Group> groups;

@@ -13,11 +13,12 @@ namespace corotet::gmsh_program
    * program: solids that touch share the faces where they do. Returns the
    * groups of solids by their names in the file, and of surfaces by their
    * colours, "colour-ff8000"; others are called "solid N" and "surface N", by
-   * gmsh's numbers. Throws what gmsh throws, and std::runtime_error if there is
-   * no solid.
+   * gmsh's numbers. Without solids, surfaces are sewn to some, which @p remark
+   * tells. Throws what gmsh throws, and std::runtime_error if these do not
+   * close either.
    */
   std::vector<GmshModel::Group>
-  read_shapes(const GmshRequest &request);
+  read_shapes(const GmshRequest &request, std::string &remark);
 } // namespace corotet::gmsh_program
 
 #endif

@@ -21,6 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -167,6 +168,15 @@ namespace corotet
           }
       }
 
+      // As it is to be typed: the libraries of scripts may be elsewhere.
+      std::string
+      command_for_page() const
+      {
+        const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
+        return (toolchain ? toolchain + std::string(" ") : "") +
+               "scripts/report " + directory;
+      }
+
       void
       write_report()
       {
@@ -184,9 +194,8 @@ namespace corotet
         if (is_written)
           log.line("The page of the run is " + directory + "/report.html");
         else
-          log.warning("the page of the run could not be written; "
-                      "scripts/report " +
-                      directory + " says why");
+          log.warning("the page of the run could not be written; " +
+                      command_for_page() + " says why");
       }
 
       // A restart without anything to go on from begins anew.
@@ -320,9 +329,9 @@ namespace corotet
           parameters.simulation.type == RunType::convergence_study;
         log.line("Results are in " + directory + ": " + table +
                  (is_study ? "" : ", solution.vtkhdf for ParaView") +
-                 (command.report ? "" :
-                                   ("; scripts/report " + directory +
-                                    " makes a page of them")));
+                 (command.report ?
+                    "" :
+                    ("; " + command_for_page() + " makes a page of them")));
         const std::string counts = log.counts();
         if (!counts.empty())
           log.line("Worth a look above, or in log.txt: " + counts);

@@ -229,7 +229,7 @@ TEST(GmshProcess, OtherModels)
   model.coordinates.resize(12);
   const auto message_about = [](GmshModel changed) {
     std::string bytes;
-    BytesWriter writer(bytes);
+    BytesWriter writer([&](const std::string_view part) { bytes += part; });
     transfer(writer, changed);
     return refusal([&] { model_of_bytes(bytes, "x.msh"); });
   };

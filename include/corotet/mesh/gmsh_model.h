@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -99,7 +101,8 @@ namespace corotet
     /// volume_types is there then.
     bool is_too_large = false;
 
-    /// How the cells differ from what was asked for; empty if they do not.
+    /// How surfaces were sewn to solids, and how the cells differ from what was
+    /// asked for; empty if there is nothing to say.
     std::string remark;
   };
 
@@ -143,12 +146,14 @@ namespace corotet
 
 
 
-  /// Appends to @p bytes what is transferred.
+  /// Hands what is transferred to @p write, piece by piece.
   class BytesWriter
   {
   public:
-    explicit BytesWriter(std::string &bytes)
-      : bytes(bytes)
+    using Write = std::function<void(std::string_view)>;
+
+    explicit BytesWriter(Write write)
+      : write(std::move(write))
     {}
 
     template <typename Number>
@@ -156,7 +161,7 @@ namespace corotet
     void
     transfer(Number &number)
     {
-      bytes.append(reinterpret_cast<const char *>(&number), sizeof(number));
+      write({reinterpret_cast<const char *>(&number), sizeof(number)});
     }
 
     /// A text or numbers.
@@ -167,8 +172,8 @@ namespace corotet
     {
       std::uint64_t size = list.size();
       transfer(size);
-      bytes.append(reinterpret_cast<const char *>(list.data()),
-                   size * sizeof(typename List::value_type));
+      write({reinterpret_cast<const char *>(list.data()),
+             size * sizeof(typename List::value_type)});
     }
 
     template <typename Part, typename Action>
@@ -182,7 +187,7 @@ namespace corotet
     }
 
   private:
-    std::string &bytes;
+    const Write write;
   };
 
 

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include "sewing.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+namespace corotet::gmsh_program
+{
+  namespace
+  {
+    // How surfaces meet at a curve, for all curves.
+    struct Joints
+    {
+      // The surfaces that have the curve at their edge, one that closes there
+      // (a cylinder, say) twice.
+      std::map<int, std::vector<int>> surfaces;
+
+      explicit Joints(const gmsh::vectorpair &all)
+      {
+        for (const auto &surface : all)
+          {
+            gmsh::vectorpair curves;
+            gmsh::model::getBoundary({surface}, curves, false, false);
+            for (const auto &[dimension, curve] : curves)
+              surfaces[curve].push_back(surface.second);
+          }
+      }
+
+
+      // Curves where one surface ends alone, or more than two meet.
+      unsigned int
+      count_open() const
+      {
+        return std::ranges::count_if(surfaces, [](const auto &joint) {
+          return joint.second.size() != 2;
+        });
+      }
+
+
+      // Surfaces that hang together.
+      std::vector<std::vector<int>>
+      shells(const gmsh::vectorpair &all) const
+      {
+        std::map<int, int> root;
+        for (const auto &[dimension, surface] : all)
+          root[surface] = surface;
+        const auto find = [&](int surface) {
+          while (root[surface] != surface)
+            surface = root[surface] = root[root[surface]];
+          return surface;
+        };
+        for (const auto &[curve, meeting] : surfaces)
+          for (const int surface : meeting)
+            root[find(surface)] = find(meeting.front());
+        std::map<int, std::vector<int>> parts;
+        for (const auto &[dimension, surface] : all)
+          parts[find(surface)].push_back(surface);
+        std::vector<std::vector<int>> result;
+        for (const auto &[first, part] : parts)
+          result.push_back(part);
+        return result;
+      }
+    };
+
+
+
+    void
+    import(const GmshRequest &request, const bool sew, const double tolerance)
+    {
+      gmsh::clear();
+      gmsh::option::setNumber("Geometry.OCCSewFaces", sew);
+      gmsh::option::setNumber("Geometry.Tolerance", tolerance);
+      gmsh::vectorpair shapes;
+      gmsh::model::occ::importShapes(request.path,
+                                     shapes,
+                                     true,
+                                     request.format);
+      gmsh::model::occ::synchronize();
+    }
+
+
+
+    // A closed surface, and the volume inside.
+    struct Shell
+    {
+      int    loop;
+      int    volume;
+      double content;
+      // Its lowest and highest coordinates.
+      std::array<double, 6> box = {};
+      // Which one it is directly inside of, and how many it is inside of.
+      int          parent = -1;
+      unsigned int depth  = 0;
+    };
+
+
+    std::vector<Shell>
+    fill(const std::vector<std::vector<int>> &shells)
+    {
+      std::vector<Shell> result;
+      for (const auto &surfaces : shells)
+        {
+          const int loop   = gmsh::model::occ::addSurfaceLoop(surfaces);
+          const int volume = gmsh::model::occ::addVolume({loop});
+          double    content;
+          gmsh::model::occ::getMass(3, volume, content);
+          result.push_back({loop, volume, content});
+        }
+      gmsh::model::occ::synchronize();
+      for (auto &[loop, volume, content, x, parent, depth] : result)
+        gmsh::model::getBoundingBox(
+          3, volume, x[0], x[1], x[2], x[3], x[4], x[5]);
+      // The smallest one around another is its parent.
+      std::ranges::sort(result, {}, &Shell::content);
+      return result;
+    }
+
+
+    // Corners of a volume, and a point of each of its surfaces.
+    std::vector<double>
+    points_around(const int volume)
+    {
+      std::vector<double> result, low, high, point;
+      gmsh::vectorpair    parts;
+      gmsh::model::getBoundary({{3, volume}}, parts, false, false, true);
+      for (const auto &[dimension, corner] : parts)
+        {
+          gmsh::model::getValue(0, corner, {}, point);
+          result.insert(result.end(), point.begin(), point.end());
+        }
+      gmsh::model::getBoundary({{3, volume}}, parts, false, false);
+      for (const auto &[dimension, surface] : parts)
+        {
+          gmsh::model::getParametrizationBounds(2, surface, low, high);
+          gmsh::model::getValue(2,
+                                surface,
+                                {(low[0] + high[0]) / 2,
+                                 (low[1] + high[1]) / 2},
+                                point);
+          result.insert(result.end(), point.begin(), point.end());
+        }
+      return result;
+    }
+
+
+
+    // Whether one surface is inside of another, or touches it from there.
+    bool
+    is_inside(const Shell &inner, const Shell &outer)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          // Boxes are known to some 1e-7 of their size.
+          const double gap = 1e-5 * (outer.box[3 + d] - outer.box[d]);
+          if (inner.box[d] < outer.box[d] - gap ||
+              inner.box[3 + d] > outer.box[3 + d] + gap)
+            return false;
+        }
+      const std::vector<double> points = points_around(inner.volume);
+      return gmsh::model::isInside(3, outer.volume, points) ==
+             static_cast<int>(points.size() / 3);
+    }
+
+
+
+    // Solids without what is hollow in them: every second surface from the
+    // outside to the inside encloses a hollow. (Solids may touch from outside.)
+    gmsh::vectorpair
+    solids_between(std::vector<Shell> shells)
+    {
+      for (std::size_t i = shells.size(); i-- > 0;)
+        for (std::size_t j = i + 1; j < shells.size(); ++j)
+          if (is_inside(shells[i], shells[j]))
+            {
+              shells[i].parent = j;
+              shells[i].depth  = shells[j].depth + 1;
+              break;
+            }
+      gmsh::vectorpair result;
+      for (std::size_t j = 0; j < shells.size(); ++j)
+        if (shells[j].depth % 2 == 0)
+          {
+            std::vector<int> loops = {shells[j].loop};
+            for (std::size_t i = 0; i < j; ++i)
+              if (shells[i].parent == static_cast<int>(j))
+                loops.push_back(shells[i].loop);
+            const int hollow =
+              loops.size() > 1 ? gmsh::model::occ::addVolume(loops) : 0;
+            result.emplace_back(3, hollow > 0 ? hollow : shells[j].volume);
+            if (hollow > 0)
+              gmsh::model::occ::remove({{3, shells[j].volume}});
+          }
+        else
+          gmsh::model::occ::remove({{3, shells[j].volume}});
+      gmsh::model::occ::synchronize();
+      // Of surfaces that were mended, solids have others.
+      gmsh::vectorpair surfaces, unused;
+      gmsh::model::getEntities(surfaces, 2);
+      for (const auto &surface : surfaces)
+        {
+          std::vector<int> solids, curves;
+          gmsh::model::getAdjacencies(2, surface.second, solids, curves);
+          if (solids.empty())
+            unused.push_back(surface);
+        }
+      gmsh::model::occ::remove(unused);
+      gmsh::model::occ::synchronize();
+      return result;
+    }
+  } // namespace
+
+
+
+  gmsh::vectorpair
+  sew_solids(const GmshRequest &request, std::string &remark)
+  {
+    // Surfaces that end in a point, as that of a cone does, have an edge there.
+    gmsh::option::setNumber("Geometry.OCCFixDegenerated", 1);
+    double accuracy;
+    gmsh::option::getNumber("Geometry.Tolerance", accuracy);
+    import(request, false, accuracy);
+    double x[6];
+    gmsh::model::getBoundingBox(-1, -1, x[0], x[1], x[2], x[3], x[4], x[5]);
+    const double size = std::hypot(x[3] - x[0], x[4] - x[1], x[5] - x[2]);
+
+    gmsh::vectorpair surfaces;
+    unsigned int     n_open = 0;
+    for (const double gap : {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3})
+      {
+        import(request, true, gap * size);
+        gmsh::model::getEntities(surfaces, 2);
+        const Joints joints(surfaces);
+        n_open = joints.count_open();
+        if (!surfaces.empty() && n_open == 0)
+          {
+            gmsh::option::setNumber("Geometry.Tolerance", accuracy);
+            char length[32];
+            std::snprintf(length, sizeof(length), "%.2g", gap * size);
+            remark = "surfaces are sewn to solids, with gaps of less than " +
+                     std::string(length) + " between their edges";
+            return solids_between(fill(joints.shells(surfaces)));
+          }
+      }
+    throw std::runtime_error(
+      "the geometry has no solid: found " + std::to_string(surfaces.size()) +
+      " surfaces, which do not close (edges where there are not two: " +
+      std::to_string(n_open) +
+      "); needed are solids, or surfaces around them with gaps of at most a "
+      "thousandth of the size of all");
+  }
+} // namespace corotet::gmsh_program
