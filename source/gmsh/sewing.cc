@@ -227,19 +227,23 @@ namespace corotet::gmsh_program
     double accuracy;
     gmsh::option::getNumber("Geometry.Tolerance", accuracy);
     import(request, false, accuracy);
+    gmsh::vectorpair surfaces;
+    gmsh::model::getEntities(surfaces, 2);
+    if (surfaces.empty())
+      throw std::runtime_error(
+        "the geometry has neither solids nor surfaces: is the rest missing?");
     double x[6];
     gmsh::model::getBoundingBox(-1, -1, x[0], x[1], x[2], x[3], x[4], x[5]);
     const double size = std::hypot(x[3] - x[0], x[4] - x[1], x[5] - x[2]);
 
-    gmsh::vectorpair surfaces;
-    unsigned int     n_open = 0;
+    unsigned int n_open = 0;
     for (const double gap : {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3})
       {
         import(request, true, gap * size);
         gmsh::model::getEntities(surfaces, 2);
         const Joints joints(surfaces);
         n_open = joints.count_open();
-        if (!surfaces.empty() && n_open == 0)
+        if (n_open == 0)
           {
             gmsh::option::setNumber("Geometry.Tolerance", accuracy);
             char length[32];

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 namespace corotet
@@ -254,6 +255,37 @@ namespace corotet
                                      n,
                                      n_wanted));
     }
+
+
+
+    // OpenCASCADE can go on for ever where a BREP file was cut off. Shapes come
+    // last, each with an asterisk at its end, and behind them the number and
+    // the place of the whole: "+1 0".
+    void
+    check_brep(const std::string &path)
+    {
+      std::ifstream file(path);
+      bool          has_shapes = false;
+      std::string   last, before_last;
+      for (std::string line; std::getline(file, line);)
+        {
+          has_shapes = has_shapes || line.starts_with("TShapes ");
+          while (!line.empty() &&
+                 std::isspace(static_cast<unsigned char>(line.back())))
+            line.pop_back();
+          if (!line.empty())
+            {
+              before_last = std::move(last);
+              last        = std::move(line);
+            }
+        }
+      static const std::regex whole("[+-]\\d+ \\d+");
+      if (!has_shapes || !before_last.ends_with('*') ||
+          !std::regex_match(last, whole))
+        throw InputError("",
+                         path + ": the file does not end with a shape behind "
+                                "those of TShapes: is the rest missing?");
+    }
   } // namespace
 
 
@@ -327,6 +359,8 @@ namespace corotet
     const auto                              wanted = words.find(format);
     if (format == MeshFormat::vtk)
       check_vtk(path);
+    if (format == MeshFormat::brep)
+      check_brep(path);
     if (wanted == words.end())
       return;
     std::ifstream file(path);

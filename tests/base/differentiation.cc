@@ -65,6 +65,9 @@ TEST(Differentiation, Derivatives)
               -std::sqrt(x + y) / (z * z),
               round_off);
   EXPECT_NEAR(derivative("atan(x/y)", {"x"}), y / (x * x + y * y), round_off);
+  EXPECT_NEAR(derivative("(1 + x)^(1/y)", {"x"}),
+              std::pow(1 + x, 1 / y - 1) / y,
+              round_off);
   EXPECT_NEAR(derivative("pow(x, y)", {"y"}),
               std::pow(x, y) * std::log(x),
               round_off);
@@ -79,6 +82,7 @@ TEST(Differentiation, SameSyntax)
 {
   for (const std::string formula : {"-x^2",
                                     "2^x^y",
+                                    "(1 + x)^(1/y)",
                                     "-2^2*x",
                                     "x - y - z",
                                     "x/y*z",

@@ -181,6 +181,26 @@ TEST(Loads, Refusals)
             "are points of the body");
 }
 
+// Points that are farther from the body than a fifth of the height of any cell
+// are outside, in all directions.
+TEST(Loads, PointsOutside)
+{
+  for (unsigned int i = 0; i < 27; ++i)
+    {
+      const int to[] = {int(i % 3) - 1, int(i / 3 % 3) - 1, int(i / 9) - 1};
+      const Point<3>    x(0.5 * (1 + to[0]) + 0.3 * to[0],
+                       1 + to[1] + 0.6 * to[1],
+                       0.5 * (1 + to[2]) + 0.3 * to[2]);
+      const std::string entry =
+        fmt::format("{} {} {}: 0;0;1", x[0], x[1], x[2]);
+      const std::string said = refusal(
+        [&] { Loaded(1, section("Loads", {{"Point forces", entry}})); });
+      EXPECT_EQ(said.find("lies outside the body") != std::string::npos,
+                i != 13)
+        << entry << ' ' << said;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Elements,
                          LoadsTest,
                          testing::Values(Element(1),

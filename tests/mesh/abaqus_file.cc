@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <set>
 
 #include "mesh/tools.h"
 
@@ -111,7 +112,8 @@ TEST_F(AbaqusFile, CurvedCellsAndTriangles)
     "7,0,.5,0\n8,0,0,.5\n9,.5,0,.5\n10,0,.5,.5\n"
     "*ELEMENT, TYPE=C3D10M, ELSET=all\n1, 1, 2, 3, 4, 5,\n 6, 7, 8,\n9, 10\n"
     "*ELEMENT, TYPE=CPS6, ELSET=bottom\n2, 1, 2, 3, 5, 6, 7\n"
-    "*ELEMENT, TYPE=T3D3, ELSET=edge\n3, 1, 5, 2\n";
+    "*ELEMENT, TYPE=T3D3, ELSET=edge\n3, 1, 5, 2\n"
+    "*ELEMENT, TYPE=B32, ELSET=beam\n4, 1, 7, 3\n";
   const SerialMesh mesh = read(text);
   ASSERT_EQ(mesh.geometry_degree, 2u);
   ASSERT_EQ(mesh.curved_nodes.size(), 10u);
@@ -119,10 +121,26 @@ TEST_F(AbaqusFile, CurvedCellsAndTriangles)
   EXPECT_EQ(mesh.curved_nodes[9], dealii::Point<3>(0, .5, .5));
   EXPECT_EQ(mesh.vertices.size(), 4u);
   EXPECT_NEAR(area(mesh, "bottom"), 0.5, 1e-15);
-  EXPECT_EQ(MeshNames("edge", mesh.edge_names).known(), Known{"edge"});
-  ASSERT_EQ(mesh.edges.size(), 1u);
-  EXPECT_EQ(mesh.edges[0].vertices, (std::array<unsigned int, 2>{{0, 1}}));
+  EXPECT_EQ(MeshNames("edge", mesh.edge_names).known(),
+            (Known{"beam", "edge"}));
+  std::set<std::array<unsigned int, 2>> ends;
+  for (const SerialMesh::Edge &edge : mesh.edges)
+    ends.insert(edge.vertices);
+  EXPECT_EQ(ends, (std::set<std::array<unsigned int, 2>>{{0, 1}, {0, 2}}));
   EXPECT_TRUE(mesh.remarks.empty());
+}
+
+// Four tetrahedra around an edge that is inside of the body: nodes at its ends
+// are corners of the surface, and the edge is not on it.
+TEST_F(AbaqusFile, EdgeInsideOfTheBody)
+{
+  const SerialMesh mesh =
+    read("*NODE\n1,1,0,0\n2,0,1,0\n3,-1,0,0\n4,0,-1,0\n5,0,0,1\n6,0,0,-1\n"
+         "*ELEMENT, TYPE=C3D4\n1,1,2,6,5\n2,2,3,6,5\n3,3,4,6,5\n4,4,1,6,5\n"
+         "*NSET, NSET=poles\n5, 6\n");
+  EXPECT_EQ(MeshNames("corner", mesh.corner_names).known(), Known{"poles"});
+  EXPECT_EQ(mesh.corners.size(), 2u);
+  EXPECT_TRUE(mesh.edges.empty());
 }
 
 // Instances are moved and turned copies; sets of the assembly look into them.
@@ -135,6 +153,7 @@ TEST_F(AbaqusFile, PartsAndInstances)
          "*INSTANCE, NAME=two, PART=block\n10., 0, 0\n10, 0, 0, 10, 0, 1, 90\n"
          "*END INSTANCE\n"
          "*NSET, NSET=held, INSTANCE=two\nfoot\n"
+         "*NSET, NSET=numbers, INSTANCE=two\n10, 20, 30\n"
          "*ELSET, ELSET=first, INSTANCE=one\n7\n"
          "*SURFACE, NAME=face\ntwo.body, S2\n"
          "*ELSET, ELSET=_f, INTERNAL, INSTANCE=one\n9\n"
@@ -145,6 +164,7 @@ TEST_F(AbaqusFile, PartsAndInstances)
   EXPECT_NEAR(volume(mesh, "first"), 1 / 6., 1e-15);
   EXPECT_NEAR(volume(mesh, "two.Body"), 0.5, 1e-14);
   EXPECT_NEAR(area(mesh, "held"), 0.5, 1e-14);
+  EXPECT_NEAR(area(mesh, "numbers"), 0.5, 1e-14);
   EXPECT_NEAR(area(mesh, "one.foot"), 0.5, 1e-15);
   EXPECT_NEAR(area(mesh, "face"), std::sqrt(0.75) + 0.5, 1e-14);
   EXPECT_NEAR(area(mesh, "other"), std::sqrt(0.75), 1e-14);
@@ -184,6 +204,8 @@ TEST_F(AbaqusFile, Refusals)
      ": cells other than tetrahedra: found 1 of the type 'C3D8', 2 of the type "
      "'S4'; allowed are C3D4 and C3D10 with their variants, and triangles and "
      "lines, which give their names to faces and nodes"},
+    {"*NODE\n1\n",
+     ":2: a node is a number and three coordinates: found 1 fields"},
     {"*NODE\n1, 0, x, 0\n", ":2: found 'x'; allowed is a finite number"},
     {"*NODE\n1, 0, 1e999, 0\n",
      ":2: found '1e999'; allowed is a finite number"},

@@ -278,6 +278,22 @@ TEST(FileMesh, Refusals)
   EXPECT_EQ(message.compare(0, step.size() + 7, step + ": gmsh:"), 0)
     << message;
 
+  // OpenCASCADE would go on for ever.
+  const std::string brep = folder / "part.brep";
+  write_shapes(brep, [] { gmsh::model::occ::addSphere(0, 0, 0, 1); });
+  std::stringstream bytes;
+  bytes << std::ifstream(brep).rdbuf();
+  for (const std::size_t part : {2, 3, 5, 100})
+    EXPECT_EQ(refusal([&] {
+                read_file(
+                  folder.write("cut.brep",
+                               bytes.str().substr(
+                                 0, bytes.str().size() * (part - 1) / part)));
+              }),
+              (folder / "cut.brep") + ": the file does not end with a shape "
+                                      "behind those of TShapes: is the rest "
+                                      "missing?");
+
   const std::string open = folder / "open.step";
   write_shapes(open, [] {
     gmsh::model::occ::addRectangle(0, 0, 0, 1, 1);

@@ -4,6 +4,8 @@
 // The distributed mesh: whatever the number of ranks, the sums over all of them
 // are those of the one body.
 
+#include <corotet/base/exceptions.h>
+#include <corotet/base/memory.h>
 #include <corotet/mesh/box_mesh.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/mesh.h>
@@ -13,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <sstream>
 
 #include "mesh/tools.h"
@@ -205,7 +208,12 @@ TEST(Mesh, FromParameters)
   {
     Log log(comm, true);
     log.open(log_file);
+    const auto start = std::chrono::steady_clock::now();
     const Mesh mesh(parameters, "", comm, log);
+    const std::chrono::duration<double> whole =
+      std::chrono::steady_clock::now() - start;
+    EXPECT_GE(mesh.read_time(), 0);
+    EXPECT_LE(mesh.read_time(), whole.count());
     EXPECT_EQ(mesh.triangulation().n_global_active_cells(), 320u);
     EXPECT_NEAR(volume(mesh, 0), 1, 1e-13);
   }
@@ -233,6 +241,13 @@ TEST(Mesh, RefusalsReachEveryRank)
   EXPECT_EQ(refusal([&] { make_mesh(box_of_2_by_half_by_1("1, 1, 1"), 9); }),
             "Mesh/Refinements: too many cells: found 9 refinements, which "
             "make 6.71e+08 cells of 5; at most 3e+08 are allowed");
+
+  // What the memory cannot hold is refused before anything is made. Several
+  // ranks may be on several machines.
+  if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1 &&
+      available_memory() < 4e11)
+    EXPECT_THROW(make_mesh(box_of_2_by_half_by_1("12, 12, 12"), 5),
+                 MachineError);
 
   MeshParameters           parameters;
   dealii::ParameterHandler prm;

@@ -116,6 +116,9 @@ namespace
     EXPECT_TRUE(faces_of(again) == faces_of(mesh));
     EXPECT_EQ(edges_and_corners_of(again), edges_and_corners_of(mesh));
     EXPECT_EQ(again.vertices.size(), mesh.vertices.size());
+    // Straight cells along curved surfaces are remarked on, and no others.
+    if (mesh.geometry_degree > 1)
+      EXPECT_TRUE(again.remarks.empty());
   }
 
   SerialMesh

@@ -88,6 +88,20 @@ namespace
 
 
 
+  // A group of the first triangle alone names that triangle, and no body.
+  TEST_F(SurfaceMesh, GroupOfOneTriangle)
+  {
+    std::string text = obj_text(box_triangles({0, 0, 0}, {1, 1, 1}));
+    text.insert(text.find("f "), "g first\n");
+    text.insert(text.find("f ", text.find("f ") + 1), "g others\n");
+    const SerialMesh mesh = mesh_of(text);
+    EXPECT_NEAR(tests::area(mesh, "first"), 0.5, 1e-12);
+    EXPECT_NEAR(tests::area(mesh, "others"), 5.5, 1e-12);
+    EXPECT_TRUE(mesh.regions.names.empty());
+  }
+
+
+
   TEST_F(SurfaceMesh, BodiesAndHollows)
   {
     const Triangles outer  = box_triangles({0, 0, 0}, {1, 1, 1}),

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <regex>
+
 #include "surfaces.h"
 
 namespace
@@ -60,6 +63,8 @@ namespace
       {"stl", stl_text(box, "a box")},
       {"stl binary", stl_bytes(box)},
       {"ply", ply_bytes(box, "ascii")},
+      {"ply of Windows",
+       std::regex_replace(ply_bytes(box, "ascii"), std::regex("\n"), "\r\n")},
       {"ply little", ply_bytes(box, "binary_little_endian")},
       {"ply big", ply_bytes(box, "binary_big_endian")},
       {"obj", obj_text(box)},
@@ -107,6 +112,11 @@ namespace
 
   TEST_F(SurfaceFiles, Damage)
   {
+    // The last coordinate of the second corner of the second triangle: behind
+    // the head of 84 bytes, 50 for each triangle, 12 for each vector.
+    std::string no_point = stl_bytes(unit_box);
+    const float nan      = std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(&no_point[84 + 50 + 12 + 12 + 8], &nan, 4);
     struct Damage
     {
       std::string format, bytes, message;
@@ -134,6 +144,9 @@ namespace
       {"stl",
        stl_bytes(unit_box).substr(0, 600),
        "a binary STL file with 12 triangles has 684 bytes: found 600: is the rest missing?"},
+      {"stl",
+       no_point,
+       "triangle 2 of 12 has a corner that is no point: found 1, 1, nan"},
       {"off",
        "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
        ":6: no such vertex: found 3; allowed are 0 to 2"},
@@ -166,6 +179,9 @@ namespace
       {"ply",
        "ply\nformat ascii 1.0\nelement vertex 1\nproperty number x\n",
        ":4: the type of a property is unknown: found 'number'"},
+      {"ply",
+       "ply\nformat ascii 1.0\nelement face 1\nproperty list float int v\n",
+       ":4: the length of a list is a whole number"},
       {"ply",
        ply_bytes(unit_box, "binary_little_endian").substr(0, 300),
        "the file ends before the last of its elements"}};
@@ -204,6 +220,36 @@ namespace
               [&, format = format] { read_triangle_file(path, format); });
             EXPECT_NE(said, "nothing was refused") << n;
           }
+  }
+
+
+
+  // Which side is inside is known far from the origin, too.
+  TEST_F(SurfaceFiles, FacesOutwards)
+  {
+    for (const double far : {-1000., 1000.})
+      for (const bool inwards : {false, true})
+        EXPECT_NEAR(volume_inside(
+                      mended(box_triangles({far, 2 * far, 3 * far},
+                                           {far + 1, 2 * far + 2, 3 * far + 3},
+                                           inwards))),
+                    6,
+                    1e-6);
+  }
+
+
+
+  // Three corners on a line, and the neighbour at the long edge has no other
+  // edge to offer: both triangles would have the same ones.
+  TEST_F(SurfaceFiles, TriangleWithoutArea)
+  {
+    const Point<3>    a(0, 0, 0), b(2, 0, 0), c(1, 0, 0), d(1, 1, 0);
+    const std::string said =
+      refusal_of({{a, c, b}, {b, d, a}, {a, d, c}, {b, c, d}});
+    EXPECT_NE(said.find("found 1 triangle without area, the first at (0, 0, "
+                        "0)"),
+              std::string::npos)
+      << said;
   }
 
 
