@@ -246,8 +246,10 @@ TEST(Mesh, RefusalsReachEveryRank)
   // ranks may be on several machines.
   if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1 &&
       available_memory() < 4e11)
-    EXPECT_THROW(make_mesh(box_of_2_by_half_by_1("12, 12, 12"), 5),
-                 MachineError);
+    {
+      EXPECT_THROW(make_mesh(box_of_2_by_half_by_1("12, 12, 12"), 5),
+                   MachineError);
+    }
 
   MeshParameters           parameters;
   dealii::ParameterHandler prm;

@@ -22,7 +22,7 @@ using namespace corotet::tests;
 namespace
 {
   using Coordinates = std::vector<double>;
-  using Names       = std::set<std::string>;
+  using NameSet     = std::set<std::string>;
 
   void
   append(Coordinates &all, const dealii::Point<3> &x)
@@ -31,13 +31,13 @@ namespace
   }
 
   // All names that mean an id.
-  Names
+  NameSet
   names_of(const std::string &kind,
            const NamedSets   &named,
            const unsigned int id)
   {
     const MeshNames names(kind, named);
-    Names           result;
+    NameSet         result;
     for (const std::string &name : names.known())
       {
         const auto ids = names.ids(name, "");
@@ -48,11 +48,11 @@ namespace
   }
 
   // Vertices and, if it is curved, nodes of each cell; names of its region.
-  std::map<Coordinates, Names>
+  std::map<Coordinates, NameSet>
   cells_of(const SerialMesh &mesh)
   {
-    std::map<Coordinates, Names> result;
-    const std::size_t            n = map_points(mesh.geometry_degree).size();
+    std::map<Coordinates, NameSet> result;
+    const std::size_t              n = map_points(mesh.geometry_degree).size();
     for (const SerialMesh::Cell &cell : mesh.cells)
       {
         Coordinates x;
@@ -66,10 +66,10 @@ namespace
     return result;
   }
 
-  std::map<Coordinates, Names>
+  std::map<Coordinates, NameSet>
   faces_of(const SerialMesh &mesh)
   {
-    std::map<Coordinates, Names> result;
+    std::map<Coordinates, NameSet> result;
     for (const SerialMesh::Face &face : mesh.faces)
       {
         Coordinates x;
@@ -81,10 +81,10 @@ namespace
   }
 
   // Each with its names.
-  std::set<std::pair<Coordinates, Names>>
+  std::set<std::pair<Coordinates, NameSet>>
   edges_and_corners_of(const SerialMesh &mesh)
   {
-    std::set<std::pair<Coordinates, Names>> result;
+    std::set<std::pair<Coordinates, NameSet>> result;
     for (const auto &[ends, id] : mesh.edges)
       {
         std::vector<Coordinates> x(2);
@@ -118,7 +118,9 @@ namespace
     EXPECT_EQ(again.vertices.size(), mesh.vertices.size());
     // Straight cells along curved surfaces are remarked on, and no others.
     if (mesh.geometry_degree > 1)
-      EXPECT_TRUE(again.remarks.empty());
+      {
+        EXPECT_TRUE(again.remarks.empty());
+      }
   }
 
   SerialMesh
@@ -185,8 +187,8 @@ TEST(MshFile, NumbersWithoutNames)
   expect_the_same_again(mesh);
 }
 
-// Names of edges and corners that overlap, with and without names, of cells of
-// all degrees.
+// Names of edges and corners that overlap, with and without names, of cells
+// of all degrees.
 TEST(MshFile, EdgesAndCorners)
 {
   for (const std::string degree : {"1", "2", "3"})

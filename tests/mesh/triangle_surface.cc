@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <regex>
 
 #include "surfaces.h"
@@ -106,120 +105,6 @@ namespace
     EXPECT_EQ(surface.names, names);
     EXPECT_EQ(std::count(surface.groups.begin(), surface.groups.end(), 2u), 8);
     EXPECT_NEAR(volume_inside(surface), 1, 1e-15);
-  }
-
-
-
-  TEST_F(SurfaceFiles, Damage)
-  {
-    // The last coordinate of the second corner of the second triangle: behind
-    // the head of 84 bytes, 50 for each triangle, 12 for each vector.
-    std::string no_point = stl_bytes(unit_box);
-    const float nan      = std::numeric_limits<float>::quiet_NaN();
-    std::memcpy(&no_point[84 + 50 + 12 + 12 + 8], &nan, 4);
-    struct Damage
-    {
-      std::string format, bytes, message;
-    };
-    const std::vector<Damage> cases{
-      {"stl",
-       "solid\nfacet\nouter loop\nvertex 0 0 x\n",
-       ":4: a number is expected: found 'x'"},
-      {"stl",
-       "solid\nfacet\nouter loop\nvertex 0 0\n",
-       ":4: a number is missing"},
-      {"stl",
-       "solid\nfacet\nouter loop\nvertex 0 0 1e999\n",
-       ":4: a number is expected: found '1e999'"},
-      {"stl",
-       "solid\nfacet\nouter loop\nvertex 0 0 nan\n",
-       ":4: a number is expected: found 'nan'"},
-      {"stl",
-       "solid\nfacet\nouter\nvertex 0 0 0\nendloop\n",
-       ":5: 'vertex' is expected: found 'endloop'"},
-      {"stl", "solid x\nfacet\n", "the file ends before 'outer'"},
-      {"stl", "solid x\n", "the file ends before 'endsolid'"},
-      {"stl", "solid x\nendsolid\n", "the file has no triangle"},
-      {"stl", "short", "a binary STL file has at least 84 bytes: found 5"},
-      {"stl",
-       stl_bytes(unit_box).substr(0, 600),
-       "a binary STL file with 12 triangles has 684 bytes: found 600: is the rest missing?"},
-      {"stl",
-       no_point,
-       "triangle 2 of 12 has a corner that is no point: found 1, 1, nan"},
-      {"off",
-       "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
-       ":6: no such vertex: found 3; allowed are 0 to 2"},
-      {"off",
-       "OFF\n3 1 0\n0 0 0\n1 0 0\n",
-       "the file ends before vertex 3 of 3"},
-      {"off", "OFF BINARY\n", ":1: binary files are not read"},
-      {"off",
-       "OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n",
-       ":6: a face has 3 to 1000 corners: found 2"},
-      {"obj",
-       "v 0 0 0\nf 1 2 3\n",
-       ":2: no such vertex: found '2'; allowed are 1 to 1"},
-      {"obj", "v 0 0 0\nf 1 1 0\n", ":2: no such vertex: found '0'"},
-      {"obj", "v 0 0 0\nf 1 1 a\n", ":2: no such vertex: found 'a'"},
-      {"obj", "v 0 0 0\ncurv 0 1 1 2\n", ":2: the keyword is unknown"},
-      {"ply",
-       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n",
-       ":5: there are no elements 'vertex' with the properties x, y, z"},
-      {"ply",
-       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
-       "is this a cloud of points?"},
-      {"ply", "ply\nformat text\n", ":2: the format is unknown: found 'text'"},
-      {"ply",
-       "ply\nformat ascii 1.0\nproperty float x\n",
-       ":3: a property comes before the first element"},
-      {"ply",
-       "ply\nformat ascii 1.0\nelement vertex -1\n",
-       ":3: a number of elements is negative: found -1"},
-      {"ply",
-       "ply\nformat ascii 1.0\nelement vertex 1\nproperty number x\n",
-       ":4: the type of a property is unknown: found 'number'"},
-      {"ply",
-       "ply\nformat ascii 1.0\nelement face 1\nproperty list float int v\n",
-       ":4: the length of a list is a whole number"},
-      {"ply",
-       ply_bytes(unit_box, "binary_little_endian").substr(0, 300),
-       "the file ends before the last of its elements"}};
-    const std::map<std::string, MeshFormat> formats{{"stl", MeshFormat::stl},
-                                                    {"off", MeshFormat::off},
-                                                    {"obj", MeshFormat::obj},
-                                                    {"ply", MeshFormat::ply}};
-    for (const auto &[format, bytes, message] : cases)
-      {
-        const std::string path = folder.write("damaged", bytes);
-        const std::string said =
-          refusal([&] { read_triangle_file(path, formats.at(format)); });
-        EXPECT_NE(said.find(message), std::string::npos) << said;
-        EXPECT_EQ(said.find(path), 0u) << said;
-      }
-  }
-
-
-
-  // However much of a file is missing, that is said: only what follows its
-  // last triangle may go.
-  TEST_F(SurfaceFiles, CutOffAnywhere)
-  {
-    const std::map<MeshFormat, std::vector<std::string>> files{
-      {MeshFormat::stl, {stl_text(unit_box), stl_bytes(unit_box)}},
-      {MeshFormat::off, {off_text(unit_box)}},
-      {MeshFormat::ply,
-       {ply_bytes(unit_box, "ascii"),
-        ply_bytes(unit_box, "binary_little_endian")}}};
-    for (const auto &[format, texts] : files)
-      for (const std::string &bytes : texts)
-        for (std::size_t n = 1; n + 12 < bytes.size(); n += 7)
-          {
-            const std::string path = folder.write("cut", bytes.substr(0, n));
-            const std::string said = refusal(
-              [&, format = format] { read_triangle_file(path, format); });
-            EXPECT_NE(said, "nothing was refused") << n;
-          }
   }
 
 
