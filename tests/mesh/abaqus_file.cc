@@ -126,7 +126,7 @@ TEST_F(AbaqusFile, CurvedCellsAndTriangles)
   std::set<std::array<unsigned int, 2>> ends;
   for (const SerialMesh::Edge &edge : mesh.edges)
     ends.insert(edge.vertices);
-  EXPECT_EQ(ends, (std::set<std::array<unsigned int, 2>>{{0, 1}, {0, 2}}));
+  EXPECT_EQ(ends, (std::set<std::array<unsigned int, 2>>{{{0, 1}}, {{0, 2}}}));
   EXPECT_TRUE(mesh.remarks.empty());
 }
 
