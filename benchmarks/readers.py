@@ -118,9 +118,11 @@ def family(process):
     return members
 
 
-def peak(process):
-    """The most memory that it had so far [bytes]."""
+def peak(process, parent):
+    """The most memory that it had so far [bytes]; none as long as it is a copy of its parent, about to start a program of its own."""
     try:
+        if process != parent and os.readlink(f"/proc/{process}/exe") == os.readlink(f"/proc/{parent}/exe"):
+            return 0
         for line in pathlib.Path(f"/proc/{process}/status").read_text(encoding="ascii").splitlines():
             if line.startswith("VmHWM:"):
                 return 1024 * int(line.split()[1])
@@ -136,7 +138,7 @@ def read(program, file, *arguments):
         peaks = {}
         while True:
             for process in family(run.pid):
-                peaks[process] = max(peaks.get(process, 0), peak(process))
+                peaks[process] = max(peaks.get(process, 0), peak(process, run.pid))
             ended, status, usage = os.wait4(run.pid, os.WNOHANG)
             if ended:
                 break
