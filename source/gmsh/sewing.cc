@@ -124,7 +124,8 @@ namespace corotet::gmsh_program
     }
 
 
-    // Corners of a volume, and a point of each of its surfaces.
+    // Corners of a volume, and the middles of its surfaces, but where these
+    // have a hole there.
     std::vector<double>
     points_around(const int volume)
     {
@@ -140,11 +141,11 @@ namespace corotet::gmsh_program
       for (const auto &[dimension, surface] : parts)
         {
           gmsh::model::getParametrizationBounds(2, surface, low, high);
-          gmsh::model::getValue(2,
-                                surface,
-                                {(low[0] + high[0]) / 2,
-                                 (low[1] + high[1]) / 2},
-                                point);
+          const std::vector<double> middle = {(low[0] + high[0]) / 2,
+                                              (low[1] + high[1]) / 2};
+          if (gmsh::model::isInside(2, surface, middle, true) == 0)
+            continue;
+          gmsh::model::getValue(2, surface, middle, point);
           result.insert(result.end(), point.begin(), point.end());
         }
       return result;

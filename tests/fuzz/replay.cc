@@ -78,7 +78,7 @@ namespace
   }
 
   // Memory that is private and can be written: what RLIMIT_DATA counts.
-  std::uint64_t
+  [[maybe_unused]] std::uint64_t
   data_size()
   {
     std::ifstream file("/proc/self/statm");
