@@ -59,8 +59,10 @@ namespace fuzz
     {
       const double a = rows.arguments[i], b = rows.arguments[i + 1];
       const double f = rows.values[i], g = rows.values[i + 1];
-      const double slack = 64 * std::numeric_limits<double>::epsilon() *
-                           (std::abs(f) + std::abs(g));
+      // Round-off, of subnormal numbers, too, which have fewer digits.
+      const double slack = 64 * (std::numeric_limits<double>::epsilon() *
+                                   (std::abs(f) + std::abs(g)) +
+                                 std::numeric_limits<double>::denorm_min());
       for (const double s : {0.25, 0.5, 0.875})
         {
           const double value = function.value(a + s * (b - a));
