@@ -97,13 +97,20 @@ namespace corotet
     const double h = arguments[row + 1] - arguments[row];
     const double d = values[row + 1] - values[row];
     const double s = (argument - arguments[row]) / h;
+    // Both interpolations are between their rows; round-off must not leave
+    // them, as it can where slopes are subnormal and rows far apart.
+    const auto between = [&](const double value) {
+      return std::clamp(value,
+                        std::min(values[row], values[row + 1]),
+                        std::max(values[row], values[row + 1]));
+    };
     if (slopes.empty())
-      return {{values[row] + s * d, d / h, 0.}};
+      return {{between(values[row] + s * d), d / h, 0.}};
     const double a  = h * slopes[row];
     const double b  = h * slopes[row + 1];
     const double c2 = 3 * d - 2 * a - b;
     const double c3 = a + b - 2 * d;
-    return {{values[row] + s * (a + s * (c2 + s * c3)),
+    return {{between(values[row] + s * (a + s * (c2 + s * c3))),
              (a + s * (2 * c2 + s * 3 * c3)) / h,
              (2 * c2 + 6 * s * c3) / (h * h)}};
   }

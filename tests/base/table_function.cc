@@ -113,6 +113,26 @@ TEST(TableFunction, NeverOvershoots)
     }
 }
 
+// Round-off stays between the rows, too: of slopes, which are subnormal here,
+// it is multiplied by the distance of the rows.
+TEST(TableFunction, NeverOvershootsByRoundOff)
+{
+  const std::vector<double> arguments = {0, 1, 2, 2000, 4000, 9000},
+                            rows      = {3, 2, 64.9e-324, 0, 5e-323, 1};
+  for (const auto interpolation : {linear, cubic})
+    {
+      const TableFunction f(arguments, rows, interpolation);
+      for (unsigned int i = 0; i + 1 < rows.size(); ++i)
+        for (double s = 0; s <= 1; s += 1 / 64.)
+          {
+            const double value =
+              f.value(arguments[i] + s * (arguments[i + 1] - arguments[i]));
+            EXPECT_GE(value, std::min(rows[i], rows[i + 1])) << i << ' ' << s;
+            EXPECT_LE(value, std::max(rows[i], rows[i + 1])) << i << ' ' << s;
+          }
+    }
+}
+
 // Slopes from both sides of inner rows agree up to the step of differences
 // times second derivatives, which are below 60 for these rows; those of linear
 // interpolation differ by 1 and more.
