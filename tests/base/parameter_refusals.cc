@@ -155,6 +155,12 @@ TEST(ParameterFile, RefusesDeepNesting)
                             repeated("<a>", 100000) + repeated("</a>", 100000)),
             "a.xml: " + reason);
   // Comments are no levels.
+  // What follows the shortest statement, and the shortest end of an element,
+  // counts.
+  EXPECT_EQ(example.refusal("a.xml", "<??>" + repeated("<a>", 100)),
+            "a.xml: " + reason);
+  EXPECT_EQ(example.refusal("a.xml", repeated("<b><a></>", 100)),
+            "a.xml: " + reason);
   EXPECT_EQ(example.refusal("a.xml",
                             "<?xml version=\"1.0\"?><ParameterHandler>" +
                               repeated("<!-- a -->", 30) +

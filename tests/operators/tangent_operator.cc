@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The exact tangent of a step, K_T + c_M M.
+
+#include <gtest/gtest.h>
+
+#include "../body.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+using dealii::Point;
+using dealii::Tensor;
+
+// However mass is made, it is in the tangent once, and not at all in statics:
+// J(c_M) v - J(0) v = c_M M v where nothing is prescribed. c_M makes both parts
+// of the same size, so that little cancels.
+TEST(TangentOperator, HasTheMassOnce)
+{
+  for (const std::string type : {"consistent", "diagonal scaling"})
+    {
+      SCOPED_TRACE(type);
+      MovingBody        body(box("1, 2, 1", "2, 2, 2", 0.2),
+                      element_text(2) + rotation_at("quadrature points") +
+                        section("Discretization", {{"Mass", type}}) +
+                        section("Material", {{"Density", 3}}));
+      EffectiveOperator A(body.discretization,
+                          body.elasticity,
+                          body.mass,
+                          body.motion.is_prescribed());
+      TangentOperator   J(A, body.elasticity, body.system.equation().terms);
+      const Vector      u = body.interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>(
+          {0.1 * x[1] * x[2], -0.2 * x[0], 0.05 * x[0] * x[1]});
+      });
+      const Vector      v = body.interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({std::sin(3 * x[0]), 1., x[1] * x[2]});
+      });
+      body.elasticity.update_rotations(u);
+      const auto applied = [&](const double c_M) {
+        A.update(1., c_M);
+        J.update({0., u, u}, Tangent::consistent, 1., 0.);
+        Vector result(v);
+        J.vmult(result, v);
+        return result;
+      };
+      Vector Mv(v);
+      body.mass.apply(Mv, v);
+      const Vector without = applied(0);
+      const double c_M     = norm(without) / norm(Mv);
+      Vector       found   = applied(c_M);
+      found -= without;
+      Mv *= c_M;
+      EXPECT_LE(largest_difference(found, Mv), 1e-13 * norm(Mv));
+    }
+}
