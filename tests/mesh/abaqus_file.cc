@@ -123,6 +123,7 @@ TEST_F(AbaqusFile, CurvedCellsAndTriangles)
   EXPECT_NEAR(area(mesh, "bottom"), 0.5, 1e-15);
   EXPECT_EQ(MeshNames("edge", mesh.edge_names).known(),
             (Known{"beam", "edge"}));
+  EXPECT_EQ(mesh.edges.size(), 2u);
   std::set<std::array<unsigned int, 2>> ends;
   for (const SerialMesh::Edge &edge : mesh.edges)
     ends.insert(edge.vertices);
