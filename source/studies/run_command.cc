@@ -173,7 +173,7 @@ namespace corotet
       command_for_page() const
       {
         const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
-        return (toolchain ? toolchain + std::string(" ") : "") +
+        return (toolchain && *toolchain ? toolchain + std::string(" ") : "") +
                "scripts/report " + directory;
       }
 

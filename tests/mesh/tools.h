@@ -79,6 +79,15 @@ namespace corotet::tests
     gmsh::finalize();
   }
 
+  /// Within write_shapes(): cuts a solid out of another one, by their numbers.
+  inline void
+  cut_solid(const int solid, const int tool)
+  {
+    gmsh::vectorpair              result;
+    std::vector<gmsh::vectorpair> parts;
+    gmsh::model::occ::cut({{3, solid}}, {{3, tool}}, result, parts);
+  }
+
   inline double
   total(const std::map<unsigned int, double> &values)
   {
