@@ -154,7 +154,7 @@ TEST(ParameterFile, RefusesDeepNesting)
   EXPECT_EQ(example.refusal("a.xml",
                             repeated("<a>", 100000) + repeated("</a>", 100000)),
             "a.xml: " + reason);
-  // Comments are no levels.
+  // Comments and statements are no levels.
   // What follows the shortest statement, and the shortest end of an element,
   // counts.
   EXPECT_EQ(example.refusal("a.xml", "<??>" + repeated("<a>", 100)),
@@ -163,7 +163,7 @@ TEST(ParameterFile, RefusesDeepNesting)
             "a.xml: " + reason);
   EXPECT_EQ(example.refusal("a.xml",
                             "<?xml version=\"1.0\"?><ParameterHandler>" +
-                              repeated("<!-- a -->", 30) +
+                              repeated("<!-- a --><?b?>", 30) +
                               "</ParameterHandler>"),
             "accepted");
   EXPECT_EQ(example.refusal("a.json",

@@ -247,8 +247,18 @@ TEST(Mesh, RefusalsReachEveryRank)
   if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1 &&
       available_memory() < 4e11)
     {
-      EXPECT_THROW(make_mesh(box_of_2_by_half_by_1("12, 12, 12"), 5),
-                   MachineError);
+      std::string said;
+      try
+        {
+          make_mesh(box_of_2_by_half_by_1("12, 12, 12"), 5);
+        }
+      catch (const MachineError &error)
+        {
+          said = error.what();
+        }
+      EXPECT_NE(said.find("2.831e+08 cells of degree 3 would need at least"),
+                std::string::npos)
+        << said;
     }
 
   MeshParameters           parameters;

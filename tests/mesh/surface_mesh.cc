@@ -97,7 +97,10 @@ namespace
     const SerialMesh mesh = mesh_of(text);
     EXPECT_NEAR(tests::area(mesh, "first"), 0.5, 1e-12);
     EXPECT_NEAR(tests::area(mesh, "others"), 5.5, 1e-12);
-    EXPECT_TRUE(mesh.regions.names.empty());
+    EXPECT_EQ(refusal([&] {
+                MeshNames("region", mesh.regions).ids("others", "");
+              }).find("nothing was refused"),
+              std::string::npos);
   }
 
 
