@@ -186,6 +186,16 @@ namespace corotet
     });
   }
 
+  bool
+  ForceTerms::has_stiff_damping() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      const MatrixShares shares = term.damping_shares();
+      return term.depends_on_velocity() &&
+             (shares.stiffness > 0 || shares.mass == 0);
+    });
+  }
+
   MatrixShares
   ForceTerms::damping_shares() const
   {

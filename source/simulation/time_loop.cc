@@ -89,6 +89,36 @@ namespace corotet
            (interval > 0 && results(to) > results(from));
   }
 
+  StageReport
+  TimeLoop::solve_first_acceleration()
+  {
+    const double start_time = parameters.start_time;
+    if (integrator->is_explicit() || integrator->keeps_energy() ||
+        !system.equation().terms.has_stiff_damping())
+      return system.solve_acceleration(present, start_time);
+
+    double dt = end_of_step(1) * (parameters.end_time - start_time);
+    // Steps that fail are made in halves, too.
+    for (unsigned int n = 0; n <= parameters.max_halvings; ++n, dt *= 0.5)
+      try
+        {
+          State state = present;
+          state.a     = 0;
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              state.u = present.u;
+              state.v = present.v;
+              system.prescribe(state, start_time, 1.);
+              system.solve_stage(state, {start_time, 2 / dt, 2 / (dt * dt)});
+            }
+          present.a = state.a;
+          return {};
+        }
+      catch (const ComputationError &)
+        {}
+    return system.solve_acceleration(present, start_time);
+  }
+
   const StepRecord &
   TimeLoop::start(const OutputTimes &wanted)
   {
@@ -98,8 +128,7 @@ namespace corotet
     if (integrator->is_dynamic())
       {
         system.prescribe(present, start_time, 1.);
-        const StageReport report =
-          system.solve_acceleration(present, start_time);
+        const StageReport report = solve_first_acceleration();
         if (integrator->is_explicit() && !body.mass.is_lumped())
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
                                "gradients a step",

@@ -74,6 +74,11 @@ namespace corotet
     bool
     depends_on_velocity() const;
 
+    /// Whether velocities may change far within a step by damping: whether any
+    /// term but those that are proportional to the mass depends on them.
+    bool
+    has_stiff_damping() const;
+
     /// What the terms' - df/dv has of the body's matrices.
     MatrixShares
     damping_shares() const;
