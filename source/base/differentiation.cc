@@ -149,7 +149,7 @@ namespace corotet
       GiNaC::ex
       operator()(const GiNaC::ex &formula) override
       {
-        const GiNaC::ex mapped = formula.map(*this);
+        GiNaC::ex mapped = formula.map(*this);
         if (!GiNaC::is_a<GiNaC::power>(mapped))
           return mapped;
         unsigned int n_left   = 20;

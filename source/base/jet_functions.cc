@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 namespace corotet
 {
@@ -254,62 +255,64 @@ namespace corotet
     std::map<std::string, JetFunction>
     smooth_functions()
     {
-      return {
-        {"sin", unary<sine>},
-        {"cos", unary<cosine>},
-        {"tan", unary<tangent>},
-        {"cot", unary<[](const Jet &a) { return Jet{1} / tangent(a); }>},
-        {"csc", unary<[](const Jet &a) { return Jet{1} / sine(a); }>},
-        {"sec", unary<[](const Jet &a) { return Jet{1} / cosine(a); }>},
-        {"asin", unary<[](const Jet &a) {
-           return inverse_root(std::asin(a.value), 1, -1, a);
-         }>},
-        {"acos", unary<[](const Jet &a) {
-           return -inverse_root(-std::acos(a.value), 1, -1, a);
-         }>},
-        {"atan", unary<[](const Jet &a) {
-           return inverse_square(std::atan(a.value), 1, a);
-         }>},
-        {"atan2", binary<arc_tangent>},
-        {"sinh", unary<[](const Jet &a) {
-           const double s = std::sinh(a.value);
-           return chain({s, std::cosh(a.value), s}, a);
-         }>},
-        {"cosh", unary<[](const Jet &a) {
-           const double c = std::cosh(a.value);
-           return chain({c, std::sinh(a.value), c}, a);
-         }>},
-        {"tanh", unary<[](const Jet &a) {
-           const double value = std::tanh(a.value);
-           const double first = 1 / (std::cosh(a.value) * std::cosh(a.value));
-           return chain({value, first, -2 * value * first}, a);
-         }>},
-        {"asinh", unary<[](const Jet &a) {
-           return inverse_root(std::asinh(a.value), 1, 1, a);
-         }>},
-        {"acosh", unary<[](const Jet &a) {
-           return inverse_root(std::acosh(a.value), -1, 1, a);
-         }>},
-        {"atanh", unary<[](const Jet &a) {
-           return inverse_square(std::atanh(a.value), -1, a);
-         }>},
-        {"ln", unary<logarithm>},
-        {"log", unary<logarithm>},
-        {"log2",
-         unary<[](const Jet &a) { return logarithm(a) / Jet{std::log(2.)}; }>},
-        {"log10",
-         unary<[](const Jet &a) { return logarithm(a) / Jet{std::log(10.)}; }>},
-        {"exp", unary<exponential>},
-        {"sqrt", unary<square_root>},
-        {"pow", binary<power>},
-        {"erf", unary<[](const Jet &a) {
-           return error_function(std::erf(a.value), 1, a);
-         }>},
-        {"erfc", unary<[](const Jet &a) {
-           return error_function(std::erfc(a.value), -1, a);
-         }>},
-        {"sum", sum},
-        {"avg", mean}};
+      return {{"sin", unary<sine>},
+              {"cos", unary<cosine>},
+              {"tan", unary<tangent>},
+              {"cot", unary<[](const Jet &a) { return Jet{1} / tangent(a); }>},
+              {"csc", unary<[](const Jet &a) { return Jet{1} / sine(a); }>},
+              {"sec", unary<[](const Jet &a) { return Jet{1} / cosine(a); }>},
+              {"asin", unary<[](const Jet &a) {
+                 return inverse_root(std::asin(a.value), 1, -1, a);
+               }>},
+              {"acos", unary<[](const Jet &a) {
+                 return -inverse_root(-std::acos(a.value), 1, -1, a);
+               }>},
+              {"atan", unary<[](const Jet &a) {
+                 return inverse_square(std::atan(a.value), 1, a);
+               }>},
+              {"atan2", binary<arc_tangent>},
+              {"sinh", unary<[](const Jet &a) {
+                 const double s = std::sinh(a.value);
+                 return chain({s, std::cosh(a.value), s}, a);
+               }>},
+              {"cosh", unary<[](const Jet &a) {
+                 const double c = std::cosh(a.value);
+                 return chain({c, std::sinh(a.value), c}, a);
+               }>},
+              {"tanh", unary<[](const Jet &a) {
+                 const double value = std::tanh(a.value);
+                 const double first =
+                   1 / (std::cosh(a.value) * std::cosh(a.value));
+                 return chain({value, first, -2 * value * first}, a);
+               }>},
+              {"asinh", unary<[](const Jet &a) {
+                 return inverse_root(std::asinh(a.value), 1, 1, a);
+               }>},
+              {"acosh", unary<[](const Jet &a) {
+                 return inverse_root(std::acosh(a.value), -1, 1, a);
+               }>},
+              {"atanh", unary<[](const Jet &a) {
+                 return inverse_square(std::atanh(a.value), -1, a);
+               }>},
+              {"ln", unary<logarithm>},
+              {"log", unary<logarithm>},
+              {"log2", unary<[](const Jet &a) {
+                 return logarithm(a) / Jet{std::numbers::ln2};
+               }>},
+              {"log10", unary<[](const Jet &a) {
+                 return logarithm(a) / Jet{std::numbers::ln10};
+               }>},
+              {"exp", unary<exponential>},
+              {"sqrt", unary<square_root>},
+              {"pow", binary<power>},
+              {"erf", unary<[](const Jet &a) {
+                 return error_function(std::erf(a.value), 1, a);
+               }>},
+              {"erfc", unary<[](const Jet &a) {
+                 return error_function(std::erfc(a.value), -1, a);
+               }>},
+              {"sum", sum},
+              {"avg", mean}};
     }
 
     std::map<std::string, JetFunction>

@@ -86,7 +86,7 @@ namespace corotet
     {
       using Clock     = std::chrono::steady_clock;
       const auto  end = Clock::now() + std::chrono::duration<double>(seconds);
-      MPI_Request request;
+      MPI_Request request = MPI_REQUEST_NULL;
       MPI_Ibarrier(comm, &request);
       for (int done = 0;;)
         {

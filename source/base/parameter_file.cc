@@ -178,7 +178,7 @@ namespace corotet
     void
     move_file_names(Json &section, const fs::path &from, const fs::path &to)
     {
-      for (auto &[key, node] : section.items())
+      for (const auto &[key, node] : section.items())
         if (is_entry(node))
           {
             const std::string value   = node.at("value");
@@ -298,7 +298,7 @@ namespace corotet
   {
     Json                                      result   = tree();
     const std::function<void(Json & section)> simplify = [&](Json &section) {
-      for (auto &[key, node] : section.items())
+      for (const auto &[key, node] : section.items())
         if (is_entry(node))
           node = Json(node.at("value"));
         else if (node.is_object())

@@ -62,7 +62,9 @@ namespace corotet
     }
 
     std::string
-    replaced(std::string text, const std::string &from, const std::string &to)
+    replaced(const std::string &text,
+             const std::string &from,
+             const std::string &to)
     {
       return dealii::Utilities::replace_in_string(text, from, to);
     }

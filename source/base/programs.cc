@@ -172,7 +172,7 @@ namespace corotet
   {
     std::vector<std::string> words = {path};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    pid_t process;
+    pid_t process = 0;
     if (posix_spawn(&process,
                     path.c_str(),
                     nullptr,

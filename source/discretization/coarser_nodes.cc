@@ -65,7 +65,9 @@ namespace corotet
     for (unsigned int c = 0; c < finer.n_local_cells(); ++c)
       {
         const auto fine = finer.cell_nodes(c);
-        key_of_cell_node.insert(key_of_cell_node.end(), &fine[0], &fine[0] + 4);
+        key_of_cell_node.insert(key_of_cell_node.end(),
+                                fine.data(),
+                                fine.data() + 4);
         if (finer.element().has_bubbles())
           key_of_cell_node.insert(key_of_cell_node.end(),
                                   &fine[4],
@@ -183,7 +185,7 @@ namespace corotet
         if (has_bubbles && is_new(fine[14]))
           {
             in_cells.push_back({fine[14], {}});
-            std::copy_n(&coarse[0], 10, in_cells.back().coarse.begin());
+            std::copy_n(coarse.data(), 10, in_cells.back().coarse.begin());
           }
       }
     // Fine nodes in ascending order: the order of memory.

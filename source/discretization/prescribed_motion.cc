@@ -125,7 +125,8 @@ namespace corotet
                        fmt::format("{} have no node in common: found '{}'; "
                                    "allowed are those that meet in an edge or "
                                    "a corner",
-                                   plural(conditions.kind(condition.places)),
+                                   plural(BoundaryConditions::kind(
+                                     condition.places)),
                                    conditions.name(condition.places)));
     return is_common;
   }
@@ -164,7 +165,7 @@ namespace corotet
                           "displacements in {} at their common point ({}, {}, "
                           "{}) at t = {}: found {} and {}, allowed are equal "
                           "ones",
-                          plural(conditions.kind(both)),
+                          plural(BoundaryConditions::kind(both)),
                           conditions.name(places(entries[first])),
                           conditions.name(places(other)),
                           "xyz"[other.unknown % 3],

@@ -108,7 +108,7 @@ namespace corotet
       std::accumulate(n_from.begin(), n_from.end(), std::size_t(0));
     std::vector<Number> target(n * n_columns);
     // As a type of MPI, so that numbers of bytes fit into its int.
-    MPI_Datatype row;
+    MPI_Datatype row = MPI_DATATYPE_NULL;
     MPI_Type_contiguous(n_columns * sizeof(Number), MPI_BYTE, &row);
     MPI_Type_commit(&row);
     MPI_Alltoallv(source.data(),

@@ -54,7 +54,7 @@ namespace corotet
     creation_properties(const hid_t kind)
     {
       Hdf5Id properties(H5Pcreate(kind));
-      H5Pset_obj_track_times(properties, 0);
+      H5Pset_obj_track_times(properties, false);
       return properties;
     }
 

@@ -22,7 +22,6 @@ namespace corotet
     const SimulationParameters &parameters,
     const bool                  is_used)
     : parameters(parameters)
-    , manufacture(false)
   {
     const auto &section = parameters.exact_solution;
     if (!is_used || dealii::Utilities::trim(section.displacement).empty())
@@ -128,7 +127,7 @@ namespace corotet
       displacement_boundaries(boundaries);
     std::vector<unsigned int> others{unnamed_boundary};
     for (const auto &[id, name] : boundaries.all())
-      if (prescribed.count(id) == 0)
+      if (!prescribed.contains(id))
         others.push_back(id);
     const ExactSolution &solution = *exact;
     const bool           varies   = solution.depends_on_time();

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace corotet
 {
@@ -252,8 +253,8 @@ namespace corotet
             const double weight =
               the_body.mass.diagonal().local_element(3 * n + a) *
               x.local_element(3 * n + a);
-            const double phase = std::sqrt(2.) * r[a] +
-                                 std::sqrt(3.) * r[(a + 1) % 3] +
+            const double phase = std::numbers::sqrt2 * r[a] +
+                                 std::numbers::sqrt3 * r[(a + 1) % 3] +
                                  std::sqrt(5.) * r[(a + 2) % 3];
             for (unsigned int k = 0; k < n_waves; ++k)
               products[k] +=

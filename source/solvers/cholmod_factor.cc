@@ -162,15 +162,15 @@ namespace corotet
   bool
   CholmodFactor::pivots_are_sound() const
   {
-    const int    *first  = static_cast<const int *>(L->super);
-    const int    *pi     = static_cast<const int *>(L->pi);
-    const int    *px     = static_cast<const int *>(L->px);
-    const int    *row    = static_cast<const int *>(L->Perm);
-    const int    *ends   = static_cast<const int *>(lower->p) + 1;
-    const int    *column = static_cast<const int *>(lower->i);
-    const Number *x      = static_cast<const Number *>(L->x);
-    const Number *a      = static_cast<const Number *>(lower->x);
-    const Number  noise  = pivot_noise * std::numeric_limits<Number>::epsilon();
+    const int   *first  = static_cast<const int *>(L->super);
+    const int   *pi     = static_cast<const int *>(L->pi);
+    const int   *px     = static_cast<const int *>(L->px);
+    const int   *row    = static_cast<const int *>(L->Perm);
+    const int   *ends   = static_cast<const int *>(lower->p) + 1;
+    const int   *column = static_cast<const int *>(lower->i);
+    const auto  *x      = static_cast<const Number *>(L->x);
+    const auto  *a      = static_cast<const Number *>(lower->x);
+    const Number noise  = pivot_noise * std::numeric_limits<Number>::epsilon();
     for (std::size_t s = 0; s < L->nsuper; ++s)
       {
         const std::size_t length = pi[s + 1] - pi[s];
@@ -226,7 +226,7 @@ namespace corotet
       {
         std::copy_n(src, n_rows, static_cast<double *>(rhs->x));
         solve_rhs();
-        const double *x = static_cast<const double *>(solution->x);
+        const auto *x = static_cast<const double *>(solution->x);
         for (int i = 0; i < n_rows; ++i)
           dst[i] = factor * x[i];
         return;
@@ -237,11 +237,11 @@ namespace corotet
     for (int i = 0; i < n_rows; ++i)
       largest = std::max(largest, std::abs(static_cast<double>(src[i])));
     const double unit = power_of_two(largest), inverse = 1 / unit;
-    float       *b = static_cast<float *>(rhs->x);
+    auto        *b = static_cast<float *>(rhs->x);
     for (int i = 0; i < n_rows; ++i)
       b[i] = inverse * src[i];
     solve_rhs();
-    const float *x    = static_cast<const float *>(solution->x);
+    const auto  *x    = static_cast<const float *>(solution->x);
     const double back = factor * unit;
     for (int i = 0; i < n_rows; ++i)
       dst[i] = back * x[i];

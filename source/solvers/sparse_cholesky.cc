@@ -183,8 +183,8 @@ namespace corotet
   void
   SparseCholesky::Factors::gather_values(const BlockMatrix &A)
   {
-    std::vector<Number> &own  = std::get<std::vector<Number>>(buffers);
-    Number              *part = nullptr;
+    auto   &own  = std::get<std::vector<Number>>(buffers);
+    Number *part = nullptr;
     if (is_root)
       part = static_cast<Number *>(factor->values());
     else
@@ -236,7 +236,7 @@ namespace corotet
   {
     if (is_alone)
       return factor->solve(dst, src, 1 / unit);
-    std::vector<Number> &all = std::get<std::vector<Number>>(buffers);
+    auto &all = std::get<std::vector<Number>>(buffers);
     row_shares.gather(src, row_counts.size(), all.data(), comm);
     on_root(comm, [&] { factor->solve(all.data(), all.data(), 1 / unit); });
     MPI_Scatterv(all.data(),
@@ -260,7 +260,7 @@ namespace corotet
   SparseCholesky::analyze(const BlockMatrix &A)
   {
     if (!factors || !factors->belong_to(A))
-      factors.reset(new Factors(A.pattern(), wanted));
+      factors = std::make_unique<Factors>(A.pattern(), wanted);
   }
 
   void

@@ -18,6 +18,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace corotet
 {
@@ -90,10 +91,10 @@ namespace corotet
       result.cells    = summary.cells;
       result.nodes    = summary.nodes;
       result.unknowns = summary.unknowns;
-      result.h =
-        std::cbrt(6 * std::sqrt(2.) * summary.mesh_volume / summary.cells);
-      result.errors          = summary.errors;
-      result.steps           = summary.steps;
+      result.h      = std::cbrt(6 * std::numbers::sqrt2 * summary.mesh_volume /
+                           summary.cells);
+      result.errors = summary.errors;
+      result.steps  = summary.steps;
       result.wall_times      = summary.wall_times;
       result.total_wall_time = summary.total_wall_time;
     }

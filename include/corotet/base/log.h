@@ -34,7 +34,7 @@ namespace corotet
     operator=(const Log &) = delete;
 
     void
-    line(const std::string &text);
+    line(const std::string &message);
 
     /// A line that starts with "warning: ".
     void

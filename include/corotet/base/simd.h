@@ -44,7 +44,7 @@ namespace corotet
     template <typename T, int n>
     struct VectorType
     {
-      typedef T type __attribute__((vector_size(n * sizeof(T))));
+      using type __attribute__((vector_size(n * sizeof(T)))) = T;
     };
   } // namespace internal
 

@@ -19,7 +19,6 @@ namespace corotet
   public:
     constexpr Element(const unsigned int degree)
       : p(degree)
-      , bubbles(false)
     {}
 
     static constexpr Element
@@ -60,7 +59,7 @@ namespace corotet
 
   private:
     unsigned int p;
-    bool         bubbles;
+    bool         bubbles = false;
   };
 } // namespace corotet
 

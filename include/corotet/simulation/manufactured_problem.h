@@ -63,7 +63,7 @@ namespace corotet
 
     const SimulationParameters          &parameters;
     std::unique_ptr<const ExactSolution> exact;
-    bool                                 manufacture;
+    bool                                 manufacture = false;
   };
 } // namespace corotet
 

@@ -47,7 +47,7 @@ namespace corotet
 
     /// Makes the initial state complete. Returns its record.
     const StepRecord &
-    start(const OutputTimes &recording);
+    start(const OutputTimes &wanted);
 
     /**
      * In place of start(): takes all that the steps to come depend on from
@@ -56,7 +56,7 @@ namespace corotet
      * last step that was recorded. Throws InputError if that does not fit.
      */
     void
-    resume(const OutputTimes &recording,
+    resume(const OutputTimes &wanted,
            Archive           &archive,
            const StepRecord  &record);
 

@@ -65,16 +65,16 @@ namespace corotet
     explicit AggregationLevel(const unsigned int degree);
 
     /**
-     * @p A has the blocks of @p points, in pieces of 3 x 3; @p frames are those
-     * of the owned points. Aggregates join neighbours that move alike: their
-     * similarity, see similarities(), is at least @p threshold times the
+     * @p A has the blocks of @p pattern, in pieces of 3 x 3; @p frames are
+     * those of the owned points. Aggregates join neighbours that move alike:
+     * their similarity, see similarities(), is at least @p threshold times the
      * largest of one of them [-]; with 0, all. More than @p most aggregates
      * make a level with a next one, unless these are almost as many as the
      * points.
      */
     void
     build(const BlockMatrix                         &A,
-          const std::shared_ptr<const BlockPattern> &points,
+          const std::shared_ptr<const BlockPattern> &pattern,
           std::vector<PointFrame<d>>                 frames,
           const double                               threshold,
           const int                                  most);

@@ -30,8 +30,8 @@ namespace corotet
     matrix = std::make_unique<EpetraMatrix>(A.matrix());
     // Amesos' interface has no constant matrices, but it only reads.
     problem.SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix->get()));
-    Amesos     amesos;
-    const auto type =
+    Amesos            amesos;
+    const auto *const type =
       amesos.Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
     factors.reset(amesos.Create(type, problem));
     check_step("symbolic factorisation", factors->SymbolicFactorization());
