@@ -95,6 +95,28 @@ namespace corotet
     return accelerations.solve_acceleration(state, time, velocity_factor);
   }
 
+  StageReport
+  StructuralSystem::solve_mean_acceleration(State       &state,
+                                            const double time,
+                                            const double dt)
+  {
+    StageReport total;
+    State       moved = state;
+    moved.a           = 0;
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        moved.u = state.u;
+        moved.v = state.v;
+        prescribe(moved, time, 1.);
+        const StageReport report =
+          solve_stage(moved, {time, 2 / dt, 2 / (dt * dt)});
+        total.newton_iterations += report.newton_iterations;
+        total.linear_iterations += report.linear_iterations;
+      }
+    state.a = moved.a;
+    return total;
+  }
+
   bool
   StructuralSystem::step_many(State             &state,
                               const double       dt,

@@ -98,25 +98,16 @@ namespace corotet
       return system.solve_acceleration(present, start_time);
 
     double dt = end_of_step(1) * (parameters.end_time - start_time);
-    // Steps that fail are made in halves, too.
-    for (unsigned int n = 0; n <= parameters.max_halvings; ++n, dt *= 0.5)
+    for (unsigned int halvings = 0;; ++halvings, dt *= 0.5)
       try
         {
-          State state = present;
-          state.a     = 0;
-          for (unsigned int i = 0; i < 2; ++i)
-            {
-              state.u = present.u;
-              state.v = present.v;
-              system.prescribe(state, start_time, 1.);
-              system.solve_stage(state, {start_time, 2 / dt, 2 / (dt * dt)});
-            }
-          present.a = state.a;
-          return {};
+          return system.solve_mean_acceleration(present, start_time, dt);
         }
       catch (const ComputationError &)
-        {}
-    return system.solve_acceleration(present, start_time);
+        {
+          if (halvings == parameters.max_halvings)
+            return system.solve_acceleration(present, start_time);
+        }
   }
 
   const StepRecord &

@@ -154,13 +154,13 @@ TEST(ParameterFile, RefusesDeepNesting)
   EXPECT_EQ(example.refusal("a.xml",
                             repeated("<a>", 100000) + repeated("</a>", 100000)),
             "a.xml: " + reason);
-  // Comments and statements are no levels.
   // What follows the shortest statement, and the shortest end of an element,
   // counts.
   EXPECT_EQ(example.refusal("a.xml", "<??>" + repeated("<a>", 100)),
             "a.xml: " + reason);
   EXPECT_EQ(example.refusal("a.xml", repeated("<b><a></>", 100)),
             "a.xml: " + reason);
+  // Comments and statements are no levels.
   EXPECT_EQ(example.refusal("a.xml",
                             "<?xml version=\"1.0\"?><ParameterHandler>" +
                               repeated("<!-- a --><?b?>", 30) +

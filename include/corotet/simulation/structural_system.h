@@ -57,6 +57,26 @@ namespace corotet
                        const double time,
                        const double velocity_factor = 0) override;
 
+    /**
+     * Sets a of @p state to an acceleration that a step of @p dt [s] from
+     * @p time [s] resolves. That of the equation there, M a = g - C v - f(u),
+     * lasts for a small part of the step only if the forces do not balance and
+     * damping stops motion at once, as that by stiffness does with the shortest
+     * waves of a mesh; what implicit methods make of it, some factor times
+     * dt^2 a, may be any multiple of the true displacement dt C^{-1} (g -
+     * f(u)). Here the equation holds for the state that a leads to if it lasts
+     * for the step, but for what an acceleration a_* leads to that is found so
+     * with a_* = 0,
+     *
+     *   M a + C (v + dt (a - a_*)) + f(u + dt^2 / 2 (a - a_*)) = g.
+     *
+     * a_* differs from the acceleration at that time by O(dt), a by O(dt^2); of
+     * motion that is damped within the step both have its mean. Throws
+     * ComputationError; then @p state is as it was.
+     */
+    StageReport
+    solve_mean_acceleration(State &state, const double time, const double dt);
+
     bool
     step_many(State &state, const double dt, const unsigned int n) override;
 

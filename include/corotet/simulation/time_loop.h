@@ -196,26 +196,12 @@ namespace corotet
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);
-    /**
-     * The acceleration that the run starts from: that of the equation at the
-     * start, M a_0 = g - C v_0 - f(u_0). If the forces do not balance there and
-     * damping is so strong that it stops motion long before the end of the
-     * step, as that by stiffness does with the shortest waves of a mesh, then
-     * this acceleration lasts for a small part of the step only, and what
-     * implicit methods make of it, some factor times dt^2 a_0, may be any
-     * multiple of the true displacement dt C^{-1} (g - f(u_0)). So with stiff
-     * damping the equation holds for the state that a_0 leads to if it lasts
-     * for a step, but for what an acceleration a_* leads to that is found so
-     * with a_* = 0,
-     *
-     *   M a_0 + C (v_0 + dt (a_0 - a_*)) + f(u_0 + dt^2 / 2 (a_0 - a_*)) = g.
-     *
-     * a_* differs from the acceleration at the start by O(dt), a_0 by O(dt^2);
-     * of motion that is damped within the step both have its mean. Not with
-     * methods that keep energy: the factor of the trapezoidal rule is
-     * zero, and its budget closes only if the equation holds at the start; the
-     * midpoint rule has no a_0. Throws ComputationError.
-     */
+    /// The acceleration that the run starts from: that at the start; with stiff
+    /// damping the mean one of the first step, or of a part of it where that
+    /// fails. Not with methods that keep energy: the trapezoidal rule makes no
+    /// displacement of what lasts for a short time, and its budget closes only
+    /// if the equation holds at the start; the midpoint rule has no
+    /// acceleration at the start. Throws ComputationError.
     StageReport
     solve_first_acceleration();
     /// Makes several steps.
