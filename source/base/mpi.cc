@@ -6,6 +6,8 @@
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
 
+#include <boost/serialization/utility.hpp>
+
 #include <chrono>
 #include <filesystem>
 #include <iostream>

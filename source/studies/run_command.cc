@@ -173,7 +173,8 @@ namespace corotet
       command_for_page() const
       {
         const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
-        return (toolchain && *toolchain ? toolchain + std::string(" ") : "") +
+        const bool        is_named = toolchain != nullptr && *toolchain != '\0';
+        return (is_named ? toolchain + std::string(" ") : "") +
                "scripts/report " + directory;
       }
 
