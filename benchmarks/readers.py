@@ -6,14 +6,15 @@ gmsh and here, and read by `corotet mesh`. Run it inside of scripts/toolchain:
 
     benchmarks/readers.py [--cells N] [--program PROGRAM] [--keep FOLDER] [--document]
 
-Memory is the sum of what each of the program's processes had at most, less what they have for a mesh of a few cells. Surfaces have a
-hole, so that they are read and checked, and refused before anything is meshed; shapes of CAD are meshed coarsely, which belongs to
+Memory is the largest sum of what the processes that there are at once had at most, less that for a mesh of a few cells. Surfaces have
+a hole, so that they are read and checked, and refused before anything is meshed; shapes of CAD are meshed coarsely, which belongs to
 their figures. The status is 1 if reading takes more than ten times the file's size and 200 MB, or a file that was cut off in its middle
 is not refused in one line that names it.
 --document writes the table into doc/meshes.md.
 """
 
 import argparse
+import itertools
 import os
 import pathlib
 import subprocess
@@ -21,7 +22,13 @@ import sys
 import tempfile
 import time
 
+import h5py
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.dont_write_bytecode = True
@@ -37,7 +44,7 @@ ALLOWED_FACTOR, ALLOWED_BYTES = 10, 200e6
 MESHES = [("gmsh 2.2, text", "msh", "-format", "msh22"), ("gmsh 2.2, binary", "msh", "-format", "msh22", "-bin"),
           ("gmsh 4.0, text", "msh", "-format", "msh40"), ("gmsh 4.1, text", "msh", "-format", "msh41"),
           ("gmsh 4.1, binary", "msh", "-format", "msh41", "-bin"), ("Abaqus, CalculiX", "inp", "-format", "inp"),
-          ("Nastran", "bdf", "-format", "bdf"), ("UNV", "unv", "-format", "unv"), ("VTK legacy", "vtk", "-format", "vtk"),
+          ("Nastran", "bdf", "-format", "bdf"), ("UNV", "unv", "-format", "unv"), ("VTK legacy, text", "vtk", "-format", "vtk"),
           ("Medit", "mesh", "-format", "mesh"), ("CGNS", "cgns", "-format", "cgns")]
 SHAPES = [("STEP", "step"), ("BREP", "brep"), ("IGES", "iges")]
 MESHED_BOX = """SetFactory("OpenCASCADE");
@@ -103,6 +110,70 @@ def write_surfaces(folder, n):
     return files
 
 
+def box(n):
+    """Points and tetrahedra of a unit cube of n^3 cubes."""
+    number = np.arange((n + 1) ** 3).reshape(n + 1, n + 1, n + 1)
+    points = np.stack(np.meshgrid(*[np.linspace(0, 1, n + 1)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    tetrahedra = []
+    for order in itertools.permutations(range(3)):
+        corners = np.cumsum([(0, 0, 0), *np.eye(3, dtype=int)[list(order)]], axis=0)
+        if np.linalg.det(corners[1:]) < 0:
+            corners = corners[[0, 2, 1, 3]]
+        tetrahedra.append(np.stack([number[a:n + a, b:n + b, c:n + c].ravel() for a, b, c in corners], axis=-1))
+    return points, np.concatenate(tetrahedra)
+
+
+def write_med(file, points, tetrahedra):
+    """One group of cells. The structure is that of MED 4.1 (https://docs.salome-platform.org)."""
+    step = "-0000000000000000001-0000000000000000001"
+    with h5py.File(file, "w", track_order=True) as med:
+        med.create_group("INFOS_GENERALES").attrs.update({"MAJ": np.int32(4), "MIN": np.int32(1), "REL": np.int32(0)})
+        mesh = med.create_group("ENS_MAA/box")
+        blanks = np.bytes_(" " * 48)
+        mesh.attrs.update({"DIM": np.int32(3), "ESP": np.int32(3), "REP": np.int32(0), "UNT": np.bytes_(" "), "UNI": blanks, "SRT": np.int32(1),
+                           "NOM": blanks, "DES": np.bytes_(" "), "TYP": np.int32(0)})
+        state = mesh.create_group(step)
+        state.attrs.update({"CGT": np.int32(1), "NDT": np.int32(-1), "NOR": np.int32(-1), "PDT": -1.0})
+        for name, group, data, columns in (("NOE", "", points, "COO"), ("MAI/TE4", "", tetrahedra[:, [0, 2, 1, 3]] + 1, "NOD")):
+            part = state.create_group(name)
+            part.attrs.update({"CGT": np.int32(1), "CGS": np.int32(1), "PFL": np.bytes_("MED_NO_PROFILE_INTERNAL"), "GEO": np.int32(304)})
+            values = part.create_dataset(columns, data=data.T.ravel().astype(np.int32 if data is not points else float))
+            values.attrs.update({"CGT": np.int32(1), "NBR": np.int32(len(data))})
+            families = part.create_dataset("FAM", data=np.full(len(data), -1 if name.startswith("MAI") else 0, np.int32))
+            families.attrs.update({"CGT": np.int32(1), "NBR": np.int32(len(data))})
+        state["MAI"].attrs["CGT"] = np.int32(1)
+        family = med.create_group("FAS/box/ELEME", track_order=True).create_group("FAM_-1_body", track_order=True)
+        family.attrs["NUM"] = np.int32(-1)
+        group = family.create_group("GRO")
+        group.attrs["NBR"] = np.int32(1)
+        group.create_dataset("NOM", (1,), dtype="80int8")[0] = np.frombuffer(b"body".ljust(80, b"\0"), dtype=np.int8)
+        med.create_group("FAS/box/FAMILLE_ZERO").attrs["NUM"] = np.int32(0)
+
+
+def write_vtk_files(folder, points, tetrahedra):
+    """Files of both formats, as VTK writes them, by name."""
+    grid = vtkUnstructuredGrid()
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_to_vtk(points, deep=True))
+    grid.SetPoints(vtk_points)
+    cells = vtkCellArray()
+    cells.SetData(*(numpy_to_vtkIdTypeArray(array, deep=True) for array in (np.arange(0, tetrahedra.size + 1, 4), tetrahedra.ravel())))
+    grid.SetCells(VTK_TETRA, cells)
+    files = {"VTK legacy, binary": folder / "bytes.vtk", "VTU, raw": folder / "raw.vtu", "VTU, compressed": folder / "compressed.vtu"}
+    for name, file in files.items():
+        writer = vtkXMLUnstructuredGridWriter() if file.suffix == ".vtu" else vtkUnstructuredGridWriter()
+        writer.SetInputData(grid)
+        writer.SetFileName(str(file))
+        if file.suffix == ".vtk":
+            writer.SetFileTypeToBinary()
+        elif name.endswith("raw"):
+            writer.SetDataModeToAppended()
+            writer.EncodeAppendedDataOff()
+            writer.SetCompressorTypeToNone()
+        writer.Write()
+    return files
+
+
 def family(process):
     """A process and all that it has started."""
     members, found = [], [process]
@@ -135,17 +206,16 @@ def read(program, file, *arguments):
     """Status, what was said, memory [bytes] and seconds of processors."""
     with tempfile.TemporaryFile("w+", encoding="utf-8") as said:
         run = subprocess.Popen([program, "mesh", file, *arguments], stdout=subprocess.DEVNULL, stderr=said)
-        peaks = {}
+        most = 0
         while True:
-            for process in family(run.pid):
-                peaks[process] = max(peaks.get(process, 0), peak(process, run.pid))
+            most = max(most, sum(peak(process, run.pid) for process in family(run.pid)))
             ended, status, usage = os.wait4(run.pid, os.WNOHANG)
             if ended:
                 break
             time.sleep(0.005)
         run.returncode = os.waitstatus_to_exitcode(status)
         said.seek(0)
-        return run.returncode, said.read().strip(), sum(peaks.values()), usage.ru_utime + usage.ru_stime
+        return run.returncode, said.read().strip(), most, usage.ru_utime + usage.ru_stime
 
 
 def tried(program, at_start, name, file, expected_status, *arguments):
@@ -184,13 +254,20 @@ def main():
         gmsh(folder, MESHED_BOX.format(n=2), folder / "small.msh", "-3", "-format", "msh41")
         small = folder / "small_surface"
         small.mkdir(exist_ok=True)
-        with_gmsh, alone = (read(program, file)[2] for file in (folder / "small.msh", write_surfaces(small, 8)["STL, binary"]))
-        print(f"At the start: {with_gmsh / 1e6:.0f} MB with gmsh's process, {alone / 1e6:.0f} MB without")
-        box = MESHED_BOX.format(n=round((options.cells / 6) ** (1 / 3)))
+        with_gmsh, alone, with_vtk = (read(program, file)[2] for file in (folder / "small.msh", write_surfaces(small, 8)["STL, binary"],
+                                                                          write_vtk_files(small, *box(2))["VTU, raw"]))
+        print(f"At the start: {with_gmsh / 1e6:.0f} MB with gmsh's process, {alone / 1e6:.0f} MB without, {with_vtk / 1e6:.0f} MB with VTK's")
+        n = round((options.cells / 6) ** (1 / 3))
+        meshed_box = MESHED_BOX.format(n=n)
         for i, (name, ending, *arguments) in enumerate(MESHES):
             file = folder / f"mesh_{i}.{ending}"
-            gmsh(folder, box, file, "-3", *arguments)
-            results.append(tried(program, alone if ending == "inp" else with_gmsh, name, file, 0))
+            gmsh(folder, meshed_box, file, "-3", *arguments)
+            results.append(tried(program, {"inp": alone, "vtk": with_vtk}.get(ending, with_gmsh), name, file, 0))
+        points, tetrahedra = box(n)
+        write_med(folder / "box.med", points, tetrahedra)
+        files = {"MED": folder / "box.med", **write_vtk_files(folder, points, tetrahedra)}
+        for name, file in files.items():
+            results.append(tried(program, with_gmsh if name == "MED" else with_vtk, name, file, 0))
         for name, file in write_surfaces(folder, round((options.cells / 4) ** 0.5)).items():
             results.append(tried(program, alone, name, file, 1))
         for name, ending in SHAPES:

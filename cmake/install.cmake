@@ -18,7 +18,7 @@ install(TARGETS corotet_library EXPORT corotetTargets
 # What the program starts (base/programs.h), scripts for results with their modules, and cases to begin with, which refer to
 # each other's folders.
 set(data ${CMAKE_INSTALL_DATADIR}/corotet)
-install(PROGRAMS scripts/draw_study scripts/plot scripts/render scripts/export scripts/report DESTINATION ${data}/scripts COMPONENT ${runtime})
+install(PROGRAMS scripts/draw_study scripts/plot scripts/render scripts/export scripts/report scripts/read_vtk DESTINATION ${data}/scripts COMPONENT ${runtime})
 install(DIRECTORY scripts/report_page DESTINATION ${data}/scripts COMPONENT ${runtime} PATTERN __pycache__ EXCLUDE)
 set(modules commands display exports fields films frames gltf lagrange results scene usd views)
 list(TRANSFORM modules REPLACE "(.+)" "scripts/\\1.py")

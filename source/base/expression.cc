@@ -70,7 +70,7 @@ namespace corotet
         functions.push_back(function);
       const std::string        suggestion = nearest(name, functions);
       std::vector<std::string> known      = formula_variables;
-      known.push_back("pi");
+      known.emplace_back("pi");
       known.insert(known.end(),
                    functions_of_time.begin(),
                    functions_of_time.end());
@@ -202,6 +202,7 @@ namespace corotet
     Formulas(const Formulas &) = delete;
     Formulas &
     operator=(const Formulas &) = delete;
+    ~Formulas()                 = default;
 
     // Throws InputError.
     void
@@ -311,19 +312,23 @@ namespace corotet
   {
     const double result = formulas->value(p, t, component);
     if (!std::isfinite(result) && !first_not_finite)
-      first_not_finite = {
-        formulas->entry,
-        fmt::format("the expression \"{}\" is not finite: found {} at ({:.6g}, "
-                    "{:.6g}, {:.6g}) at t = {:g}; allowed are finite values",
-                    shortened(dealii::Utilities::trim(
-                      formulas->parsers[component].GetExpr())),
-                    std::isnan(result) ? "not a number" :
-                    result > 0         ? "infinity" :
-                                         "minus infinity",
-                    p[0],
-                    p[1],
-                    p[2],
-                    t)};
+      {
+        const char *found = result > 0 ? "infinity" : "minus infinity";
+        if (std::isnan(result))
+          found = "not a number";
+        first_not_finite = {
+          formulas->entry,
+          fmt::format(
+            "the expression \"{}\" is not finite: found {} at ({:.6g}, "
+            "{:.6g}, {:.6g}) at t = {:g}; allowed are finite values",
+            shortened(
+              dealii::Utilities::trim(formulas->parsers[component].GetExpr())),
+            found,
+            p[0],
+            p[1],
+            p[2],
+            t)};
+      }
     return result;
   }
 

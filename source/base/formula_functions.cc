@@ -39,7 +39,9 @@ namespace corotet
     pulse(const double t, const double t0, const double t1)
     {
       const double s = ramp(t, t0, t1);
-      return std::isnan(s) ? s : (t >= t0 && t < t1);
+      if (std::isnan(s))
+        return s;
+      return t >= t0 && t < t1 ? 1 : 0;
     }
 
     double
@@ -146,7 +148,10 @@ namespace corotet
     int depth = 0, deepest = 0;
     for (const char c : formula)
       {
-        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (c == '(')
+          ++depth;
+        else if (c == ')')
+          --depth;
         deepest = std::max(deepest, depth);
       }
     return deepest;

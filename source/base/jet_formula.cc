@@ -150,7 +150,10 @@ namespace corotet
         {"+", "-"},
         {"*", "/"}};
       if (level == levels.size())
-        return signed_power();
+        {
+          signed_power();
+          return;
+        }
       binary(level + 1);
       for (;;)
         {
@@ -173,10 +176,14 @@ namespace corotet
       if (take("-"))
         {
           signed_power();
-          return call("negate", 1);
+          call("negate", 1);
+          return;
         }
       if (take("+"))
-        return signed_power();
+        {
+          signed_power();
+          return;
+        }
       operand();
       if (!take("^"))
         return;
@@ -190,7 +197,8 @@ namespace corotet
       if (take("("))
         {
           conditional();
-          return require(")");
+          require(")");
+          return;
         }
       const char *begin  = text.data() + position;
       double      number = 0;
@@ -203,7 +211,8 @@ namespace corotet
       if (error == std::errc() && !is_word)
         {
           position += end - begin;
-          return push(number);
+          push(number);
+          return;
         }
       named_operand();
     }
@@ -229,7 +238,10 @@ namespace corotet
           require(")");
           const auto table = tables.find(name);
           if (table == tables.end())
-            return call(name, n);
+            {
+              call(name, n);
+              return;
+            }
           Instruction instruction;
           instruction.table       = table->second.get();
           instruction.n_arguments = n;
@@ -238,7 +250,10 @@ namespace corotet
         }
       const auto constant = formula_constants().find(name);
       if (constant != formula_constants().end())
-        return push(constant->second);
+        {
+          push(constant->second);
+          return;
+        }
       const auto variable =
         std::find(formula_variables.begin(), formula_variables.end(), name);
       if (variable == formula_variables.end())

@@ -127,6 +127,15 @@ namespace corotet
     }
 
     Jet
+    signum(const Jet &a, const double soon)
+    {
+      const double s = sign_soon(a, soon);
+      if (s < 0)
+        return {-1.};
+      return {s > 0 ? 1. : 0.};
+    }
+
+    Jet
     absolute_value(const Jet &a, const double soon)
     {
       return sign_soon(a, soon) < 0 ? -a : a;
@@ -322,8 +331,7 @@ namespace corotet
                  return absolute_value(a[0], soon);
                }>},
               {"sign", timed<[](const Jet *a, const double soon) {
-                 const double s = sign_soon(a[0], soon);
-                 return Jet{s < 0 ? -1. : (s > 0 ? 1. : 0.)};
+                 return signum(a[0], soon);
                }>},
               {"floor", timed<[](const Jet *a, const double soon) {
                  return floor(a[0], soon);

@@ -25,8 +25,8 @@ namespace corotet
     struct Outcome
     {
       int         exit_status = 0;
-      std::string entry       = "";
-      std::string message     = "";
+      std::string entry;
+      std::string message;
     };
 
     Outcome

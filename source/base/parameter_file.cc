@@ -96,8 +96,8 @@ namespace corotet
     const Json &
     find_node(const ParameterStatement &statement, const Json &root)
     {
-      const Json              *node  = &root;
-      std::string              path  = "";
+      const Json              *node = &root;
+      std::string              path;
       std::vector<std::string> names = split(statement.path);
       for (std::size_t i = 0; i < names.size(); ++i)
         {

@@ -73,13 +73,21 @@ namespace corotet
     // A descriptor that is closed with its scope.
     struct Descriptor
     {
+      explicit Descriptor(const int number = -1)
+        : number(number)
+      {}
+
+      Descriptor(const Descriptor &) = delete;
+      Descriptor &
+      operator=(const Descriptor &) = delete;
+
       ~Descriptor()
       {
         if (number >= 0)
           close(number);
       }
 
-      int number = -1;
+      int number;
     };
 
     // Without what tells a process that it is a rank of this run: a program
@@ -194,8 +202,8 @@ namespace corotet
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
       throw MachineError(path + ": cannot be started: " + std::strerror(errno));
-    const Descriptor         from{ends[0]};
-    Descriptor               to{ends[1]};
+    const Descriptor         from(ends[0]);
+    Descriptor               to(ends[1]);
     std::vector<std::string> words = {path};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const pid_t process = start(path, words, to.number);

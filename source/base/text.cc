@@ -126,7 +126,8 @@ namespace corotet
           result += fmt::format("\\x{:02x}", is_high ? next : byte);
         else
           result += message[i];
-        i += is_high;
+        if (is_high)
+          ++i;
       }
     return result.size() <= most ? result : start_of(result, most) + "...";
   }

@@ -58,9 +58,9 @@ namespace corotet
           for (unsigned int lane = 0; lane < batch_size; ++lane)
             numbers[i * batch_size + lane] =
               nodes.cell_nodes(std::min(first + lane, last))[i];
-        at_end[b] =
-          std::find(numbers, numbers + n, nodes.n_local_nodes() - 1) !=
-          numbers + n;
+        if (std::find(numbers, numbers + n, nodes.n_local_nodes() - 1) !=
+            numbers + n)
+          at_end[b] = 1;
       }
     plan_chunks(nodes);
     if (exceed_caches<double>())

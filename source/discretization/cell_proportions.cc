@@ -72,8 +72,10 @@ namespace corotet
         const auto   s     = stretches(vertices);
         const double ratio = std::max(s[1] / s[2], s[0] / s[1]);
         sums[0] += 1;
-        sums[1] += s[1] / s[2] > CellProportions::limit;
-        sums[2] += s[0] / s[1] > CellProportions::limit;
+        if (s[1] / s[2] > CellProportions::limit)
+          ++sums[1];
+        if (s[0] / s[1] > CellProportions::limit)
+          ++sums[2];
         sums[3] += std::log(ratio);
         if (ratio > result.largest_ratio)
           {

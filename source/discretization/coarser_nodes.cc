@@ -88,8 +88,11 @@ namespace corotet
     unsigned int n_owned_nodes = 0;
     for (unsigned int n = 0; n < finer.n_owned_nodes(); ++n)
       {
-        n_owned_nodes += is_key[n];
-        first_shared += is_key[n] && n < finer.first_shared_node();
+        if (is_key[n] == 0)
+          continue;
+        ++n_owned_nodes;
+        if (n < finer.first_shared_node())
+          ++first_shared;
       }
     const MPI_Comm comm = finer.communicator();
     const auto [first, n_global] =
@@ -232,7 +235,7 @@ namespace corotet
   std::vector<unsigned char>
   CoarserNodes::marks(const std::vector<unsigned char> &finer_marks) const
   {
-    std::vector<unsigned char> result(3 * n_local_nodes());
+    std::vector<unsigned char> result(std::size_t(3) * n_local_nodes());
     for (unsigned int n = 0; n < n_local_nodes(); ++n)
       for (unsigned int a = 0; a < 3; ++a)
         result[3 * n + a] = finer_marks[3 * keys[n] + a];

@@ -183,7 +183,7 @@ namespace corotet
       for (const Joint &joint : joints)
         action(joint.other, discretization.node_position(joint.node));
     };
-    std::vector<double> sums(4 * n_parts);
+    std::vector<double> sums(std::size_t(4) * n_parts);
     for_each([&](const unsigned int part, const dealii::Point<3> &x) {
       for (unsigned int a = 0; a < 3; ++a)
         sums[4 * part + a] += x[a];
@@ -192,7 +192,7 @@ namespace corotet
     MPI::sum(sums, comm, sums);
     for (unsigned int part = 0; part < n_parts; ++part)
       {
-        const double *sum = &sums[4 * part];
+        const double *sum = &sums[std::size_t(4) * part];
         centres.emplace_back(sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]);
       }
     radii.resize(n_parts);

@@ -28,8 +28,13 @@ namespace corotet
     for (std::size_t i = 0; i < n; ++i)
       for (unsigned int k = 0; k < n_numbers; ++k)
         for (unsigned int lane = 0; lane < batch_size; ++lane)
-          *next++ =
-            k == 9 ? shape_functions.weights[i % n_points()] : k % 4 == 0;
+          {
+            if (k == 9)
+              *next = shape_functions.weights[i % n_points()];
+            else
+              *next = k % 4 == 0 ? 1 : 0;
+            ++next;
+          }
   }
 
   CurvedBatches::CurvedBatches(const Element        element,
@@ -69,7 +74,7 @@ namespace corotet
         n_numbers * batch_size +
       lane;
     for (unsigned int k = 0; k < 9; ++k)
-      first[k * batch_size] = matrix[k / 3][k % 3];
+      first[std::size_t(k) * batch_size] = matrix[k / 3][k % 3];
     first[9 * batch_size] = weight;
   }
 
@@ -83,9 +88,9 @@ namespace corotet
     for (unsigned int batch = 0; batch < n_batches(); ++batch)
       for (std::size_t k = 0; k < n; ++k)
         for (unsigned int lane = 0; lane < batch_size; ++lane)
-          maps->float_numbers[(batch / floats_per_batch * n + k) *
-                                n_lanes<float> +
-                              batch % floats_per_batch * batch_size + lane] =
+          maps->float_numbers
+            [(batch / floats_per_batch * n + k) * n_lanes<float> +
+             std::size_t(batch % floats_per_batch) * batch_size + lane] =
             maps->numbers[(batch * n + k) * batch_size + lane];
   }
 } // namespace corotet

@@ -172,7 +172,7 @@ namespace corotet
                   const bool is_first =
                     (vertices[a] < vertices[b]) == at_first_end;
                   node = on_edges + n_per_edge * edges[c][number] +
-                         (n_per_edge == 2 && !is_first);
+                         (n_per_edge == 2 && !is_first ? 1 : 0);
                   break;
                 }
               case 2:

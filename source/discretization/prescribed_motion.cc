@@ -34,7 +34,7 @@ namespace corotet
     : discretization(discretization)
     , conditions(conditions)
     , time_scale(time_scale)
-    , flags(3 * discretization.n_local_nodes())
+    , flags(std::size_t(3) * discretization.n_local_nodes())
   {
     double volume = 0;
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)

@@ -42,12 +42,11 @@ namespace corotet
     AssertDimension(fe.dofs_per_cell, n_nodes);
 
     // Degrees 0, 2, 4 need 1, 4, 14 points.
-    const dealii::Quadrature<3> stiffness =
-      degree == 1 ?
-        dealii::Quadrature<3>(dealii::QGaussSimplex<3>(1)) :
-      n_nodes == 10 ?
-        dealii::Quadrature<3>(dealii::QWitherdenVincentSimplex<3>(1, false)) :
-        dealii::Quadrature<3>(dealii::QWitherdenVincentSimplex<3>(3));
+    dealii::Quadrature<3> stiffness = dealii::QWitherdenVincentSimplex<3>(3);
+    if (degree == 1)
+      stiffness = dealii::QGaussSimplex<3>(1);
+    else if (n_nodes == 10)
+      stiffness = dealii::QWitherdenVincentSimplex<3>(1, false);
     // Rule n is of degree 2n-1. Loads: 2p = 2, 4, 6, with bubbles 4 + 2.
     const unsigned int n = element.has_bubbles() ? 4 : degree + 1;
     const dealii::QWitherdenVincentSimplex<3> loads(n);

@@ -33,7 +33,7 @@ namespace corotet
     public:
       explicit Equations(const unsigned int n = 0)
         : n(n)
-        , R(n * n)
+        , R(std::size_t(n) * n)
       {}
 
       // n coefficients, which are overwritten.
@@ -44,7 +44,7 @@ namespace corotet
           {
             if (row[i] == 0)
               continue;
-            double      *pivot  = &R[n * i];
+            double      *pivot  = &R[std::size_t(n) * i];
             const double length = std::hypot(pivot[i], row[i]);
             const double c = pivot[i] / length, s = row[i] / length;
             for (unsigned int j = i; j < n; ++j)
@@ -289,7 +289,7 @@ namespace corotet
         for (unsigned int p = 0; p < cluster.size(); ++p)
           {
             Numbers of_part;
-            std::copy_n(&numbers[6 * p], 6, of_part.begin());
+            std::copy_n(&numbers[std::size_t(6) * p], 6, of_part.begin());
             motions.back().emplace_back(cluster[p], of_part);
             numbers_of_parts[cluster[p]].emplace_back(of_part.begin(),
                                                       of_part.end());

@@ -147,7 +147,7 @@ namespace corotet
           {w, centre + Tensor<1, 3>(cross_product_3d(w, t)), t * w, t});
       }
     if (directions.size() == 3)
-      words.push_back("move in any direction");
+      words.emplace_back("move in any direction");
     else if (!directions.empty())
       words.push_back("move along " + enumeration(directions));
     for (const std::string &text :

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "med.h"
 #include "shapes.h"
 #include "surfaces.h"
 
@@ -66,7 +67,7 @@ namespace corotet::gmsh_program
           GmshModel::ElementType &type = result.emplace_back();
           type.type                    = types[i];
           type.n_elements              = elements[i].size();
-          int dimension, order, n_nodes, n_primary_nodes;
+          int dimension = 0, order = 0, n_nodes = 0, n_primary_nodes = 0;
           gmsh::model::mesh::getElementProperties(types[i],
                                                   type.name,
                                                   dimension,
@@ -288,6 +289,8 @@ namespace corotet::gmsh_program
   GmshModel
   make_model(const GmshRequest &request)
   {
+    if (request.format == "med")
+      return read_med(request.path);
     GmshModel model;
     read_and_generate(request, model);
     if (request.is_geometry)

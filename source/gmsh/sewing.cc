@@ -76,7 +76,7 @@ namespace corotet::gmsh_program
     import(const GmshRequest &request, const bool sew, const double tolerance)
     {
       gmsh::clear();
-      gmsh::option::setNumber("Geometry.OCCSewFaces", sew);
+      gmsh::option::setNumber("Geometry.OCCSewFaces", sew ? 1 : 0);
       gmsh::option::setNumber("Geometry.Tolerance", tolerance);
       gmsh::vectorpair shapes;
       gmsh::model::occ::importShapes(request.path,
@@ -108,9 +108,9 @@ namespace corotet::gmsh_program
       std::vector<Shell> result;
       for (const auto &surfaces : shells)
         {
-          const int loop   = gmsh::model::occ::addSurfaceLoop(surfaces);
-          const int volume = gmsh::model::occ::addVolume({loop});
-          double    content;
+          const int loop    = gmsh::model::occ::addSurfaceLoop(surfaces);
+          const int volume  = gmsh::model::occ::addVolume({loop});
+          double    content = 0;
           gmsh::model::occ::getMass(3, volume, content);
           result.push_back({loop, volume, content});
         }
@@ -225,7 +225,7 @@ namespace corotet::gmsh_program
   {
     // Surfaces that end in a point, as that of a cone does, have an edge there.
     gmsh::option::setNumber("Geometry.OCCFixDegenerated", 1);
-    double accuracy;
+    double accuracy = 0;
     gmsh::option::getNumber("Geometry.Tolerance", accuracy);
     import(request, false, accuracy);
     gmsh::vectorpair surfaces;

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace corotet
 {
@@ -20,14 +21,17 @@ namespace corotet
     double
     parse_number(const std::string &text, const std::string &entry)
     {
+      double value = std::numeric_limits<double>::quiet_NaN();
       try
         {
-          const double value = dealii::Utilities::string_to_double(text);
-          if (std::isfinite(value))
-            return value;
+          value = dealii::Utilities::string_to_double(text);
         }
       catch (const dealii::ExceptionBase &)
-        {}
+        {
+          value = std::numeric_limits<double>::quiet_NaN();
+        }
+      if (std::isfinite(value))
+        return value;
       throw InputError(entry,
                        fmt::format("'{}' is not a number; allowed: a number, "
                                    "or 'region: number, ...'",
@@ -59,7 +63,7 @@ namespace corotet
                                            regions.name(id)));
         }
       for (const auto &[id, name] : regions.all())
-        if (values.count(id) == 0)
+        if (!values.contains(id))
           throw InputError(entry,
                            fmt::format("region '{}' has no value",
                                        regions.name(id)));

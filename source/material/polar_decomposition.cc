@@ -54,7 +54,9 @@ namespace corotet
       const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix,
                                                   Eigen::ComputeFullU |
                                                     Eigen::ComputeFullV);
-      const Eigen::Vector3d                   sigma = svd.singularValues();
+      // Without a copy, GCC takes them for values that are never set.
+      // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+      const Eigen::Vector3d sigma = svd.singularValues();
 
       // U and V are orthonormal whatever the rank: a collapsed direction is
       // completed there already. The column of the smallest singular value
@@ -69,9 +71,10 @@ namespace corotet
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           result.rotation[i][j] = R(i, j);
-      result.state = sigma[2] <= 1e-12 * sigma[0] ? PolarState::degenerate :
-                     handedness < 0               ? PolarState::inverted :
-                                                    PolarState::regular;
+      result.state =
+        handedness < 0 ? PolarState::inverted : PolarState::regular;
+      if (sigma[2] <= 1e-12 * sigma[0])
+        result.state = PolarState::degenerate;
       return result;
     }
   } // namespace

@@ -31,7 +31,7 @@ namespace corotet::abaqus
     scopes.emplace_back();
     read(path, 0);
     finish_keyword();
-    if (part)
+    if (part != nullptr)
       part->place.refuse("found *PART without *END PART");
     if (instance)
       instance->place.refuse("found *INSTANCE without *END INSTANCE");
@@ -55,7 +55,7 @@ namespace corotet::abaqus
   Model &
   Reader::current_model()
   {
-    return part ? part->model : model;
+    return part != nullptr ? part->model : model;
   }
 
 
@@ -63,7 +63,9 @@ namespace corotet::abaqus
   Scope &
   Reader::current_scope()
   {
-    return part ? part->scope : instance ? scopes.back() : scopes[0];
+    if (part != nullptr)
+      return part->scope;
+    return instance ? scopes.back() : scopes[0];
   }
 
 
@@ -85,7 +87,7 @@ namespace corotet::abaqus
         if (line.find('\0') != std::string::npos)
           place.refuse("found a byte of zero: is this a text file?");
         const std::string text = trimmed(line);
-        if (text.empty() || text.compare(0, 2, "**") == 0)
+        if (text.empty() || text.starts_with("**"))
           continue;
         if (text[0] != '*')
           {

@@ -90,7 +90,8 @@ namespace corotet::abaqus
             bool blank = false;
             for (const char c : upper_case(parts[0]))
               {
-                const bool space = std::isspace(static_cast<unsigned char>(c));
+                const bool space =
+                  std::isspace(static_cast<unsigned char>(c)) != 0;
                 if (!space && blank && !keyword.name.empty())
                   keyword.name += ' ';
                 if (!space)
@@ -152,9 +153,9 @@ namespace corotet::abaqus
     const char *begin = digits.data();
     if (!digits.empty() && digits[0] == '+')
       ++begin;
-    double     result = 0;
-    const auto end    = digits.data() + digits.size();
-    const auto parsed = std::from_chars(begin, end, result);
+    double      result = 0;
+    const char *end    = digits.data() + digits.size();
+    const auto  parsed = std::from_chars(begin, end, result);
     if (begin == end || parsed.ec != std::errc() || parsed.ptr != end ||
         !std::isfinite(result))
       place.refuse(

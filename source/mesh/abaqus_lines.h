@@ -37,7 +37,7 @@ namespace corotet::abaqus
     bool
     has(const std::string &parameter) const
     {
-      return parameters.count(parameter) > 0;
+      return parameters.contains(parameter);
     }
 
     /// Empty if it is not there.

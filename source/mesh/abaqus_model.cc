@@ -92,12 +92,12 @@ namespace corotet::abaqus
         for (const Scope &scope : scopes)
           {
             for (const auto &[key, set] : scope.element_sets.sets)
-              if (scope.internal_names.count(key) == 0)
+              if (!scope.internal_names.contains(key))
                 add_elements(name(scope, scope.element_sets, key), set);
             for (const auto &[key, set] : scope.surfaces.sets)
               add_surface(name(scope, scope.surfaces, key), set);
             for (const auto &[key, set] : scope.node_sets.sets)
-              if (scope.internal_names.count(key) == 0)
+              if (!scope.internal_names.contains(key))
                 add_nodes(name(scope, scope.node_sets, key), set);
           }
       }
@@ -303,7 +303,7 @@ namespace corotet::abaqus
     ImportedMesh mesh;
     mesh.origin = path;
     mesh.nodes  = model.nodes;
-    Export(mesh, model, scopes);
+    const Export all(mesh, model, scopes);
     return mesh;
   }
 } // namespace corotet::abaqus

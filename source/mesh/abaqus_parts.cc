@@ -20,7 +20,7 @@ namespace corotet::abaqus
   Reader::begin_part()
   {
     const std::string name = keyword.needed("NAME");
-    if (part)
+    if (part != nullptr)
       keyword.place.refuse("found *PART inside of a part that begins in "
                            "line " +
                            std::to_string(part->place.line));
@@ -33,7 +33,7 @@ namespace corotet::abaqus
   void
   Reader::end_part()
   {
-    if (!part)
+    if (part == nullptr)
       keyword.place.refuse("found *END PART without *PART");
     part = nullptr;
   }
@@ -43,7 +43,7 @@ namespace corotet::abaqus
   void
   Reader::begin_instance()
   {
-    if (part || instance)
+    if (part != nullptr || instance)
       keyword.place.refuse("found *INSTANCE inside of a part or of "
                            "another instance");
     const std::string name  = keyword.needed("NAME");

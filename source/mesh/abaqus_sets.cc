@@ -147,12 +147,12 @@ namespace corotet::abaqus
     const auto   number      = whole_number(what);
     if (upper_case(keyword.value("TYPE")) == "NODE")
       {
-        const auto *set     = from.node_sets.find(what);
-        auto        members = set ? *set : std::vector<std::uint32_t>();
+        const auto *set = from.node_sets.find(what);
+        auto members    = set != nullptr ? *set : std::vector<std::uint32_t>();
         spend(members.size(), place);
         if (number)
           members.push_back(node_of(*number, from, place));
-        else if (!set)
+        else if (set == nullptr)
           place.refuse("there is no node and no set of nodes '" +
                        shortened(words[0]) + "' before this line");
         auto &target = current_scope().node_sets[name];
@@ -193,7 +193,7 @@ namespace corotet::abaqus
     const std::string key = upper_case(word);
     for (const Scope &scope : scopes)
       if (const std::string start = upper_case(scope.name) + ".";
-          !scope.name.empty() && key.compare(0, start.size(), start) == 0)
+          !scope.name.empty() && key.starts_with(start))
         return {&scope, word.substr(start.size())};
     return {&current_scope(), word};
   }

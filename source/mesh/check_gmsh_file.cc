@@ -211,7 +211,7 @@ namespace corotet
                                                    "ShapeFromFile",
                                                    "ListFromFile",
                                                    "FileName"};
-        if (reading.count(tokens[i].content) == 0)
+        if (!reading.contains(tokens[i].content))
           return;
         std::size_t next = i + 1;
         while (is_sign(tokens, next, '(') || is_sign(tokens, next, '='))
@@ -241,7 +241,7 @@ namespace corotet
                                                   ".dat",
                                                   ".png",
                                                   ".jpg"};
-        if (others.count(real.extension().string()) == 0 &&
+        if (!others.contains(real.extension().string()) &&
             fs::is_regular_file(real, error) &&
             tokens[i].content != "ListFromFile" &&
             tokens[i].content != "FileName")

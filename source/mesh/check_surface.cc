@@ -133,7 +133,8 @@ namespace corotet
     for (const Triangle &triangle : surface)
       {
         const dealii::Point<3> p = centre(mesh, triangle);
-        if (touching(p, [&](const Triangle &t) { return t == triangle; }))
+        if (touching(p, [&](const Triangle &t) { return t == triangle; }) !=
+            nullptr)
           refuse_mesh(mesh,
                       fmt::format("not conforming: the faces of two cells "
                                   "overlap at {}; cells must meet in whole "

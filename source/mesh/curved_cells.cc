@@ -120,12 +120,12 @@ namespace corotet
             for (unsigned int i = 0; i < nodes.size(); ++i)
               nodes[i] = full.position(curved_nodes(mesh, cell), i);
             const double mean = std::abs(
-              mean_determinant(in_rule, rule.get_weights(), &nodes[0]));
+              mean_determinant(in_rule, rule.get_weights(), nodes.data()));
             bool folded = false;
             for (unsigned int q = 0; q < on_lattice.n_points(); ++q)
               {
                 const double ratio =
-                  determinant(on_lattice.jacobian(&nodes[0], q)) / mean;
+                  determinant(on_lattice.jacobian(nodes.data(), q)) / mean;
                 folded = folded || !(ratio > 0);
                 if (folds.worst_cell == nullptr || !(ratio >= folds.worst))
                   {
@@ -134,7 +134,8 @@ namespace corotet
                     folds.worst_point = q;
                   }
               }
-            folds.n_cells += folded;
+            if (folded)
+              ++folds.n_cells;
           }
       return folds;
     }
@@ -159,9 +160,9 @@ namespace corotet
   map_element(const unsigned int degree)
   {
     AssertThrow(degree >= 1 && degree <= 3, dealii::ExcInternalError());
-    return degree == 1 ? element_of_degree<1>() :
-           degree == 2 ? element_of_degree<2>() :
-                         element_of_degree<3>();
+    if (degree == 1)
+      return element_of_degree<1>();
+    return degree == 2 ? element_of_degree<2>() : element_of_degree<3>();
   }
 
 

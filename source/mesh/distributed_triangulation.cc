@@ -78,6 +78,9 @@ namespace corotet
     if (n_levels() > 0)
       for (const auto &cell : active_cell_iterators())
         cell->set_subdomain_id(owners[cell->active_cell_index()]);
+    // That of the parent counts coarse cells in a description that it has not
+    // been given.
+    // NOLINTNEXTLINE(bugprone-parent-virtual-call)
     dealii::parallel::TriangulationBase<3>::update_number_cache();
     if (n_levels() > 0)
       number_cache.number_of_global_coarse_cells =

@@ -126,7 +126,7 @@ namespace corotet
     std::array<bool, 4>                is_on{};
     for (unsigned int i = 0; i < 4; ++i)
       is_on[i] = is_on_face[v[i]];
-    if (is_on[0] + is_on[1] + is_on[2] + is_on[3] < 3)
+    if (std::count(is_on.begin(), is_on.end(), true) < 3)
       return;
     for (unsigned int f = 0; f < 4; ++f)
       {

@@ -11,10 +11,13 @@
 #include <corotet/mesh/gmsh_process.h>
 #include <corotet/mesh/mesh_format.h>
 #include <corotet/mesh/surface_mesh.h>
+#include <corotet/mesh/vtk_file.h>
 
 #include <fmt/format.h>
 
 #include <filesystem>
+
+#include "scratch_folder.h"
 
 namespace corotet
 {
@@ -40,6 +43,26 @@ namespace corotet
     mesh_by_gmsh(const GmshRequest &request)
     {
       return mesh_of_model(run_gmsh(request),
+                           request.path,
+                           request.is_geometry);
+    }
+
+
+
+    // The same of a file of VTK.
+    SerialMesh
+    mesh_by_vtk(const GmshRequest &request)
+    {
+      const ScratchFolder folder;
+      GmshRequest         converted = request;
+      converted.path                = folder.path("mesh.msh");
+      converted.format              = "msh";
+      converted.extension           = "";
+      write_msh_of_vtk_file(request.path,
+                            converted.path,
+                            request.time_limit,
+                            request.time_limit_entry);
+      return mesh_of_model(run_gmsh(converted, request.path),
                            request.path,
                            request.is_geometry);
     }
@@ -82,9 +105,9 @@ namespace corotet
       file,
       "A mesh or a geometry, relative to the folder of this file: of gmsh "
       "(.msh, version 2.2 to 4.1, ASCII or binary; .geo), Abaqus or CalculiX "
-      "(.inp), Nastran (.bdf), UNV, VTK (legacy), Medit or CGNS, or STEP, IGES "
-      "and BREP of CAD programs, or a closed surface of triangles (STL, PLY, "
-      "OBJ, OFF). The format is known by the content.",
+      "(.inp), Nastran (.bdf), UNV, VTK (.vtk, .vtu), Medit, MED or CGNS, or "
+      "STEP, IGES and BREP of CAD programs, or a closed surface of triangles "
+      "(STL, PLY, OBJ, OFF). The format is known by the content.",
       dealii::Patterns::FileName());
     prm.add_parameter("Element size",
                       element_size,
@@ -169,10 +192,14 @@ namespace corotet
     request.time_limit       = time_limit;
     request.time_limit_entry = section + "Time limit";
     request.feature_angle    = feature_angle;
-    SerialMesh mesh          = format.is_surface ?
-                                 mesh_of_surface(request, format.format) :
-                                 mesh_by_gmsh(request);
-    mesh.n_refinements       = request.n_refinements;
+    SerialMesh mesh;
+    if (format.is_surface)
+      mesh = mesh_of_surface(request, format.format);
+    else if (format.format == MeshFormat::vtk)
+      mesh = mesh_by_vtk(request);
+    else
+      mesh = mesh_by_gmsh(request);
+    mesh.n_refinements = request.n_refinements;
     return mesh;
   }
 

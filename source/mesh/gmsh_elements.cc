@@ -23,7 +23,7 @@ namespace corotet::gmsh_elements
     {
       std::vector<unsigned int> order;
       for (const dealii::Point<3> &ours : map_points(degree))
-        for (unsigned int j = 0; j < theirs.size() / 3; ++j)
+        for (std::size_t j = 0; j < theirs.size() / 3; ++j)
           if (ours.distance(
                 {theirs[3 * j], theirs[3 * j + 1], theirs[3 * j + 2]}) < 1e-6)
             {

@@ -51,7 +51,8 @@ namespace corotet
       for (const auto &[entity, groups] : groups_of_entity)
         {
           const auto [id, is_new] = ids.emplace(groups, next);
-          next += is_new;
+          if (is_new)
+            ++next;
           result.of_entity[entity] = id->second;
           for (const unsigned int group : groups)
             meaning[group].insert(id->second);

@@ -10,14 +10,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
+#include "program_failure.h"
 #include "scratch_folder.h"
 
 namespace corotet
@@ -71,7 +70,7 @@ namespace corotet
     {
       std::replace(text.begin(), text.end(), '\n', ' ');
       const std::string start = "'" + path + "', line ";
-      if (text.compare(0, start.size(), start) != 0)
+      if (!text.starts_with(start))
         return path + ": gmsh: " + text;
       const std::size_t colon = text.find(':', start.size());
       return path + ":" + text.substr(start.size(), colon - start.size()) +
@@ -89,30 +88,6 @@ namespace corotet
         return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                sysconf(_SC_PAGESIZE);
       return 100'000'000 + 10 * std::filesystem::file_size(path);
-    }
-
-
-
-    [[noreturn]] void
-    refuse_end(const GmshRequest &request,
-               const std::string &path,
-               const ProgramEnd  &end)
-    {
-      std::string what;
-      if (end.has_exceeded)
-        throw InputError(request.time_limit_entry,
-                         fmt::format("{}: gmsh has not come to an end in {} s",
-                                     path,
-                                     request.time_limit));
-      if (end.signal == SIGINT || end.signal == SIGTERM)
-        what = "has been interrupted";
-      else if (end.signal != 0)
-        what = fmt::format("has crashed ({}); is the file damaged?",
-                           strsignal(end.signal));
-      else
-        what = fmt::format("has ended with status {} before it had a mesh",
-                           end.status);
-      throw InputError("", fmt::format("{}: gmsh {}", path, what));
     }
 
 
@@ -235,7 +210,8 @@ namespace corotet
       request.time_limit);
     if (end.has_exceeded || end.signal != 0 || end.status != 0 ||
         end.output.empty())
-      refuse_end(request, blamed, end);
+      refuse_end(
+        end, "gmsh", blamed, request.time_limit, request.time_limit_entry);
     const GmshModel model = model_of_bytes(end.output, blamed);
     if (!model.error.empty())
       throw InputError(

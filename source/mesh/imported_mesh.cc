@@ -319,7 +319,7 @@ namespace corotet
         const auto surface =
           surface_of(imported, map_points(imported.degree).size());
         for (const auto &[name, nodes] : imported.node_sets)
-          if (sets.count(name) > 0)
+          if (sets.contains(name))
             mesh.remarks.push_back("the set of nodes '" + name +
                                    "' is left out, as a set of faces has that "
                                    "name");

@@ -97,7 +97,8 @@ namespace corotet
           for (const auto &[y, w] : found)
             if (y.distance(x) <= near)
               lowest = std::min(lowest, w);
-          n_near += lowest != v;
+          if (lowest != v)
+            ++n_near;
           first[v] = first[lowest];
         }
 
@@ -230,10 +231,12 @@ namespace corotet
                 if (is_done[other])
                   continue;
                 is_done[other] = true;
-                n += wrong;
                 if (wrong)
-                  std::swap(surface.triangles[other][1],
-                            surface.triangles[other][2]);
+                  {
+                    ++n;
+                    std::swap(surface.triangles[other][1],
+                              surface.triangles[other][2]);
+                  }
                 shell.push_back(other);
               }
           // Relative to a corner, so that far from the origin nothing cancels.

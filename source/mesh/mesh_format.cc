@@ -184,8 +184,7 @@ namespace corotet
           first_word(bytes.substr(begin, bytes.find('\n', begin) - begin));
       if (first == "SOLID" && has("facet", n_first_bytes))
         return MeshFormat::stl;
-      if (bytes.compare(0, 4, "ply\n") == 0 ||
-          bytes.compare(0, 5, "ply\r\n") == 0)
+      if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n"))
         return MeshFormat::ply;
       if (first == "OFF" || first == "COFF" || first == "NOFF")
         return MeshFormat::off;
@@ -197,7 +196,7 @@ namespace corotet
         return MeshFormat::iges;
       if (begins_like_abaqus(bytes))
         return MeshFormat::abaqus;
-      if (has("# vtk DataFile", 100))
+      if (has("# vtk DataFile", 100) || has("<VTKFile", n_first_bytes))
         return MeshFormat::vtk;
       if (has("MeshVersionFormatted", 2000))
         return MeshFormat::medit;
@@ -207,53 +206,11 @@ namespace corotet
         return MeshFormat::nastran;
       if (begins_like_obj(bytes))
         return MeshFormat::obj;
+      // A file of HDF5 with MED's groups.
+      if (bytes.starts_with("\x89HDF\r\n\x1a\n") &&
+          has("INFOS_GENERALES", n_first_bytes))
+        return MeshFormat::med;
       return {};
-    }
-
-
-
-    // gmsh reads the older of the legacy formats of VTK, as text. The types of
-    // cells come last of what makes a mesh: their number, and a number for
-    // each.
-    void
-    check_vtk(const std::string &path)
-    {
-      std::ifstream file(path, std::ios::binary);
-      const auto    refuse = [&](const std::string &found) {
-        throw InputError("",
-                         path + ": found a VTK file " + found +
-                           "; allowed are text files (ASCII) of the versions 2 "
-                              "to 4, which VTK and ParaView write as 'legacy, "
-                              "file version 4.2'");
-      };
-      std::string head, title, kind;
-      std::getline(file, head);
-      std::getline(file, title);
-      std::getline(file, kind);
-      const std::size_t version = head.find("Version ");
-      if (version != std::string::npos &&
-          std::atoi(head.c_str() + version + 8) >= 5)
-        refuse("of version " + shortened(head.substr(version + 8)));
-      if (kind.starts_with("BINARY"))
-        refuse("in binary form");
-      std::size_t n_wanted = 0, n = 0;
-      for (std::string line; n_wanted == 0 && std::getline(file, line);)
-        {
-          std::istringstream words(line);
-          std::string        word;
-          words >> word;
-          if (word == "CELL_TYPES")
-            words >> n_wanted;
-        }
-      for (int type = 0; n < n_wanted && file >> type;)
-        ++n;
-      if (n_wanted == 0 || n < n_wanted)
-        throw InputError("",
-                         fmt::format("{}: found {} types of cells (CELL_TYPES) "
-                                     "of {}: is the rest missing?",
-                                     path,
-                                     n,
-                                     n_wanted));
     }
 
 
@@ -310,9 +267,14 @@ namespace corotet
        false},
       {MeshFormat::nastran, "nastran", ".bdf, .nas", "mesh of Nastran", false},
       {MeshFormat::unv, "unv", ".unv", "mesh of I-deas, Salome", false},
-      {MeshFormat::vtk, "vtk", ".vtk", "mesh of VTK, legacy format", false},
+      {MeshFormat::vtk, "vtk", ".vtk, .vtu", "mesh of VTK", false},
       {MeshFormat::medit, "medit", ".mesh", "mesh of Medit, ASCII", false},
-      {MeshFormat::cgns, "cgns", ".cgns", "mesh in CGNS", false}};
+      {MeshFormat::cgns, "cgns", ".cgns", "mesh in CGNS", false},
+      {MeshFormat::med,
+       "med",
+       ".med, .rmed",
+       "mesh of Salome and code_aster, MED",
+       false}};
     return formats;
   }
 
@@ -357,8 +319,6 @@ namespace corotet
                                                   {MeshFormat::unv, "-1"},
                                                   {MeshFormat::medit, "END"}};
     const auto                              wanted = words.find(format);
-    if (format == MeshFormat::vtk)
-      check_vtk(path);
     if (format == MeshFormat::brep)
       check_brep(path);
     if (wanted == words.end())

@@ -55,7 +55,7 @@ namespace corotet
     std::map<unsigned int, unsigned int> part_of;
     for (const auto &[id, n] : n_in_set)
       {
-        if (n == n_with[id] || meant.count(id) > 0)
+        if (n == n_with[id] || meant.contains(id))
           {
             meant.insert(id);
             continue;
@@ -93,7 +93,7 @@ namespace corotet
                   [&](const auto &own) { return kept.count(own.first) == 0; });
     for (auto &[name, ids] : sets)
       std::erase_if(ids,
-                    [&](const unsigned int id) { return kept.count(id) == 0; });
+                    [&](const unsigned int id) { return !kept.contains(id); });
     std::erase_if(sets, [](const auto &set) { return set.second.empty(); });
     for (const unsigned int id : kept)
       names.emplace(id, "");
@@ -203,7 +203,8 @@ namespace corotet
     std::vector<std::string> known;
     for (std::size_t i = 0; i < all.size(); ++i)
       {
-        kinds += (i == 0 ? "" : i + 1 < all.size() ? ", " : " or ");
+        if (i > 0)
+          kinds += i + 1 < all.size() ? ", " : " or ";
         kinds += all[i]->kind;
         lists += (i == 0 ? "" : "; ") + all[i]->listed();
         for (const std::string &name : all[i]->known())
@@ -295,8 +296,10 @@ namespace corotet
     const bool has_boundaries = !place.boundaries.empty();
     const bool has_edges      = !place.edges.empty();
     const bool has_corners    = !place.corners.empty();
-    if (has_boundaries + has_edges + has_corners > 1)
+    if (has_boundaries ? has_edges || has_corners : has_edges && has_corners)
       return "place";
-    return has_boundaries ? "boundary" : has_edges ? "edge" : "corner";
+    if (has_boundaries)
+      return "boundary";
+    return has_edges ? "edge" : "corner";
   }
 } // namespace corotet

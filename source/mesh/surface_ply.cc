@@ -175,7 +175,10 @@ namespace corotet::surface_files
             else if (keyword == "property")
               read_property();
             else if (keyword == "end_header")
-              return check_header();
+              {
+                check_header();
+                return;
+              }
             else if (keyword != "ply" && keyword != "comment" &&
                      keyword != "obj_info")
               lines.refuse(fmt::format("the keyword is unknown: found '{}'",
@@ -332,7 +335,10 @@ namespace corotet::surface_files
       corner(const Element &element, const long long i, const double value)
       {
         const auto n = static_cast<double>(surface.vertices.size());
-        if (!(value >= 0 && value < n) || value != std::floor(value))
+        // Not a number is none of these.
+        const bool is_there =
+          value >= 0 && value < n && value == std::floor(value);
+        if (!is_there)
           refuse(element,
                  i,
                  fmt::format("no such vertex: found {}; allowed are 0 to {}",

@@ -20,7 +20,9 @@ namespace corotet
     dealii::types::boundary_id
     swapped(const dealii::types::boundary_id id)
     {
-      return id == 0 ? unnamed_boundary : id == unnamed_boundary ? 0 : id;
+      if (id == 0)
+        return unnamed_boundary;
+      return id == unnamed_boundary ? 0 : id;
     }
 
 

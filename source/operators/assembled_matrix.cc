@@ -159,13 +159,14 @@ namespace corotet
       for (unsigned int a = 0; a < 3; ++a)
         for (unsigned int b = 0; b < 3; ++b)
           if ((prescribed[3 * nodes[i] + a] || prescribed[3 * nodes[j] + b]) &&
-              !(i == j && a == b))
+              (i != j || a != b))
             block[a][b] = 0;
     const std::uint16_t *const places =
       block_places.data() + static_cast<std::size_t>(n) * n * cell;
     if (nodes[i] < this->nodes.n_owned_nodes())
       {
-        double   *row = block_matrix->row(nodes[i], 0) + 3 * places[n * i + j];
+        double *row =
+          block_matrix->row(nodes[i], 0) + std::size_t(3) * places[n * i + j];
         const int length = block_matrix->row_length(nodes[i]);
         for (unsigned int a = 0; a < 3; ++a, row += length)
           for (unsigned int b = 0; b < 3; ++b)
@@ -173,7 +174,8 @@ namespace corotet
       }
     if (i != j && nodes[j] < this->nodes.n_owned_nodes())
       {
-        double   *row = block_matrix->row(nodes[j], 0) + 3 * places[n * j + i];
+        double *row =
+          block_matrix->row(nodes[j], 0) + std::size_t(3) * places[n * j + i];
         const int length = block_matrix->row_length(nodes[j]);
         for (unsigned int a = 0; a < 3; ++a, row += length)
           for (unsigned int b = 0; b < 3; ++b)
@@ -241,7 +243,7 @@ namespace corotet
     const V ratio = load_aligned<batch_size>(coefficients.lame_ratio);
 
     // Gradients of the shape functions at the points, [q][node], and weights.
-    point_gradients.resize(n_points * n);
+    point_gradients.resize(std::size_t(n_points) * n);
     point_weights.resize(n_points);
     for (unsigned int q = 0; q < n_points; ++q)
       {

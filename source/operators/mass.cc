@@ -59,7 +59,7 @@ namespace corotet
       const CurvedBatches &curved = *discretization.batches().curved();
       const auto          &values = curved.shapes().values;
       const auto [batch, lane]    = discretization.batches().place(cell);
-      const double       *numbers = curved.numbers<double>(batch);
+      const auto         *numbers = curved.numbers<double>(batch);
       const unsigned int  n       = straight.size();
       std::vector<double> shares(n);
       double              sum = 0;

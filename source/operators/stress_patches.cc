@@ -263,7 +263,7 @@ namespace corotet
         .eigenvalues();
     if (eigenvalues[0] < smallest_eigenvalue * eigenvalues[n - 1])
       return {};
-    result.inverse.resize(n * n);
+    result.inverse.resize(std::size_t(n) * n);
     Eigen::Map<Eigen::MatrixXd>(result.inverse.data(), n, n) =
       A.llt().solve(Eigen::MatrixXd::Identity(n, n));
     return result;
@@ -377,7 +377,8 @@ namespace corotet
               right_side;
           }
         for (const Target &target : patch.targets)
-          Eigen::Map<SixNumbers>(recovered.begin() + 6 * target.node) +=
+          Eigen::Map<SixNumbers>(recovered.begin() +
+                                 std::size_t(6) * target.node) +=
             target.weight * polynomial(patch,
                                        discretization.node_position(
                                          nodes.copy(target.node).node));

@@ -105,7 +105,7 @@ namespace corotet
           ReferenceElement::tabulate(nodes.element(),
                                      rule.points,
                                      rule.weights);
-        values[f].resize(n_points * n_face_nodes);
+        values[f].resize(std::size_t(n_points) * n_face_nodes);
         for (unsigned int q = 0; q < n_points; ++q)
           for (unsigned int k = 0; k < n_face_nodes; ++k)
             values[f][q * n_face_nodes + k] =

@@ -125,17 +125,18 @@ namespace corotet
       for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
         {
           const auto          nodes = discretization.cell_nodes(c);
-          const std::uint64_t first = 13 * discretization.mesh_cell(c);
+          const std::uint64_t first =
+            std::uint64_t(13) * discretization.mesh_cell(c);
           sum += checkpoint_checksum::of_word(discretization.geometry(c).region,
                                               first);
           for (unsigned int v = 0; v < 4; ++v)
             for (unsigned int a = 0; a < 3; ++a)
               {
-                const double  x = discretization.node_position(nodes[v])[a];
-                std::uint64_t word;
+                const double  x    = discretization.node_position(nodes[v])[a];
+                std::uint64_t word = 0;
                 std::memcpy(&word, &x, sizeof(word));
                 sum +=
-                  checkpoint_checksum::of_word(word, first + 1 + 3 * v + a);
+                  checkpoint_checksum::of_word(word, first + (1 + 3 * v + a));
               }
         }
       return checkpoint_checksum::in_words(
@@ -148,7 +149,7 @@ namespace corotet
     {
       const bool here =
         std::all_of(vector.begin(), vector.end(), [](const double x) {
-          std::uint64_t word;
+          std::uint64_t word = 0;
           std::memcpy(&word, &x, sizeof(word));
           return word == 0;
         });

@@ -250,14 +250,17 @@ namespace corotet
         if ((asked & (terminate | interrupt | time_limit)) != 0)
           {
             write(simulation, true);
+            std::string reason = "the wall time limit";
+            if ((asked & terminate) != 0)
+              reason = "SIGTERM";
+            else if ((asked & interrupt) != 0)
+              reason = "SIGINT";
             const std::string message =
               fmt::format("step {} (t = {:.6g} s): {}; the run is saved, "
                           "--restart goes on with it",
                           simulation.step_number(),
                           simulation.time(),
-                          (asked & terminate) != 0 ? "SIGTERM" :
-                          (asked & interrupt) != 0 ? "SIGINT" :
-                                                     "the wall time limit");
+                          reason);
             log.line(message);
             simulation.stop(message);
             throw Stopped(message);

@@ -29,8 +29,8 @@ namespace corotet
     // and how far it is outside: its smallest barycentric coordinate or 0.
     struct Location
     {
-      unsigned int cell    = 0;
-      Point<3>     xi      = {};
+      unsigned int cell = 0;
+      Point<3>     xi;
       double       outside = far_outside;
     };
 

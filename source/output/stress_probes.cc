@@ -47,7 +47,7 @@ namespace corotet
     if (!raw)
       field.recover();
     // For each probe and material: six sums over cells, and their number.
-    const unsigned int  n_materials = field.law().n_materials();
+    const std::size_t   n_materials = field.law().n_materials();
     std::vector<double> sums(7 * n_materials * probe_names.size(), 0.);
     for (const StressProbeInCell &probe : located)
       {

@@ -148,7 +148,8 @@ namespace corotet
         nodes->write(file, name, values.begin(), 3);
         return;
       }
-    std::vector<double> shown(3 * without_bubbles->n_owned_nodes());
+    std::vector<double> shown(std::size_t(3) *
+                              without_bubbles->n_owned_nodes());
     for (unsigned int n = 0; n < without_bubbles->n_owned_nodes(); ++n)
       for (unsigned int a = 0; a < 3; ++a)
         shown[3 * n + a] =

@@ -157,7 +157,7 @@ namespace corotet
     summary.degree      = discretization.degree();
     summary.cells       = discretization.n_global_cells();
     summary.nodes       = discretization.n_global_nodes();
-    summary.unknowns    = 3 * discretization.n_global_nodes();
+    summary.unknowns    = std::size_t(3) * discretization.n_global_nodes();
     summary.mesh_volume = dealii::Utilities::MPI::sum(volume, comm);
     summary.total_mass  = mass.total();
   }

@@ -62,12 +62,15 @@ namespace corotet
         return;
       // Without an initial displacement it may be meant: supports that jump.
       if (norm(initial.u) == 0)
-        return log.warning(
-          fmt::format("supports jump by up to {:.6g} m at the start, which "
-                      "crushes the cells there; let the displacement begin at "
-                      "zero, as smooth_step does, or give the body an initial "
-                      "displacement",
-                      largest_of_all));
+        {
+          log.warning(fmt::format(
+            "supports jump by up to {:.6g} m at the start, which "
+            "crushes the cells there; let the displacement begin at "
+            "zero, as smooth_step does, or give the body an initial "
+            "displacement",
+            largest_of_all));
+          return;
+        }
       on_all_ranks(comm, [&] {
         if (largest != largest_of_all)
           return;

@@ -65,7 +65,7 @@ namespace corotet
       {
         begin_equal_steps(0);
       }
-    if (!integrator->stability())
+    if (integrator->stability() == nullptr)
       return;
     try
       {

@@ -36,9 +36,9 @@ namespace corotet
         points   = pattern;
         n_points = points->n_owned();
         for (auto *vector : {&rhs, &residual, &product, &scaled})
-          vector->resize(d * n_points);
+          vector->resize(offset(n_points));
         for (auto *vector : {&x, &direction})
-          vector->resize(d * points->exchange().n_items());
+          vector->resize(offset(points->exchange().n_items()));
       }
     // Matrices of aggregates come divided.
     if (d == 3)
@@ -65,9 +65,9 @@ namespace corotet
     using Block            = Eigen::Matrix<double, d, d>;
     const NodeGraph &graph = points->graph();
     // A load of the last column reaches beyond it.
-    blocks.resize(d * d * graph.columns.size() + 2);
-    inverse_diagonal.resize(d * d * n_points);
-    is_prescribed.resize(d * n_points);
+    blocks.resize(offset(d) * graph.columns.size() + 2);
+    inverse_diagonal.resize(d * offset(n_points));
+    is_prescribed.resize(offset(n_points));
     float *block = blocks.data();
     for (int i = 0; i < n_points; ++i)
       {
@@ -105,8 +105,8 @@ namespace corotet
     starts_of_inverses.assign(1, 0);
     for (int g = 0; g < points_of_aggregates.n_rows(); ++g)
       {
-        const std::size_t n = d * (points_of_aggregates.starts[g + 1] -
-                                   points_of_aggregates.starts[g]);
+        const std::size_t n = offset(points_of_aggregates.starts[g + 1] -
+                                     points_of_aggregates.starts[g]);
         largest             = std::max(largest, n);
         starts_of_inverses.push_back(starts_of_inverses.back() + n * n);
       }
@@ -122,7 +122,7 @@ namespace corotet
         for (int i = 0; i < n; ++i)
           places[own[i]] = i;
         dealii::LAPACKFullMatrix<double> inverse(d * n, d * n);
-        std::vector<double>              diagonal(d * n);
+        std::vector<double>              diagonal(offset(n));
         for (int i = 0; i < n; ++i)
           {
             const auto rows  = A.template rows_of<d>(own[i]);

@@ -115,9 +115,11 @@ namespace corotet
               double *values = matrix.row(2 * i + m / 3, m % 3);
               for (int k = 0; k < pattern.starts[i + 1] - begin; ++k)
                 {
-                  const int place = k < n_below           ? n_owned + k :
-                                    k < n_below + n_owned ? k - n_below :
-                                                            k;
+                  int place = k;
+                  if (k < n_below)
+                    place = n_owned + k;
+                  else if (k < n_below + n_owned)
+                    place = k - n_below;
                   for (int l = 0; l < 6; ++l)
                     values[6 * place + l] = blocks[begin + k][m][l];
                 }
@@ -209,11 +211,11 @@ namespace corotet
                     space.translation.begin(),
                     space.translation.end());
         rows.insert(rows.end(), space.rotation.begin(), space.rotation.end());
-        make_orthonormal(rows, d * n);
+        make_orthonormal(rows, offset(n));
         for (int i = 0; i < n; ++i)
-          std::copy_n(&rows[d * i], d, motions.points[begin[i]].begin());
-        std::copy_n(&rows[d * n], 3, space.translation.begin());
-        std::copy_n(&rows[d * n + 3], 3, space.rotation.begin());
+          std::copy_n(&rows[offset(i)], d, motions.points[begin[i]].begin());
+        std::copy_n(&rows[offset(n)], 3, space.translation.begin());
+        std::copy_n(&rows[offset(n) + 3], 3, space.rotation.begin());
 
         PointFrame<6> &frame = problem.frames[g];
         frame                = PointFrame<6>();
@@ -282,7 +284,7 @@ namespace corotet
         }
     else
       for (int i = 0; i < n_points; ++i)
-        action(&i, 1, &inverse_diagonal[d * d * i]);
+        action(&i, 1, &inverse_diagonal[d * offset(i)]);
   }
 
   /// From the product of A / unit and the motions to the product of
@@ -296,8 +298,8 @@ namespace corotet
   {
     const double                   omega = 4. / 3 / largest_eigenvalue;
     std::vector<ProlongationBlock> products;
-    prolongation_blocks.resize(
-      6 * d * static_cast<std::size_t>(prolongation_pattern.starts[n_points]));
+    prolongation_blocks.resize(6 *
+                               offset(prolongation_pattern.starts[n_points]));
     // Points of one block have the same columns in the prolongation.
     for_each_diagonal_block(
       [&](const int *own, const int n, const float *inverse) {

@@ -57,10 +57,10 @@ namespace corotet
         for (int k = graph.starts[i]; k < graph.starts[i + 1];
              ++k, block += d * d)
           {
-            const float *v = x + d * graph.columns[k];
+            const float *v = x + offset(graph.columns[k]);
             Column<d>    part{};
             for (int b = 0; b < d; ++b)
-              part += v[b] * load<d>(block + d * b);
+              part += v[b] * load<d>(block + offset(b));
             sum += part;
           }
         for (int a = 0; a < d; ++a)
@@ -76,7 +76,9 @@ namespace corotet
     if (!has_aggregate_blocks)
       {
         for (int i = 0; i < n_points; ++i)
-          multiply<d>(&z[d * i], &inverse_diagonal[d * d * i], &r[d * i]);
+          multiply<d>(&z[offset(i)],
+                      &inverse_diagonal[d * offset(i)],
+                      &r[offset(i)]);
         return;
       }
     float *const sum = block_product.data();
@@ -88,11 +90,11 @@ namespace corotet
         const float *inverse = &inverse_aggregates[starts_of_inverses[g]];
         std::fill_n(sum, d * n, 0.f);
         for (int i = 0; i < n; ++i)
-          for (int a = 0; a < d; ++a, inverse += d * n)
+          for (int a = 0; a < d; ++a, inverse += offset(n))
             for (int j = 0; j < d * n; ++j)
               sum[j] += inverse[j] * r[d * own[i] + a];
         for (int i = 0; i < n; ++i)
-          std::copy_n(sum + d * i, d, z + d * own[i]);
+          std::copy_n(sum + offset(i), d, z + offset(own[i]));
       }
   }
 
@@ -137,7 +139,7 @@ namespace corotet
             float r[d], z[d];
             for (int a = 0; a < d; ++a)
               r[a] = rhs[d * i + a] - (is_start ? 0.f : product[d * i + a]);
-            multiply<d>(z, &inverse_diagonal[d * d * i], r);
+            multiply<d>(z, &inverse_diagonal[d * offset(i)], r);
             for (int a = 0; a < d; ++a)
               step(d * i + a, z[a]);
           }
@@ -156,7 +158,7 @@ namespace corotet
            k < prolongation_pattern.starts[i + 1];
            ++k)
         action(d * i,
-               &prolongation_blocks[6 * d * static_cast<std::size_t>(k)],
+               &prolongation_blocks[6 * offset(k)],
                6 * (prolongation_pattern.columns[k] - first_aggregate));
   }
 

@@ -100,7 +100,7 @@ namespace corotet
           smooth(false);
         for (int i = 0; i < n_points; ++i)
           {
-            displacements[i] = displacement(frames[i], &x[d * i]);
+            displacements[i] = displacement(frames[i], &x[offset(i)]);
             sizes[i] += displacements[i].norm_square();
           }
         for (int i = 0; i < n_points; ++i)
@@ -126,7 +126,7 @@ namespace corotet
     const NodeGraph           &graph = points->graph();
     std::vector<unsigned char> is_joined(graph.columns.size());
     for (std::size_t k = 0; k < is_joined.size(); ++k)
-      is_joined[k] = graph.columns[k] < n_points;
+      is_joined[k] = graph.columns[k] < n_points ? 1 : 0;
     if (threshold > 0)
       {
         const std::vector<double> similarity = similarities(frames);
@@ -138,8 +138,10 @@ namespace corotet
           for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
             if (const int j = graph.columns[k]; j < n_points)
               is_joined[k] =
-                i == j ||
-                similarity[k] >= threshold * std::min(largest[i], largest[j]);
+                i == j || similarity[k] >=
+                            threshold * std::min(largest[i], largest[j]) ?
+                  1 :
+                  0;
       }
     aggregates = aggregate(graph, [&](const int k) { return is_joined[k]; });
     if (threshold == 0)

@@ -44,9 +44,9 @@ namespace corotet
       lower = cholmod_allocate_sparse(n_rows,
                                       n_rows,
                                       n_entries,
-                                      false,
-                                      true,
-                                      1,
+                                      0, // not sorted
+                                      1, // packed
+                                      1, // symmetric, the upper part
                                       CHOLMOD_REAL + (single_precision ?
                                                         CHOLMOD_SINGLE :
                                                         CHOLMOD_DOUBLE),
@@ -102,9 +102,9 @@ namespace corotet
     cholmod_sparse *nodes   = cholmod_allocate_sparse(n_nodes,
                                                     n_nodes,
                                                     starts[n_rows],
-                                                    false,
-                                                    true,
-                                                    1,
+                                                    0, // not sorted
+                                                    1, // packed
+                                                    1, // symmetric
                                                     CHOLMOD_PATTERN,
                                                     &common);
     check_status();
@@ -115,7 +115,9 @@ namespace corotet
     for (int node = 0; node < n_nodes; ++node)
       {
         node_starts[node] = n;
-        for (int k = starts[3 * node]; k < starts[3 * node + 3]; ++k)
+        for (int k = starts[std::size_t(3) * node];
+             k < starts[std::size_t(3) * node + 3];
+             ++k)
           if (std::exchange(last_seen[column[k] / 3], node) != node)
             node_rows[n++] = column[k] / 3;
       }
@@ -123,7 +125,7 @@ namespace corotet
     if (n_nodes < min_nodes_for_dissection)
       cholmod_amd(nodes, nullptr, 0, node_order.data(), &common);
     else
-      cholmod_metis(nodes, nullptr, 0, true, node_order.data(), &common);
+      cholmod_metis(nodes, nullptr, 0, 1, node_order.data(), &common);
     cholmod_free_sparse(&nodes, &common);
     check_status();
 

@@ -121,7 +121,10 @@ namespace corotet
       {
         const double factor = a == 0 ? b : a;
         if (factor == 0)
-          return fill(0.);
+          {
+            fill(0.);
+            return;
+          }
         assign(a == 0 ? B : A);
         for (auto &column : columns)
           *column *= factor;

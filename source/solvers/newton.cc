@@ -156,9 +156,9 @@ namespace corotet
     round_off_limit() const
     {
       using RoundOff = NewtonReport::RoundOff;
-      return has_small_residual() ? RoundOff::none :
-             is_round_off()       ? RoundOff::of_residual :
-                                    RoundOff::of_increment;
+      if (has_small_residual())
+        return RoundOff::none;
+      return is_round_off() ? RoundOff::of_residual : RoundOff::of_increment;
     }
 
     [[noreturn]] void

@@ -36,8 +36,8 @@ namespace corotet
   std::string
   NewtonReport::text() const
   {
-    std::string residuals  = fmt::format("{:.1e}", first_residual);
-    std::string increments = "";
+    std::string residuals = fmt::format("{:.1e}", first_residual);
+    std::string increments;
     // Of long histories the start and the end.
     constexpr std::size_t shown = 8;
     for (std::size_t k = 0; k < history.size(); ++k)

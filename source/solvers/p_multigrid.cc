@@ -292,11 +292,12 @@ namespace corotet
                               surface.get());
       }
     const auto &matrix = coarse_matrix ? coarse_matrix->matrix() : A.matrix();
-    coarse_solver =
-      parameters->coarse_type != "automatic" ? parameters->coarse_type :
-      3 * coarse_nodes->n_global_nodes() <= parameters->direct_limit ?
-                                               "direct" :
-                                               "aggregation";
+    coarse_solver      = parameters->coarse_type;
+    if (coarse_solver == "automatic")
+      coarse_solver =
+        3 * coarse_nodes->n_global_nodes() <= parameters->direct_limit ?
+          "direct" :
+          "aggregation";
     if (coarse_solver == "direct")
       {
         direct.factorize(matrix);

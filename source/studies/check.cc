@@ -153,6 +153,7 @@ namespace corotet
     RowFormula(const RowFormula &) = delete;
     RowFormula &
     operator=(const RowFormula &) = delete;
+    ~RowFormula()                 = default;
 
     double
     value(const std::vector<double> &row)
@@ -279,7 +280,9 @@ namespace corotet
     if (statistic == "mean")
       return std::accumulate(values.begin(), values.end(), 0.) / values.size();
     const auto [min, max] = std::minmax_element(values.begin(), values.end());
-    return statistic == "min" ? *min : statistic == "max" ? *max : *max - *min;
+    if (statistic == "min")
+      return *min;
+    return statistic == "max" ? *max : *max - *min;
   }
 
   CheckResult
@@ -293,13 +296,19 @@ namespace corotet
     result.error = result.computed - reference;
     if (relative)
       result.error *= 100 / std::abs(reference);
-    result.tolerance = relation == '<' ? "below" :
-                       relation == '>' ? "above" :
-                                         tolerance_text;
     // Comparisons with not a number are false.
-    result.passed = relation == '<' ? result.computed < reference :
-                    relation == '>' ? result.computed > reference :
-                                      std::abs(result.error) <= tolerance;
+    result.tolerance = tolerance_text;
+    result.passed    = std::abs(result.error) <= tolerance;
+    if (relation == '<')
+      {
+        result.tolerance = "below";
+        result.passed    = result.computed < reference;
+      }
+    else if (relation == '>')
+      {
+        result.tolerance = "above";
+        result.passed    = result.computed > reference;
+      }
     return result;
   }
 } // namespace corotet

@@ -214,6 +214,9 @@ namespace corotet
     if (!kept.is_object() || !kept.contains("result") ||
         kept.value("problem", Json()) != problem)
       return {};
+    const auto warn_of_damage = [&] {
+      log.warning(path + ": the result is damaged; the run is made again");
+    };
     try
       {
         StudyResult result = result_from_json(study_case, kept.at("result"));
@@ -228,12 +231,14 @@ namespace corotet
         return result;
       }
     catch (const Json::exception &)
-      {}
+      {
+        warn_of_damage();
+      }
     catch (const std::logic_error &)
       {
         // A text that is no number.
+        warn_of_damage();
       }
-    log.warning(path + ": the result is damaged; the run is made again");
     return {};
   }
 
@@ -350,10 +355,11 @@ namespace corotet
         std::count_if(results.begin(), results.end(), [](const auto &result) {
           return result.status != "done";
         });
-      const Json summary{{"status",
-                          n_failed > 0                   ? "failed" :
-                          results.size() == cases.size() ? "done" :
-                                                           "unfinished"},
+      std::string status =
+        results.size() == cases.size() ? "done" : "unfinished";
+      if (n_failed > 0)
+        status = "failed";
+      const Json summary{{"status", status},
                          {"version", version},
                          {"git_revision", git_revision},
                          {"ranks",

@@ -20,29 +20,40 @@ namespace corotet
   namespace
   {
     void
+    report_mesh(const MeshCommand &asked)
+    {
+      // Before it is made, which may take long.
+      if (!asked.out.empty())
+        check_msh_target(asked.out, asked.file);
+      const SerialMesh mesh = read_mesh_file(asked.file,
+                                             asked.element_size,
+                                             asked.geometry_degree,
+                                             asked.feature_angle);
+      std::cout << mesh_report(mesh);
+      if (asked.out.empty())
+        return;
+      write_msh_file(asked.out, mesh);
+      std::cout << "written: " << asked.out << '\n';
+    }
+
+
+
+    void
     run_command(const int argc, const char *const *argv)
     {
       CommandLine command = parse_command_line(argc, argv);
-      if (command.message)
-        return on_root(MPI_COMM_WORLD, [&] { std::cout << *command.message; });
-      if (command.list)
-        return on_root(MPI_COMM_WORLD, [] { std::cout << list_choices(); });
-      if (command.mesh)
-        return on_root(MPI_COMM_WORLD, [&] {
-          const MeshCommand &asked = *command.mesh;
-          // Before it is made, which may take long.
-          if (!asked.out.empty())
-            check_msh_target(asked.out, asked.file);
-          const SerialMesh mesh = read_mesh_file(asked.file,
-                                                 asked.element_size,
-                                                 asked.geometry_degree,
-                                                 asked.feature_angle);
-          std::cout << mesh_report(mesh);
-          if (asked.out.empty())
-            return;
-          write_msh_file(asked.out, mesh);
-          std::cout << "written: " << asked.out << '\n';
-        });
+      if (command.message || command.list || command.mesh)
+        {
+          on_root(MPI_COMM_WORLD, [&] {
+            if (command.message)
+              std::cout << *command.message;
+            else if (command.list)
+              std::cout << list_choices();
+            else
+              report_mesh(*command.mesh);
+          });
+          return;
+        }
       if (command.output_directory)
         command.overrides.push_back("Output/Directory = " +
                                     *command.output_directory);

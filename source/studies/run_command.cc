@@ -148,9 +148,9 @@ namespace corotet
         // As its description says.
         const nlohmann::ordered_json solver = file.values().at("Linear solver");
         if (solver.at("Type") == "automatic")
-          used.push_back("Linear solver/p-multigrid");
+          used.emplace_back("Linear solver/p-multigrid");
         if (solver.at("p-multigrid").at("Coarse solver") == "amg")
-          used.push_back("Linear solver/amg");
+          used.emplace_back("Linear solver/amg");
         return find_unused_entries(file, used);
       }
 
@@ -160,11 +160,14 @@ namespace corotet
         switch (parameters.simulation.type)
           {
             case RunType::convergence_study:
-              return run_study();
+              run_study();
+              break;
             case RunType::modes:
-              return run_modes();
+              run_modes();
+              break;
             case RunType::simulation:
-              return run_simulation();
+              run_simulation();
+              break;
           }
       }
 
@@ -308,7 +311,10 @@ namespace corotet
              const std::function<void()> &action)
       {
         if (command.validate)
-          return log.line(command.parameter_file + ": valid");
+          {
+            log.line(command.parameter_file + ": valid");
+            return;
+          }
         if (!lock)
           lock.emplace(directory, comm);
         if (!goes_on)
@@ -363,8 +369,8 @@ namespace corotet
     RunParameters parameters;
     parameters.declare_parameters(file.handler());
     if (command.print_parameters)
-      return on_root(comm,
-                     [&] { file.print(std::cout, *command.print_parameters); });
-    Command(command, file, parameters, comm).run();
+      on_root(comm, [&] { file.print(std::cout, *command.print_parameters); });
+    else
+      Command(command, file, parameters, comm).run();
   }
 } // namespace corotet

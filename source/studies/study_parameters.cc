@@ -179,7 +179,9 @@ namespace corotet
               quantity.reference = dealii::Utilities::string_to_double(*value);
           }
         catch (const dealii::ExceptionBase &)
-          {}
+          {
+            quantity.reference.reset();
+          }
         if (name.empty() || (value && !quantity.reference))
           throw InputError(section + "Quantities",
                            fmt::format("found '{}'; allowed: 'name' or 'name: "

@@ -273,6 +273,7 @@ namespace corotet
     catch (const InputError &)
       {
         // Of other parameters, as the study's finished runs may be.
+        checkpoint.reset();
       }
     try
       {

@@ -204,24 +204,24 @@ namespace corotet
     const StudyCase         &first = results.front().study_case;
     std::vector<std::string> titles{"degree", "refinements"};
     if (first.time_step)
-      titles.push_back("time step");
+      titles.emplace_back("time step");
     if (first.mass)
-      titles.push_back("mass");
+      titles.emplace_back("mass");
     if (first.rotation)
-      titles.push_back("rotation");
+      titles.emplace_back("rotation");
     for (const char *title : {"cells", "dofs", "h"})
-      titles.push_back(title);
+      titles.emplace_back(title);
     for (const auto &quantity : quantities)
       titles.push_back(quantity.name);
     for (const Error &error : errors)
       {
         titles.push_back(error.name + " error");
-        titles.push_back("order");
+        titles.emplace_back("order");
         if (has_orders_in_time)
-          titles.push_back("in time");
+          titles.emplace_back("in time");
       }
     for (const char *title : {"Newton", "linear", "time [s]"})
-      titles.push_back(title);
+      titles.emplace_back(title);
 
     std::vector<std::vector<std::string>> table{titles};
     for (unsigned int i = 0; i < results.size(); ++i)

@@ -30,6 +30,13 @@ namespace
     std::string  mass;
   };
 
+  // GoogleTest would print the bytes, some of which are never set.
+  void
+  PrintTo(const Case &c, std::ostream *stream)
+  {
+    *stream << "P" << c.degree << c.mass;
+  }
+
   std::string
   text(const Case &c)
   {

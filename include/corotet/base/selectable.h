@@ -136,6 +136,7 @@ namespace corotet
     Selectable(const Selectable &) = delete;
     Selectable &
     operator=(const Selectable &) = delete;
+    ~Selectable()                 = default;
 
     void
     declare_parameters(dealii::ParameterHandler &prm,

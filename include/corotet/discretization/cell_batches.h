@@ -91,7 +91,7 @@ namespace corotet
     bool
     is_at_end(const unsigned int batch) const
     {
-      return at_end[batch];
+      return at_end[batch] != 0;
     }
 
     /// Whether sweeps should ask for nodes_to_fetch() ahead: their vectors of
@@ -100,7 +100,7 @@ namespace corotet
     bool
     exceed_caches() const
     {
-      return n_local_nodes > max_cached_nodes * (sizeof(double) / sizeof(T));
+      return n_local_nodes * sizeof(T) > max_cached_nodes * sizeof(double);
     }
 
     /// Local numbers of the nodes of batches [batch, end) that the 8 *

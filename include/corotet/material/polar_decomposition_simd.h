@@ -253,7 +253,7 @@ namespace corotet
     const unsigned int far_ones =
       internal::lane_bits(~(1. - d < internal::far_from_rotation)) & ordinary;
     // Rare calls get copies: X and the caller's F and R stay in registers.
-    if (__builtin_expect(far_ones != 0, 0))
+    if (__builtin_expect(static_cast<long>(far_ones != 0), 0))
       {
         Simd<double> Y[3][3];
         internal::copy(X, Y);
@@ -268,7 +268,7 @@ namespace corotet
 
     PolarLanes         result;
     const unsigned int irregular = ~ordinary & ((1u << n_lanes<double>)-1);
-    if (__builtin_expect(irregular != 0, 0))
+    if (__builtin_expect(static_cast<long>(irregular != 0), 0))
       {
         Simd<double> G[3][3], Y[3][3];
         internal::copy(F, G);

@@ -175,7 +175,7 @@ namespace corotet
       (trace > 0.) & (det > 0.25 * smallest_sum_of_stretches * trace * trace));
     const unsigned int others  = ~ordinary & ((1u << n_lanes<double>)-1);
     unsigned int       clamped = 0;
-    if (__builtin_expect(others != 0, 0))
+    if (__builtin_expect(static_cast<long>(others != 0), 0))
       {
         V copy[6];
         static_for<6>([&](auto s) { copy[s] = inverse[s]; });

@@ -5,7 +5,6 @@
 #define corotet_mesh_gmsh_model_h
 
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -252,8 +251,7 @@ namespace corotet
     {
       if (rest.size() / sizeof(Number) < n)
         throw std::out_of_range("the bytes end too early");
-      if (n > 0)
-        std::memcpy(numbers, rest.data(), n * sizeof(Number));
+      rest.copy(reinterpret_cast<char *>(numbers), n * sizeof(Number));
       rest.remove_prefix(n * sizeof(Number));
     }
 

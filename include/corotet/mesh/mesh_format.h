@@ -17,6 +17,7 @@ namespace corotet
     cgns,
     geo,
     iges,
+    med,
     medit,
     msh,
     nastran,
@@ -57,9 +58,8 @@ namespace corotet
 
   /**
    * Throws InputError if a file of a format that has a last word (Nastran,
-   * UNV, Medit) does not end with it, or one of VTK ends before its last cell:
-   * the rest would be missing in silence. So would what a file of Nastran
-   * includes, which is refused, too.
+   * UNV, Medit) does not end with it: the rest would be missing in silence. So
+   * would what a file of Nastran includes, which is refused, too.
    */
   void
   check_end(const std::string &path, const MeshFormat format);

@@ -116,6 +116,7 @@ namespace corotet
     BlockMatrix(const BlockMatrix &) = delete;
     BlockMatrix &
     operator=(const BlockMatrix &) = delete;
+    ~BlockMatrix()                 = default;
 
     /// Shared by all who keep what depends on it, for matrices with the same
     /// one.
@@ -205,7 +206,7 @@ namespace corotet
     offset(const int node, const int component) const
     {
       return 9 * static_cast<std::size_t>(the_pattern->graph().starts[node]) +
-             component * row_length(node);
+             static_cast<std::size_t>(component) * row_length(node);
     }
 
     std::shared_ptr<const BlockPattern> the_pattern;

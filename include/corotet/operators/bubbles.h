@@ -23,10 +23,16 @@ namespace corotet::bubbles
   inline constexpr auto node_weights = [] {
     std::array<double, n_nodes> result{};
     for (int i = 0; i < n_nodes; ++i)
-      result[i] = i < 4  ? 17. / 840 :
-                  i < 10 ? 4. / 105 :
-                  i < 14 ? 27. / 280 :
-                           32. / 105;
+      {
+        if (i < 4)
+          result[i] = 17. / 840;
+        else if (i < 10)
+          result[i] = 4. / 105;
+        else if (i < 14)
+          result[i] = 27. / 280;
+        else
+          result[i] = 32. / 105;
+      }
     return result;
   }();
 
@@ -83,8 +89,9 @@ namespace corotet::bubbles
   constexpr Derivatives
   derivatives(const std::array<double, 4> &lambda)
   {
-    constexpr auto &edges = tetrahedron::edges;
-    constexpr auto &faces = tetrahedron::faces;
+    constexpr const auto &edges  = tetrahedron::edges;
+    constexpr const auto &faces  = tetrahedron::faces;
+    const auto            one_if = [](const bool is) { return is ? 1. : 0.; };
     // By the four lambda as if they were independent.
     double d[n_nodes][4] = {};
     for (int k = 0; k < 4; ++k)
@@ -99,15 +106,16 @@ namespace corotet::bubbles
           {
             const auto [a, b] = edges[e];
             d[4 + e][k] =
-              4 * ((a == k) * lambda[b] + (b == k) * lambda[a]) - cell / 4;
+              4 * (one_if(a == k) * lambda[b] + one_if(b == k) * lambda[a]) -
+              cell / 4;
           }
         for (int f = 0; f < 4; ++f)
           {
             const int a = faces[f][0], b = faces[f][1], c = faces[f][2];
             double   &face = d[10 + f][k];
-            face           = 27 * ((a == k) * lambda[b] * lambda[c] +
-                         (b == k) * lambda[c] * lambda[a] +
-                         (c == k) * lambda[a] * lambda[b]) -
+            face           = 27 * (one_if(a == k) * lambda[b] * lambda[c] +
+                         one_if(b == k) * lambda[c] * lambda[a] +
+                         one_if(c == k) * lambda[a] * lambda[b]) -
                    27. / 64 * cell;
             const auto is_on_face = [&](const int v) {
               return v == a || v == b || v == c;

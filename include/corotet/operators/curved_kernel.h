@@ -30,7 +30,7 @@ namespace corotet
       Point(const CurvedBatches &curved,
             const unsigned int   batch,
             const unsigned int   q)
-        : shapes(curved.shape_numbers<T>() + 4 * n * std::size_t(q))
+        : shapes(curved.shape_numbers<T>() + std::size_t(4 * n) * q)
         , numbers(curved.numbers<T>(batch) +
                   CurvedBatches::n_numbers * n_lanes<T> * std::size_t(q))
       {}

@@ -183,10 +183,10 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     count_clamped(const unsigned int clamped) const
     {
-      if (__builtin_expect(clamped != 0, 0))
+      if (__builtin_expect(static_cast<long>(clamped != 0), 0))
         for (unsigned int lane = 0; lane < batch_size; ++lane)
-          data.n_clamped +=
-            (clamped >> lane & 1u) != 0 && constants.volume[lane] > 0;
+          if ((clamped >> lane & 1u) != 0 && constants.volume[lane] > 0)
+            ++data.n_clamped;
     }
 
     /// det F and the energy of the batch. @p energy gives that per volume at

@@ -114,7 +114,7 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     add(const PolarLanes &lanes, const CellConstants &constants)
     {
-      if (__builtin_expect(lanes.irregular != 0, 0))
+      if (__builtin_expect(static_cast<long>(lanes.irregular != 0), 0))
         {
           unsigned int valid = 0;
           for (unsigned int lane = 0; lane < batch_size; ++lane)

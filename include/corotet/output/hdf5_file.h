@@ -51,6 +51,10 @@ namespace corotet
       return *this;
     }
 
+    Hdf5Id(const Hdf5Id &) = delete;
+    Hdf5Id &
+    operator=(const Hdf5Id &) = delete;
+
     ~Hdf5Id()
     {
       if (id >= 0)

@@ -136,7 +136,7 @@ namespace corotet
     is_stable_step_due(const unsigned int step) const
     {
       const StabilityControl *control = integrator->stability();
-      return control && step % control->steps_between_estimates == 0;
+      return control != nullptr && step % control->steps_between_estimates == 0;
     }
     /// Warns, once, if a run of that many steps [-] of that length [s] takes
     /// very long. The first call is that of the start.

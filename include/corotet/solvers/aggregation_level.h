@@ -132,6 +132,14 @@ namespace corotet
     struct ProlongationBlock;
     struct Motions;
 
+    /// Where the unknowns of point @p i begin, or those of a number of points
+    /// end.
+    static std::size_t
+    offset(const std::size_t i)
+    {
+      return d * i;
+    }
+
     void
     copy_matrix(const BlockMatrix &A);
     void

@@ -44,6 +44,10 @@ namespace corotet
       , multigrid(other.multigrid)
     {}
 
+    AutomaticPreconditioner &
+    operator=(const AutomaticPreconditioner &) = delete;
+    ~AutomaticPreconditioner() override        = default;
+
     void
     build(const EffectiveOperator &A, const Vector &positions) override;
 

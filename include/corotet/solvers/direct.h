@@ -39,6 +39,10 @@ namespace corotet
       : DirectSolver()
     {}
 
+    CholeskyDirect &
+    operator=(const CholeskyDirect &) = delete;
+    ~CholeskyDirect() override        = default;
+
     void
     build(const EffectiveOperator &A, const Vector &positions) override;
 

@@ -46,6 +46,10 @@ namespace corotet
       , parameters(std::make_shared<PMultigridParameters>(*other.parameters))
     {}
 
+    PMultigrid &
+    operator=(const PMultigrid &) = delete;
+    ~PMultigrid() override        = default;
+
     void
     declare_parameters(dealii::ParameterHandler &prm) override
     {

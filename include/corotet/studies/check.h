@@ -66,6 +66,9 @@ namespace corotet
     Check(const std::string &text, const std::vector<std::string> &columns);
     ~Check();
     Check(Check &&) noexcept;
+    Check(const Check &) = delete;
+    Check &
+    operator=(const Check &) = delete;
 
     const std::string &
     name() const

@@ -38,13 +38,13 @@ namespace corotet
       for (unsigned int a = 0; a < 3; ++a)
         {
           // Translation in direction a, and rotation about axis a: e_a x r.
-          const unsigned int b           = (a + 1) % 3;
-          const unsigned int c           = (a + 2) % 3;
-          double            *translation = &rigid_body_modes[a * n];
-          double            *rotation    = &rigid_body_modes[(3 + a) * n];
-          translation[3 * node + a]      = 1;
-          rotation[3 * node + b] = -positions.local_element(3 * node + c);
-          rotation[3 * node + c] = positions.local_element(3 * node + b);
+          const unsigned int b      = (a + 1) % 3;
+          const unsigned int c      = (a + 2) % 3;
+          double *translation       = &rigid_body_modes[std::size_t(a) * n];
+          double *rotation          = &rigid_body_modes[std::size_t(3 + a) * n];
+          translation[3 * node + a] = 1;
+          rotation[3 * node + b]    = -positions.local_element(3 * node + c);
+          rotation[3 * node + c]    = positions.local_element(3 * node + b);
         }
 
     Teuchos::ParameterList list;

@@ -28,6 +28,10 @@ namespace corotet
       : DirectSolver()
     {}
 
+    AmesosDirect &
+    operator=(const AmesosDirect &) = delete;
+    ~AmesosDirect() override        = default;
+
     void
     build(const EffectiveOperator &A, const Vector &positions) override;
 

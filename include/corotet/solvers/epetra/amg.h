@@ -47,6 +47,10 @@ namespace corotet
       , parameters(std::make_shared<AMGParameters>(*other.parameters))
     {}
 
+    AMG &
+    operator=(const AMG &) = delete;
+    ~AMG() override        = default;
+
     void
     declare_parameters(dealii::ParameterHandler &prm) override
     {
