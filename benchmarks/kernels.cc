@@ -42,7 +42,8 @@ namespace corotet::benchmarks
           R[2][2]           = 1;
           for (unsigned int a = 0; a < 3; ++a)
             for (unsigned int b = a; b < 3; ++b)
-              S[a][b] = S[b][a] = (a == b) + 0.1 * std::sin(n + 3. * a + b);
+              S[a][b] = S[b][a] =
+                (a == b ? 1 : 0) + 0.1 * std::sin(n + 3. * a + b);
           result[n] = R * S;
         }
       return result;
@@ -276,9 +277,12 @@ namespace corotet::benchmarks
         const auto F = std::make_shared<std::vector<Matrix>>();
         const auto R = std::make_shared<std::vector<Matrix>>(n_cells);
         for (const auto &f : deformation_gradients())
-          F->push_back(Matrix{{f[0][0], f[0][1], f[0][2]},
-                              {f[1][0], f[1][1], f[1][2]},
-                              {f[2][0], f[2][1], f[2][2]}});
+          {
+            const Matrix matrix{{f[0][0], f[0][1], f[0][2]},
+                                {f[1][0], f[1][1], f[1][2]},
+                                {f[2][0], f[2][1], f[2][2]}};
+            F->push_back(matrix);
+          }
         return Measured{[F, R] {
                           for (unsigned int n = 0; n < n_cells; ++n)
                             (*R)[n] = svd_rotation((*F)[n]);

@@ -85,8 +85,8 @@ namespace corotet::benchmarks
           constexpr int n = decltype(i)::value;
           x[n]            = x[n] * m + s;
         });
-      for (int i = 0; i < chains; ++i)
-        benchmark::DoNotOptimize(x[i]);
+      for (Simd<T> &chain : x)
+        benchmark::DoNotOptimize(chain);
     }
 
     template <typename T>

@@ -162,7 +162,7 @@ namespace corotet::benchmarks
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     std::vector<char *> arguments;
     for (int i = 0; i < argc; ++i)
-      if (root || std::string(argv[i]).rfind("--benchmark_out", 0) != 0)
+      if (root || !std::string(argv[i]).starts_with("--benchmark_out"))
         arguments.push_back(argv[i]);
     int n = arguments.size();
     benchmark::Initialize(&n, arguments.data());

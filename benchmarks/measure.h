@@ -25,7 +25,9 @@ namespace corotet::benchmarks
     {}
 
   private:
-    int                                      n_arguments = 1;
+    int n_arguments = 1;
+    // A default could not have the constructor's argument.
+    // NOLINTNEXTLINE(modernize-use-default-member-init)
     char                                    *program[2];
     char                                   **arguments = program;
     dealii::Utilities::MPI::MPI_InitFinalize mpi;
@@ -47,7 +49,7 @@ namespace corotet::benchmarks
   {
     std::function<void()> action;
     Counters              counters;
-    std::function<void()> between = {};
+    std::function<void()> between = nullptr;
   };
 
   void

@@ -80,7 +80,7 @@ namespace corotet::benchmarks
         double x = 0;
         for (const unsigned int vertex : cell.vertices)
           x += mesh.vertices[vertex][0] / 4;
-        cell.region = x > end / 2;
+        cell.region = x > end / 2 ? 1 : 0;
       }
     mesh.regions.names = {{0, "clamped"}, {1, "free"}};
     return mesh;

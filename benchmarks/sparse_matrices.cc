@@ -71,7 +71,7 @@ namespace corotet::benchmarks
         for (std::size_t k = row_starts[row]; k < row_starts[row + 1]; ++k)
           for (int b = 0; b < 3; ++b)
             sum[b] +=
-              load_unaligned<4>(&values[9 * k + 3 * b]) * x[columns[k] + b];
+              load_unaligned<4>(&values[3 * (3 * k + b)]) * x[columns[k] + b];
         sum[0] += sum[1] + sum[2];
         for (int a = 0; a < 3; ++a)
           y[3 * row + a] = sum[0][a];

@@ -34,7 +34,7 @@ namespace corotet::benchmarks
             by_xi * discretization.geometry(c).inverse_jacobian;
           for (unsigned int a = 0; a < 3; ++a)
             for (unsigned int b = 0; b < 3; ++b)
-              F[c](a, b) = grad_u[a][b] + (a == b);
+              F[c](a, b) = grad_u[a][b] + (a == b ? 1 : 0);
         }
       return F;
     }
@@ -84,6 +84,10 @@ namespace corotet::benchmarks
         , u(data.problem().deformed())
         , f(data.problem().vector())
       {}
+
+      DeformedBeam(const DeformedBeam &) = delete;
+      DeformedBeam &
+      operator=(const DeformedBeam &) = delete;
 
       ~DeformedBeam()
       {

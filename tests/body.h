@@ -51,7 +51,7 @@ namespace corotet::tests
       for (unsigned int a = 0; a < 3; ++a)
         upper[a] = std::max(upper[a], x[a]);
     const double h =
-      std::cbrt(upper[0] * upper[1] * upper[2] / (mesh.cells.size() / 5));
+      std::cbrt(upper[0] * upper[1] * upper[2] / (mesh.cells.size() / 5.));
     for (auto &x : mesh.vertices)
       {
         const auto rest = x;
@@ -149,7 +149,7 @@ namespace corotet::tests
     dealii::Tensor<2, 3> R;
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int b = 0; b < 3; ++b)
-        R[a][b] = (a == b) * std::cos(angle) +
+        R[a][b] = (a == b ? 1 : 0) * std::cos(angle) +
                   (1 - std::cos(angle)) * axis[a] * axis[b];
     for (unsigned int a = 0; a < 3; ++a)
       {

@@ -38,10 +38,10 @@ namespace corotet
     : n_cell_nodes(nodes.n_nodes_per_cell())
     , n_local_nodes(nodes.n_local_nodes())
     , n_owned_cells(nodes.n_owned_cells())
+    , n_local_cells(nodes.n_local_cells())
     , n_owned(divide_up(n_owned_cells, batch_size * floats_per_batch) *
               floats_per_batch)
-    , at_end(n_owned +
-             divide_up(nodes.n_local_cells() - n_owned_cells, batch_size))
+    , at_end(n_owned + divide_up(n_local_cells - n_owned_cells, batch_size))
   {
     const std::size_t n = static_cast<std::size_t>(n_cell_nodes) * batch_size;
     node_numbers.resize(at_end.size() * n);
@@ -65,6 +65,35 @@ namespace corotet
     plan_chunks(nodes);
     if (exceed_caches<double>())
       plan_fetches(nodes);
+  }
+
+  std::pair<unsigned int, unsigned int>
+  CellBatches::cells(const unsigned int batch) const
+  {
+    const bool         is_owned = batch < n_owned;
+    const unsigned int end      = is_owned ? n_owned_cells : n_local_cells;
+    const unsigned int first    = is_owned ?
+                                    batch * batch_size :
+                                    n_owned_cells + (batch - n_owned) * batch_size;
+    // Owned batches may be there to make a multiple.
+    return {first, first < end ? std::min(batch_size, end - first) : 0};
+  }
+
+  CellBatches
+  CellBatches::apart() const
+  {
+    CellBatches result(*this);
+    // One more, so that four numbers can be read everywhere.
+    result.n_local_nodes = batch_size * n_cell_nodes + 1;
+    result.at_end.assign(at_end.size(), 0);
+    result.fetched_nodes.clear();
+    result.fetch_starts.clear();
+    unsigned int *next = result.node_numbers.data();
+    for (unsigned int batch = 0; batch < n_batches(); ++batch)
+      for (unsigned int i = 0; i < n_cell_nodes; ++i)
+        for (unsigned int lane = 0; lane < batch_size; ++lane)
+          *next++ = lane * n_cell_nodes + i;
+    return result;
   }
 
   void

@@ -75,7 +75,7 @@ namespace corotet
       lane;
     for (unsigned int k = 0; k < 9; ++k)
       first[std::size_t(k) * batch_size] = matrix[k / 3][k % 3];
-    first[9 * batch_size] = weight;
+    first[std::size_t(9) * batch_size] = weight;
   }
 
   void

@@ -9,6 +9,7 @@
 #  include <gmsh.h>
 
 #  include <algorithm>
+#  include <array>
 #  include <iterator>
 #  include <map>
 #  include <vector>
@@ -31,7 +32,7 @@ namespace corotet::gmsh_program
       std::vector<int> order;
       // The same for the mirrored element: tetrahedra of MED are, but not in
       // files of all programs.
-      std::vector<int> mirrored = {};
+      std::vector<int> mirrored;
     };
 
     const std::vector<Type> &
@@ -44,18 +45,18 @@ namespace corotet::gmsh_program
          3,
          {0, 1, 2, 3, 4, 5, 6, 7, 9, 8},
          {0, 2, 1, 3, 6, 5, 4, 7, 8, 9}},
-        {MED_HEXA8, 5, 3, {}},
-        {MED_HEXA20, 17, 3, {}},
-        {MED_HEXA27, 12, 3, {}},
-        {MED_PENTA6, 6, 3, {}},
-        {MED_PENTA15, 18, 3, {}},
-        {MED_PENTA18, 13, 3, {}},
-        {MED_PYRA5, 7, 3, {}},
-        {MED_PYRA13, 19, 3, {}},
-        {MED_TRIA3, 2, 2, {0, 1, 2}},
-        {MED_TRIA6, 9, 2, {0, 1, 2, 3, 4, 5}},
-        {MED_SEG2, 1, 1, {0, 1}},
-        {MED_SEG3, 8, 1, {0, 1, 2}}};
+        {MED_HEXA8, 5, 3, {}, {}},
+        {MED_HEXA20, 17, 3, {}, {}},
+        {MED_HEXA27, 12, 3, {}, {}},
+        {MED_PENTA6, 6, 3, {}, {}},
+        {MED_PENTA15, 18, 3, {}, {}},
+        {MED_PENTA18, 13, 3, {}, {}},
+        {MED_PYRA5, 7, 3, {}, {}},
+        {MED_PYRA13, 19, 3, {}, {}},
+        {MED_TRIA3, 2, 2, {0, 1, 2}, {}},
+        {MED_TRIA6, 9, 2, {0, 1, 2, 3, 4, 5}, {}},
+        {MED_SEG2, 1, 1, {0, 1}, {}},
+        {MED_SEG3, 8, 1, {0, 1, 2}, {}}};
       return all;
     }
 
@@ -169,6 +170,8 @@ namespace corotet::gmsh_program
                          std::vector<GmshModel::Elements> &&more) {
       std::move(more.begin(), more.end(), std::back_inserter(all));
     };
+    const std::array<std::vector<GmshModel::Elements> *, 4> elements{
+      {&model.points, &model.curves, &model.surfaces, &model.volumes}};
     model.coordinates = file.coordinates();
     for (std::size_t i = 0; i < model.coordinates.size() / 3; ++i)
       model.node_tags.push_back(i + 1);
@@ -180,9 +183,7 @@ namespace corotet::gmsh_program
         if (type.dimension == 3)
           model.volume_types.push_back(description(type.gmsh, n));
         if (!type.order.empty())
-          add(type.dimension == 3 ? model.volumes :
-              type.dimension == 2 ? model.surfaces :
-                                    model.curves,
+          add(*elements[type.dimension],
               by_entity(type,
                         file.nodes(type.med, n * type.order.size()),
                         file.families(MED_CELL, type.med, n),
@@ -202,7 +203,7 @@ namespace corotet::gmsh_program
           nodes.push_back(i + 1);
           families.push_back(of_nodes[i]);
         }
-    const Type point{MED_POINT1, 15, 0, {0}};
+    const Type point{MED_POINT1, 15, 0, {0}, {}};
     add(model.points,
         by_entity(point, nodes, families, groups, model.coordinates, names[0]));
     for (const int dimension : {3, 2, 1, 0})

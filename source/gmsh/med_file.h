@@ -164,7 +164,8 @@ namespace corotet::gmsh_program
                 "groups");
           for (med_int j = 0; j < n_groups; ++j)
             result[id].push_back(
-              text(names.data() + j * MED_LNAME_SIZE, MED_LNAME_SIZE));
+              text(names.data() + std::size_t(j) * MED_LNAME_SIZE,
+                   MED_LNAME_SIZE));
         }
       return result;
     }

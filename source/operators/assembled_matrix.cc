@@ -58,7 +58,7 @@ namespace corotet
     {
       Block half, D;
       static_for<9>([&](auto kb) {
-        constexpr int k = kb / 3, b = kb % 3;
+        constexpr std::size_t k = kb / 3, b = kb % 3;
         half[k][b] = products[3 * k] * g[b] + products[3 * k + 1] * g[3 + b] +
                      products[3 * k + 2] * g[6 + b];
       });
@@ -308,6 +308,49 @@ namespace corotet
     };
     add(0, nodes.n_owned_cells());
     add(nodes.n_owned_cells(), nodes.n_local_cells());
+    add_others(c_M, lumped_mass, surface);
+  }
+
+  void
+  AssembledMatrix::update(
+    const std::function<
+      void(const std::function<void(const unsigned int, const double *)> &)>
+                                  &hand_over,
+    const double                   c_M,
+    const Vector                  *lumped_mass,
+    const SurfaceOperator<double> *surface)
+  {
+    block_matrix->set_zero();
+    const unsigned int n    = reference.n_nodes;
+    const std::size_t  size = std::size_t(4) * batch_size * n;
+    hand_over([&](const unsigned int batch, const double *columns) {
+      const auto [first, n_cells] = nodes.batches().cells(batch);
+      for (unsigned int lane = 0; lane < n_cells; ++lane)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = i; j < n; ++j)
+            {
+              const double *const entries = columns +
+                                            std::size_t(3) * j * size +
+                                            std::size_t(4) * (lane * n + i);
+              const double *const transposed = columns +
+                                               std::size_t(3) * i * size +
+                                               std::size_t(4) * (lane * n + j);
+              double block[3][3];
+              for (unsigned int a = 0; a < 3; ++a)
+                for (unsigned int b = 0; b < 3; ++b)
+                  block[a][b] =
+                    (entries[b * size + a] + transposed[a * size + b]) / 2;
+              add_block(first + lane, i, j, block);
+            }
+    });
+    add_others(c_M, lumped_mass, surface);
+  }
+
+  void
+  AssembledMatrix::add_others(const double                   c_M,
+                              const Vector                  *lumped_mass,
+                              const SurfaceOperator<double> *surface)
+  {
     if (lumped_mass != nullptr)
       for (unsigned int row = 0; row < 3 * nodes.n_owned_nodes(); ++row)
         block_matrix->diagonal(row) += c_M * lumped_mass->local_element(row);

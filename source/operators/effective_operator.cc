@@ -65,19 +65,27 @@ namespace corotet
     ++n_updates;
   }
 
-  const BlockMatrix &
-  EffectiveOperator::matrix() const
+  AssembledMatrix &
+  EffectiveOperator::matrix_for_others() const
   {
     if (!assembled)
       assembled = std::make_unique<AssembledMatrix>(disc, prescribed);
-    if (!is_assembled)
-      assembled->update(c_K,
-                        elastic.coefficients(),
-                        c_M,
-                        mass_matrix.cell_masses(),
-                        mass_matrix.is_lumped() ? &mass_matrix.diagonal() :
-                                                  nullptr,
-                        surface_operator.get());
+    is_assembled = false;
+    return *assembled;
+  }
+
+  const BlockMatrix &
+  EffectiveOperator::matrix() const
+  {
+    if (!assembled || !is_assembled)
+      matrix_for_others().update(c_K,
+                                 elastic.coefficients(),
+                                 c_M,
+                                 mass_matrix.cell_masses(),
+                                 mass_matrix.is_lumped() ?
+                                   &mass_matrix.diagonal() :
+                                   nullptr,
+                                 surface_operator.get());
     is_assembled = true;
     return assembled->matrix();
   }

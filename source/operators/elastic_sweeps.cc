@@ -9,7 +9,7 @@ namespace corotet
   LinearizationSize::of_batches(const ReferenceElement &reference,
                                 const CellBatches      &batches) const
   {
-    std::size_t size = std::size_t(batches.n_owned_batches()) *
+    std::size_t size = std::size_t(batches.n_batches()) *
                        of_cell(n_points(reference.stiffness_rule));
     if (const CurvedBatches *curved = batches.curved())
       size += curved->n_batches() * of_cell(curved->n_points());

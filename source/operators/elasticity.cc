@@ -261,6 +261,58 @@ namespace corotet
       });
   }
 
+  void
+  Elasticity::cell_matrices(const Vector             &u,
+                            const double              frozen_factor,
+                            const double              c_M,
+                            const CellMasses<double> *masses,
+                            const TakeCellMatrices   &take)
+  {
+    Assert(!linearization.empty(), dealii::ExcNotInitialized());
+    const CellBatches   &batches = discretization.batches();
+    const TangentSweeps &work    = sweeps.tangent(linearized_tangent);
+    ElasticData          ghosts  = elastic_data();
+    ghosts.new_linearization     = linearization.data();
+    work.linearize(ghosts,
+                   batches.n_owned_batches(),
+                   batches.n_batches(),
+                   u.begin(),
+                   nullptr);
+
+    // Unit vectors in all cells of a batch at once, as if these had no common
+    // nodes.
+    const CellBatches apart = batches.apart();
+    const auto        own   = std::as_const(*this).elastic_data();
+    ElasticData       data{apart,
+                     own.reference,
+                     own.constants,
+                     own.coefficients,
+                     own.has_rotations,
+                     own.law};
+    data.linearization                 = linearization.data();
+    data.frozen_factor                 = frozen_factor;
+    data.masses                        = masses;
+    data.mass_factor                   = c_M;
+    const unsigned int            n    = discretization.n_nodes_per_cell();
+    const std::size_t             size = std::size_t(4) * batch_size * n;
+    dealii::AlignedVector<double> source(std::size_t(3) * (batch_size * n + 1));
+    dealii::AlignedVector<double> columns(std::size_t(3) * n * size);
+    for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
+      {
+        columns.fill(0.);
+        for (unsigned int column = 0; column < 3 * n; ++column)
+          {
+            for (unsigned int lane = 0; lane < batch_size; ++lane)
+              source[3 * lane * n + column] = 1;
+            work.apply(
+              data, batch, batch + 1, source.data(), &columns[column * size]);
+            for (unsigned int lane = 0; lane < batch_size; ++lane)
+              source[3 * lane * n + column] = 0;
+          }
+        take(batch, columns.data());
+      }
+  }
+
   ElasticState
   Elasticity::state(const Vector &u) const
   {

@@ -21,13 +21,44 @@ namespace corotet
                           const double  load_factor,
                           const double  velocity_factor)
   {
-    this->tangent         = tangent;
     this->load_factor     = load_factor;
     this->velocity_factor = velocity_factor;
     forces.linearize(motion, tangent);
-    return elasticity.is_by_cell(tangent) ?
-             0 :
-             elasticity.linearize(motion.u, tangent);
+    return update_elasticity(motion.u, tangent);
+  }
+
+  unsigned int
+  TangentOperator::update_elasticity(const Vector &u, const Tangent tangent)
+  {
+    this->tangent = tangent;
+    displacement  = &u;
+    return elasticity.is_by_cell(tangent) ? 0 :
+                                            elasticity.linearize(u, tangent);
+  }
+
+  const BlockMatrix &
+  TangentOperator::matrix(const double n_frozen) const
+  {
+    Assert(has_matrix(), dealii::ExcInternalError());
+    const Mass         &mass = A.mass();
+    const double        c_M  = A.mass_factor();
+    const Vector *const lumped =
+      c_M != 0 && mass.is_lumped() ? &mass.diagonal() : nullptr;
+    AssembledMatrix &result = A.matrix_for_others();
+    result.update(
+      [&](const Elasticity::TakeCellMatrices &take) {
+        elasticity.cell_matrices(*displacement,
+                                 A.stiffness_factor() + n_frozen,
+                                 c_M,
+                                 c_M == 0 || mass.is_lumped() ?
+                                   nullptr :
+                                   mass.cell_masses().data(),
+                                 take);
+      },
+      c_M,
+      lumped,
+      A.surface_numbers());
+    return result.matrix();
   }
 
   void

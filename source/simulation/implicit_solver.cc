@@ -280,6 +280,8 @@ namespace corotet
           {
             built_stage        = stage;
             built_displacement = stage_state->u;
+            built_with_tangent = J != nullptr;
+            built_tangent      = tangent;
           }
         report_linear_solver(n_iterations);
         return n_iterations;
@@ -348,52 +350,5 @@ namespace corotet
     tangent = use ? Tangent::frozen_rotation : parameters.tangent;
     return parameters.tangent != Tangent::frozen_rotation &&
            !body.law->is_linear();
-  }
-
-  void
-  ImplicitSolver::transfer(Archive &archive)
-  {
-    archive.transfer("solved_scale", solved_scale);
-    archive.transfer("slow_iterations", slow_iterations);
-    std::vector<int> shown(shown_round_off.size());
-    std::transform(shown_round_off.begin(),
-                   shown_round_off.end(),
-                   shown.begin(),
-                   [](const auto kind) { return static_cast<int>(kind); });
-    archive.transfer("shown_round_off", shown);
-    shown_round_off.clear();
-    for (const int kind : shown)
-      shown_round_off.insert(static_cast<NewtonReport::RoundOff>(kind));
-
-    archive.within("linear_solver", [&] { linear_solver.transfer(archive); });
-    if (!linear_solver.is_preconditioner_built())
-      return;
-    archive.within("preconditioner", [&] {
-      archive.transfer("time", built_stage.time);
-      archive.transfer("velocity_factor", built_stage.velocity_factor);
-      archive.transfer("acceleration_factor", built_stage.acceleration_factor);
-      archive.transfer("load_factor", built_stage.load_factor);
-      archive.transfer("displacement", built_displacement);
-    });
-    if (archive.is_reading())
-      restore_preconditioner();
-  }
-
-  void
-  ImplicitSolver::restore_preconditioner()
-  {
-    if (!effective_operator)
-      make_operators();
-    State state;
-    for (Vector *vector : {&state.u, &state.v, &state.a})
-      body.discretization.initialize_vector(*vector);
-    state.u = built_displacement;
-    equation.set_state(state);
-    stage = built_stage;
-    update_effective_operator();
-    positions.copy_locally_owned_data_from(
-      body.discretization.node_positions());
-    positions += built_displacement;
-    linear_solver.build_again(*effective_operator, positions);
   }
 } // namespace corotet

@@ -76,7 +76,7 @@ namespace corotet
         const int             n        = graph.starts[i + 1] - graph.starts[i];
         Block                 diagonal = Block::Zero();
         std::array<double, d> row_sums{};
-        for (int k = 0; k < n; ++k, block += d * d)
+        for (int k = 0; k < n; ++k, block += offset(d))
           for (int a = 0; a < d; ++a)
             for (int b = 0; b < d; ++b)
               {

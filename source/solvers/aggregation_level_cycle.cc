@@ -55,7 +55,7 @@ namespace corotet
       {
         Column<d> sum{};
         for (int k = graph.starts[i]; k < graph.starts[i + 1];
-             ++k, block += d * d)
+             ++k, block += offset(d))
           {
             const float *v = x + offset(graph.columns[k]);
             Column<d>    part{};

@@ -54,8 +54,10 @@ namespace corotet
     // stretched: the least that has been met.
     constexpr double iterations_by_ratio = 10;
 
-    // Solves after which factors are judged.
-    constexpr unsigned int trial = 2;
+    // Solves after which factors are judged, and how much more than these have
+    // cost the multigrid may take in vain before factors are tried again.
+    constexpr unsigned int trial                   = 3;
+    constexpr double       patience_with_multigrid = 4;
   } // namespace
 
   void
@@ -87,9 +89,17 @@ namespace corotet
   AutomaticPreconditioner::build(const EffectiveOperator &A,
                                  const Vector            &positions)
   {
+    build_for(A, nullptr, positions);
+  }
+
+  void
+  AutomaticPreconditioner::build_for(const EffectiveOperator &A,
+                                     const TangentOperator   *J,
+                                     const Vector            &positions)
+  {
     if (is_direct)
       {
-        factorize(A, positions);
+        factorize(A, J, positions);
         return;
       }
     multigrid.build(A, positions);
@@ -115,11 +125,12 @@ namespace corotet
     n_multigrid = 1;
     iterations  = forecast;
     is_direct   = true;
-    factorize(A, positions);
+    factorize(A, J, positions);
   }
 
   void
   AutomaticPreconditioner::factorize(const EffectiveOperator &A,
+                                     const TangentOperator   *J,
                                      const Vector            &positions)
   {
     std::string reason;
@@ -127,7 +138,8 @@ namespace corotet
       {
         if (!direct)
           direct = std::make_unique<CholeskyDirect>();
-        direct->build(A, positions);
+        direct->build_for(A, J, positions);
+        is_fresh = true;
         return;
       }
     // Too large, for the memory or for the library, or singular up to
@@ -144,15 +156,20 @@ namespace corotet
                         "failed: {}",
                         news.empty() ? "" : "\n",
                         reason);
-    settle_for_multigrid();
+    is_settled = true;
+    leave_factors();
     multigrid.build(A, positions);
   }
 
   void
-  AutomaticPreconditioner::settle_for_multigrid()
+  AutomaticPreconditioner::leave_factors()
   {
-    is_direct  = false;
-    is_settled = true;
+    is_direct   = false;
+    n_multigrid = 0;
+    iterations  = 0;
+    in_vain     = 0;
+    n_direct    = 0;
+    direct_cost = 0;
     direct.reset();
   }
 
@@ -190,34 +207,44 @@ namespace corotet
   unsigned int
   AutomaticPreconditioner::patience() const
   {
-    if (is_direct || is_settled)
+    if (is_settled || (is_direct && is_fresh))
       return std::numeric_limits<unsigned int>::max();
+    if (is_direct)
+      return direct->acceptable_iterations(0) + costs.again / costs.solve;
     if (!has_costs)
       return slow;
     return std::max<double>(usual_iterations,
-                            costs.first - in_vain +
+                            (wait > 0 ? wait : costs.first) - in_vain +
                               direct_iterations * costs.solve);
   }
 
   bool
   AutomaticPreconditioner::change(const EffectiveOperator &A,
+                                  const TangentOperator   *J,
                                   const Vector            &positions,
-                                  const unsigned int       n_iterations)
+                                  const unsigned int       n_iterations,
+                                  const double             n_expected)
   {
     if (!has_costs)
       {
         find_costs(A);
         return false;
       }
+    if (is_direct)
+      {
+        direct_cost += n_iterations * costs.solve;
+        factorize(A, J, positions);
+        return true;
+      }
     ++n_multigrid;
-    iterations += n_iterations;
     news = fmt::format("Linear solver: a sparse factorisation takes the place "
                        "of p-multigrid, whose iterations, {:.0f} by now, have "
                        "cost as much: {}",
-                       iterations,
+                       iterations + n_iterations,
                        cell_proportions(A.discretization()).text());
+    iterations += n_expected;
     is_direct = true;
-    factorize(A, positions);
+    factorize(A, J, positions);
     return true;
   }
 
@@ -235,6 +262,7 @@ namespace corotet
         return false;
       }
     ++n_direct;
+    is_fresh = false;
     // The first factorisation is spent: it does not speak against the next
     // solves.
     direct_cost += n_iterations * costs.solve +
@@ -248,7 +276,8 @@ namespace corotet
                        n_direct,
                        direct_cost / n_direct,
                        iterations / n_multigrid);
-    settle_for_multigrid();
+    wait = std::max(2 * wait, patience_with_multigrid * direct_cost);
+    leave_factors();
     return true;
   }
 
@@ -267,6 +296,7 @@ namespace corotet
     archive.transfer("n_multigrid", n_multigrid);
     archive.transfer("iterations", iterations);
     archive.transfer("in_vain", in_vain);
+    archive.transfer("wait", wait);
     archive.transfer("n_direct", n_direct);
     archive.transfer("direct_cost", direct_cost);
     archive.transfer("cost_of_first", costs.first);

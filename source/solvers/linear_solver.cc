@@ -260,8 +260,8 @@ namespace corotet
                                 parameters.max_iterations;
     unsigned int       done = 0;
     done_before_change      = 0;
-    const auto change_it    = [&] {
-      if (!preconditioner->change(A, positions, done))
+    const auto change_it    = [&](const double expected) {
+      if (!preconditioner->change(A, J, positions, done, expected))
         return;
       done_before_change = done;
       ++n_builds;
@@ -271,7 +271,7 @@ namespace corotet
         const unsigned int limit = std::min(most, preconditioner->patience());
         if (limit <= done && limit < most)
           {
-            change_it();
+            change_it(done);
             continue;
           }
         try
@@ -284,7 +284,11 @@ namespace corotet
             if (limit == most)
               throw dealii::SolverControl::NoConvergence(done,
                                                          failure.last_residual);
-            change_it();
+            // As if the residual went on falling as it did; it may not have
+            // begun to.
+            const double digits = std::log(norm(b) / failure.last_residual) /
+                                  std::log(norm(b) / wanted);
+            change_it(done / std::clamp(digits, 0.1, 1.));
           }
       }
   }
@@ -326,7 +330,7 @@ namespace corotet
     const bool first_solve = !is_built;
     if (first_solve)
       {
-        preconditioner->build(A, positions);
+        preconditioner->build_for(A, J, positions);
         built_mass_ratio = A.mass_ratio();
         built_surface    = A.surface_size();
         ++n_builds;
@@ -363,11 +367,12 @@ namespace corotet
       first_iterations = with_this;
     unsigned int acceptable =
       preconditioner->acceptable_iterations(first_iterations);
-    // A new preconditioner is not better than the first solve with it, as it
-    // is made of the effective operator.
+    // A new preconditioner is not better than the first solve with it, as most
+    // are made of the effective operator.
     if (J != nullptr)
       acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
-    is_built = with_this <= acceptable;
+    is_built =
+      with_this <= acceptable && !preconditioner->is_worth_another(with_this);
     if (preconditioner->take_note(with_this, was_built))
       is_built = false;
     return iterations;
@@ -385,9 +390,11 @@ namespace corotet
   }
 
   void
-  LinearSolver::build_again(const EffectiveOperator &A, const Vector &positions)
+  LinearSolver::build_again(const EffectiveOperator &A,
+                            const TangentOperator   *J,
+                            const Vector            &positions)
   {
-    preconditioner->build(A, positions);
+    preconditioner->build_for(A, J, positions);
     known_version = A.version();
   }
 } // namespace corotet

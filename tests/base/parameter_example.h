@@ -79,10 +79,10 @@ struct Example
     return "accepted";
   }
 
-  double       density   = 1000;
-  std::string  law       = "linear";
-  std::string  file_name = "";
-  unsigned int cells     = 1;
+  double       density = 1000;
+  std::string  law     = "linear";
+  std::string  file_name;
+  unsigned int cells = 1;
 
   corotet::ParameterFile parameters;
   TemporaryFolder        folder;

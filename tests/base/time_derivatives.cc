@@ -93,10 +93,13 @@ TEST(TimeDerivatives, ComposedFormulas)
       expect("atan2(sin(t), cos(t))", t, 1, 0);
       expect("1/(1 + t)", t, -1 / ((1 + t) * (1 + t)), 2 / std::pow(1 + t, 3));
       expect("if(t < 0.5, t^2, 3*t)", t, t < 0.5 ? 2 * t : 3, t < 0.5 ? 2 : 0);
-      expect("t < 0.5 ? t^2 : t > 1 ? 2*t : t^3",
-             t,
-             t < 0.5 ? 2 * t : (t > 1 ? 2 : 3 * t * t),
-             t < 0.5 ? 2 : (t > 1 ? 0 : 6 * t));
+      const std::string pieces = "t < 0.5 ? t^2 : t > 1 ? 2*t : t^3";
+      if (t < 0.5)
+        expect(pieces, t, 2 * t, 2);
+      else if (t > 1)
+        expect(pieces, t, 2, 0);
+      else
+        expect(pieces, t, 3 * t * t, 6 * t);
       expect("sqrt(y - 0.7)*t + 0*x", t, 0, 0);
       expect("5 + x", t, 0, 0);
       const double s = t / 2;

@@ -53,7 +53,7 @@ namespace
     {
       unsigned int n = 0;
       for (unsigned int c = 0; c < disc.n_owned_cells(); ++c)
-        n += search.find(c, x).has_value();
+        n += search.find(c, x).has_value() ? 1 : 0;
       return dealii::Utilities::MPI::sum(n, disc.communicator()) > 0;
     }
 
@@ -100,7 +100,10 @@ namespace
           const auto [x, J] = map(face.cell, xi);
           Tensor<1, 3> towards;
           for (unsigned int k = 0; k < 3; ++k)
-            towards[k] = opposite == 0 ? -1. : opposite == k + 1;
+            if (opposite == 0)
+              towards[k] = -1;
+            else
+              towards[k] = opposite == k + 1 ? 1 : 0;
           Tensor<1, 3> normal = towards * invert(J);
           normal /= -normal.norm();
           inside.push_back(x + 1e-9 * size * normal);

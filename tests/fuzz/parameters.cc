@@ -23,7 +23,9 @@ namespace fuzz
     {
       const std::size_t first = input.find_first_not_of(" \t\r\n");
       const char        c     = first == std::string::npos ? ' ' : input[first];
-      return c == '{' || c == '[' ? ".json" : c == '<' ? ".xml" : ".prm";
+      if (c == '{' || c == '[')
+        return ".json";
+      return c == '<' ? ".xml" : ".prm";
     }
 
     // All that follows from the entries without a mesh.

@@ -20,7 +20,7 @@ namespace corotet::tests
     double                     largest = std::abs(determinant(R) - 1);
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int b = 0; b < 3; ++b)
-        largest = std::max(largest, std::abs(C[a][b] - (a == b)));
+        largest = std::max(largest, std::abs(C[a][b] - (a == b ? 1 : 0)));
     return std::isfinite(largest) ? largest : 1e300;
   }
 } // namespace corotet::tests

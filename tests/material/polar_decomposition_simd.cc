@@ -63,9 +63,10 @@ namespace
     PolarState
     state(const int lane) const
     {
-      return (found.degenerate >> lane & 1u) != 0 ? PolarState::degenerate :
-             (found.inverted >> lane & 1u) != 0   ? PolarState::inverted :
-                                                    PolarState::regular;
+      if ((found.degenerate >> lane & 1u) != 0)
+        return PolarState::degenerate;
+      return (found.inverted >> lane & 1u) != 0 ? PolarState::inverted :
+                                                  PolarState::regular;
     }
 
     void
@@ -289,6 +290,8 @@ TEST(PolarDecompositionSimd, NeighboursDoNotMatter)
             batch.set(lane, lane == own ? F : matrices.any());
           batch.decompose();
           const Tensor<2, 3> R_mixed = batch.rotation(own);
+          // Nine numbers without gaps, whose bits are what is compared.
+          // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
           EXPECT_EQ(std::memcmp(&R, &R_mixed, sizeof(R)), 0) << F;
           EXPECT_EQ(batch.state(own), reference.state(0)) << F;
           EXPECT_EQ(batch.is_irregular(own), reference.is_irregular(0)) << F;
@@ -306,6 +309,8 @@ TEST(PolarDecompositionSimd, InPlace)
         batch.set(lane, matrices.any());
       batch.decompose();
       polar_decomposition(batch.F, batch.F);
+      // Registers without gaps, whose bits are what is compared.
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
       EXPECT_EQ(std::memcmp(&batch.F, &batch.R, sizeof(batch.R)), 0);
     }
 }

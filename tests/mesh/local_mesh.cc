@@ -62,7 +62,7 @@ TEST(LocalMesh, CellsOfTheMesh)
 
   for (unsigned int c = 0; c < whole.cells.size(); ++c)
     for (const unsigned int v : whole.cells[c].vertices)
-      if (own_vertices.count(v) > 0)
+      if (own_vertices.contains(v))
         expected.insert(c);
   EXPECT_TRUE(std::equal(mesh.numbers.begin(),
                          mesh.numbers.end(),
@@ -121,7 +121,7 @@ TEST(LocalMesh, AgreesWithDealII)
           {
             EXPECT_EQ(mesh.neighbors[c][f], LocalMesh::no_cell);
             EXPECT_EQ(cell->face(f)->boundary_id(), boundaries[c][f]);
-            n_on_surface += mesh.is_owned(c);
+            n_on_surface += mesh.is_owned(c) ? 1 : 0;
           }
         else
           EXPECT_EQ(mesh.neighbors[c][f],

@@ -71,7 +71,7 @@ namespace
                   MED_CARTESIAN,
                   axes.c_str(),
                   axes.c_str());
-        const med_int n_nodes = med_int(med.coordinates.size() / 3);
+        const auto n_nodes = med_int(med.coordinates.size() / 3);
         EXPECT_GE(MEDmeshNodeCoordinateWr(file,
                                           name,
                                           MED_NO_DT,

@@ -105,7 +105,7 @@ const std::vector<Part> parts = {
   // cells are chords.
   Part{"bend_45", 100 * pi / 4, {{1, "bend"}}, {"fixed", "tip"}, 1e-3},
   Part{"cook",
-       48 * (44 + 16) / 2 * 5,
+       48 * (44 + 16) / 2. * 5,
        {{1, "panel"}},
        {"clamped", "loaded", "front", "back"},
        1e-12},

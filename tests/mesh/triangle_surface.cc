@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <regex>
 
 #include "surfaces.h"
@@ -189,6 +190,8 @@ namespace
             return is(0, Point<3>()) && is(1, Point<3>(1, 0, 0));
           });
         ASSERT_NE(at, box.end());
+        // What it is a copy of changes in the next line.
+        // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
         const Corners t = *at;
         *at             = {t[0], middle, t[2]};
         box.push_back({middle, t[1], t[2]});
@@ -245,7 +248,7 @@ namespace
     Triangles          strip;
     const unsigned int n     = 20;
     const auto         point = [&](const unsigned int i, const double side) {
-      const double angle = 2 * 3.14159265358979 * i / n;
+      const double angle = 2 * std::numbers::pi * i / n;
       const double r     = 2 + side * std::cos(angle / 2);
       return Point<3>(r * std::cos(angle),
                       r * std::sin(angle),

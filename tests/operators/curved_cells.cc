@@ -36,7 +36,8 @@ namespace
   {
     std::mt19937                           generator(seed);
     std::uniform_real_distribution<double> number(-1, 1);
-    std::vector<double> numbers(3 * body.discretization.n_global_nodes());
+    const std::size_t   n_nodes = body.discretization.n_global_nodes();
+    std::vector<double> numbers(3 * n_nodes);
     for (double &x : numbers)
       x = number(generator);
     Vector v;
@@ -97,7 +98,7 @@ TEST_P(CurvedCells, MeshIsMixed)
 {
   unsigned int n = 0;
   for (unsigned int c = 0; c < body.discretization.n_owned_cells(); ++c)
-    n += body.discretization.is_curved(c);
+    n += body.discretization.is_curved(c) ? 1 : 0;
   EXPECT_EQ(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 40u);
   EXPECT_EQ(body.discretization.n_global_cells(), 80u);
 }
@@ -228,7 +229,8 @@ TEST_P(CurvedCells, EffectiveOperator)
   Elasticity elastic =
     elasticity_of(body, corotational_law(Rotation::cell_centre));
   elastic.update_rotations(displacement(body, states[1], 1., 1));
-  const std::vector<unsigned char> free(3 * body.discretization.n_local_nodes(),
+  const std::vector<unsigned char> free(std::size_t(3) *
+                                          body.discretization.n_local_nodes(),
                                         0);
   EffectiveOperator A(body.discretization, elastic, body.mass, free);
   const double      c_K = 0.7, c_M = 500;
@@ -287,9 +289,9 @@ TEST_P(CurvedCells, CoarserForms)
   coarse.vmult(z, x);
   EXPECT_LE(largest_difference(z, y), 1e-13 * y.linfty_norm());
 
-  AssembledMatrix matrix(coarser,
-                         std::vector<unsigned char>(3 * coarser.n_local_nodes(),
-                                                    0));
+  AssembledMatrix matrix(
+    coarser,
+    std::vector<unsigned char>(std::size_t(3) * coarser.n_local_nodes(), 0));
   matrix.update(1., elastic.coefficients(), c_M, mass.cell_masses(), nullptr);
   matrix.matrix().vmult(z, x);
   EXPECT_LE(largest_difference(z, y), 1e-13 * y.linfty_norm());

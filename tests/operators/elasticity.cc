@@ -100,7 +100,7 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
       body.state.u.copy_locally_owned_data_from(body.interpolate(bend));
       body.system.equation().evaluate(body.state, 0., 1.);
       const std::vector<unsigned char> free(
-        3 * body.discretization.n_local_nodes(), 0);
+        std::size_t(3) * body.discretization.n_local_nodes(), 0);
       EffectiveOperator A(body.discretization,
                           body.elasticity,
                           body.mass,

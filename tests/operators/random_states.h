@@ -72,7 +72,8 @@ namespace corotet::tests
       rotation_about(dealii::Tensor<1, 3>({1., 2., 1.}), 1.);
     const dealii::Tensor<2, 3> F = R * Q * S * transpose(Q);
     // By global number of the component, so that ranks agree.
-    std::vector<double> noise(3 * body.discretization.n_global_nodes());
+    std::vector<double> noise(std::size_t(3) *
+                              body.discretization.n_global_nodes());
     for (double &n : noise)
       n = state.noise * number(generator);
     Vector u = body.interpolate([&](const dealii::Point<3> &x) {

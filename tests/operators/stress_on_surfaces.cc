@@ -63,7 +63,8 @@ namespace
   {
     unsigned int result = 0;
     for (unsigned int a = 0; a < 3; ++a)
-      result += std::abs(x[a]) < 1e-10 || std::abs(x[a] - 1) < 1e-10;
+      if (std::abs(x[a]) < 1e-10 || std::abs(x[a] - 1) < 1e-10)
+        ++result;
     return result;
   }
 

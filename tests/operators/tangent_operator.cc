@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "../all_laws.h"
 #include "../body.h"
+#include "../curved_mesh.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -53,4 +55,66 @@ TEST(TangentOperator, HasTheMassOnce)
       Mv *= c_M;
       EXPECT_LE(largest_difference(found, Mv), 1e-13 * norm(Mv));
     }
+}
+
+namespace
+{
+  void
+  expect_matrix_to_be_the_operator(const SerialMesh  &mesh,
+                                   const std::string &text)
+  {
+    MovingBody        body(mesh, text + displacements("x-min: 0; free; 0"));
+    EffectiveOperator A(body.discretization,
+                        body.elasticity,
+                        body.mass,
+                        body.motion.is_prescribed());
+    TangentOperator   J(A, body.elasticity, body.system.equation().terms);
+    const Vector      u = body.interpolate([](const Point<3> &x) {
+      return Tensor<1, 3>({0.1 * x[1] * x[2], -0.2 * x[0], 0.05 * x[0] * x[1]});
+    });
+    Vector            v = body.interpolate([](const Point<3> &x) {
+      return Tensor<1, 3>({std::sin(3 * x[0]), 1., x[1] * x[2]});
+    });
+    // Where J has the diagonal of A, and the matrix its own.
+    for (const unsigned int i : A.prescribed_unknowns())
+      if (i < v.locally_owned_size())
+        v.local_element(i) = 0;
+    body.elasticity.update_rotations(u);
+    A.update(1., 2.);
+    Vector found(v), expected(v);
+    for (const Tangent tangent :
+         {Tangent::consistent, Tangent::frozen_rotation})
+      {
+        J.update({0., u, u}, tangent, 1., 0.);
+        if (!J.is_symmetric() || !J.has_matrix())
+          continue;
+        J.vmult(expected, v);
+        J.matrix(0.).vmult(found, v);
+        // Sums of some hundred terms in another order.
+        EXPECT_LE(largest_difference(found, expected), 1e-13 * norm(expected));
+      }
+    // The matrix of A is there again.
+    A.vmult(expected, v);
+    A.matrix().vmult(found, v);
+    EXPECT_LE(largest_difference(found, expected), 1e-13 * norm(expected));
+  }
+} // namespace
+
+// The assembled matrix is what the operator applies, of straight and of curved
+// cells, with either mass, on any number of ranks.
+TEST(TangentOperator, Matrix)
+{
+  for (const NamedLaw &law : nonlinear_laws())
+    for (const std::string type : {"consistent", "diagonal scaling"})
+      for (const unsigned int degree : {1u, 2u, 3u})
+        {
+          const std::string text = element_text(degree) + law.text +
+                                   section("Discretization", {{"Mass", type}}) +
+                                   section("Material", {{"Density", 3}});
+          SCOPED_TRACE(text);
+          expect_matrix_to_be_the_operator(box("1, 2, 1", "2, 2, 2", 0.2),
+                                           text);
+          if (degree > 1)
+            expect_matrix_to_be_the_operator(half_curved_box(degree), text);
+        }
 }

@@ -9,8 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 
@@ -24,14 +25,14 @@ namespace
   // Values of all kinds, with awkward ones.
   struct Values
   {
-    double              number   = 0;
-    bool                is_true  = false;
-    unsigned int        count    = 0;
-    std::int64_t        large    = 0;
-    std::string         text     = "";
-    std::vector<double> numbers  = {};
-    std::vector<int>    integers = {};
-    std::vector<double> nothing  = {1};
+    double              number  = 0;
+    bool                is_true = false;
+    unsigned int        count   = 0;
+    std::int64_t        large   = 0;
+    std::string         text;
+    std::vector<double> numbers;
+    std::vector<int>    integers;
+    std::vector<double> nothing = {1};
     Vector              field, empty, zero;
 
     void
@@ -129,7 +130,9 @@ TEST_F(CheckpointFile, ReadsBackExactly)
   EXPECT_TRUE(found.nothing.empty());
   ASSERT_EQ(found.numbers.size(), expected.numbers.size());
   for (std::size_t i = 0; i < found.numbers.size(); ++i)
-    EXPECT_EQ(std::memcmp(&found.numbers[i], &expected.numbers[i], 8), 0) << i;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(found.numbers[i]),
+              std::bit_cast<std::uint64_t>(expected.numbers[i]))
+      << i;
   EXPECT_EQ(found.empty.size(), 0u);
   ASSERT_EQ(found.zero.size(), expected.zero.size());
   EXPECT_EQ(found.zero.linfty_norm(), 0.);

@@ -83,8 +83,8 @@ TEST(Probes, OutsideIsRefused)
   ModelBody body(1);
   try
     {
-      Probes({{"in", {0.5, 0.1, 0.1}}, {"tip", {1.5, 0.5, 0.25}}},
-             body.discretization);
+      const Probes probes({{"in", {0.5, 0.1, 0.1}}, {"tip", {1.5, 0.5, 0.25}}},
+                          body.discretization);
       ADD_FAILURE() << "no error";
     }
   catch (const InputError &error)

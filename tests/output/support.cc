@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "../source_path.h"
@@ -167,8 +168,8 @@ namespace test_output
     record.kinetic_energy    = 1. / 3. + time;
     record.elastic_energy    = 1e-300 / 7;
     record.external_work     = -2e20 / 3;
-    record.momentum[1]       = std::sqrt(2.);
-    record.reaction[2]       = -std::sqrt(3.);
+    record.momentum[1]       = std::numbers::sqrt2;
+    record.reaction[2]       = -std::numbers::sqrt3;
     record.volume            = 0.125;
     record.wall_time         = 0.5 * step;
     return record;

@@ -21,13 +21,13 @@
 #endif
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -124,6 +124,11 @@ namespace
 
   struct Counter
   {
+    Counter()                = default;
+    Counter(const Counter &) = delete;
+    Counter &
+    operator=(const Counter &) = delete;
+
     ~Counter()
     {
       const char *path = setting("COROTET_TEST_COUNT");
@@ -133,7 +138,7 @@ namespace
           (std::strcmp(setting("COROTET_TEST_RANK"), "all") == 0 &&
            *rank != '\0' && std::strcmp(rank, "0") != 0))
         return;
-      if (std::FILE *file = std::fopen(path, "w"))
+      if (std::FILE *file = std::fopen(path, "w"); file != nullptr)
         {
           std::fprintf(file, "%ld\n", n_operations.load());
           std::fclose(file);

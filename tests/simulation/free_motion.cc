@@ -100,7 +100,7 @@ TEST_P(FreeMotion, Conservation)
           continue;
         }
       // The faster the stiffening, the shorter the steps that show the order.
-      const unsigned int n = law.name.find("corotational") == 0 ? 100 : 800;
+      const unsigned int n = law.name.starts_with("corotational") ? 100 : 800;
       const Drift        coarse = fly(degree, law, n / 2);
       const Drift        fine   = fly(degree, law, n);
       const std::string  what   = fmt::format(", P{}, {}", degree, law.name);

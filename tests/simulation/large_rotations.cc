@@ -60,7 +60,7 @@ namespace
       Tensor<2, 3> F = Q * rotation_about(Tensor<1, 3>({0., 0., 1.}), x[1]);
       for (unsigned int a = 0; a < 3; ++a)
         for (unsigned int b = 0; b < 3; ++b)
-          F[a][b] = F[a][b] * S[b] - (a == b);
+          F[a][b] = F[a][b] * S[b] - (a == b ? 1 : 0);
       return F[component];
     }
 
@@ -87,11 +87,11 @@ namespace
     traction(const unsigned int direction, const int sign) const
     {
       const std::string s = sign > 0 ? "" : "-";
-      return direction == 0 ?
-               turned({s + "cos(y)*(s1)", s + "sin(y)*(s1)", "0"}, false) :
-             direction == 1 ?
-               turned({s + "-sin(y)*(s2)", s + "cos(y)*(s2)", "0"}, false) :
-               turned({"0", "0", s + "(s3)"}, false);
+      if (direction == 0)
+        return turned({s + "cos(y)*(s1)", s + "sin(y)*(s1)", "0"}, false);
+      if (direction == 1)
+        return turned({s + "-sin(y)*(s2)", s + "cos(y)*(s2)", "0"}, false);
+      return turned({"0", "0", s + "(s3)"}, false);
     }
 
     static constexpr double E = 10, nu = 0.3;
@@ -142,7 +142,8 @@ namespace
              {"(g)", "(z+sin(5*z)/50)"},
              {"(g1)", "(1+0.1*cos(5*z))"},
              {"(g2)", "(-0.5*sin(5*z))"}})
-        for (std::size_t at; (at = text.find(name)) != std::string::npos;)
+        for (std::size_t at = text.find(name); at != std::string::npos;
+             at             = text.find(name))
           text.replace(at, name.size(), meaning);
       return text;
     }
@@ -170,7 +171,7 @@ namespace
           fmt::format("{0}, {1}, {0}", n, 4 * n),
           0.1),
       element_text(degree) + rotation_at(rotation) +
-        material_text(bending.E, bending.nu) +
+        material_text(Bending::E, Bending::nu) +
         displacements(
           fmt::format("y-min: {0}, x-min: {0}", bending.displacement())) +
         tractions(fmt::format("y-max: {}, x-max: {}, z-min: {}, z-max: {}",

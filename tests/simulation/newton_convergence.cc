@@ -147,7 +147,7 @@ TEST_P(NewtonConvergence, QuadraticNearTheSolution)
 {
   const auto &[degree, number] = GetParam();
   const NamedLaw &law          = nonlinear_laws()[number];
-  if (law.name.find("corotational") == 0)
+  if (law.name.starts_with("corotational"))
     GTEST_SKIP() << "is at round-off too soon for an order";
   const double first = Cantilever::first(degree);
   Cantilever   body(degree, law, "consistent");

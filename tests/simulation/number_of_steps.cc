@@ -37,7 +37,7 @@ namespace
     std::istringstream lines(folder.read("log.txt"));
     std::string        line, result;
     while (std::getline(lines, line))
-      if (line.rfind("warning: steps", 0) == 0)
+      if (line.starts_with("warning: steps"))
         result += line + "\n";
     // Rank 0 has the log.
     return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, result);

@@ -51,7 +51,8 @@ namespace
     {
       std::mt19937                           generator(seed);
       std::uniform_real_distribution<double> number(0, 1);
-      std::vector<double> positions(3 * discretization.n_global_nodes());
+      const std::size_t   n_nodes = discretization.n_global_nodes();
+      std::vector<double> positions(3 * n_nodes);
       for (double &position : positions)
         position = number(generator);
       for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)

@@ -37,7 +37,7 @@ namespace corotet::tests
     for (unsigned int i = component; i < u.locally_owned_size(); i += 3)
       sum += u.local_element(i);
     return dealii::Utilities::MPI::sum(sum, u.get_mpi_communicator()) /
-           (u.size() / 3);
+           (u.size() / 3.);
   }
 } // namespace corotet::tests
 

@@ -125,7 +125,7 @@ namespace
     const unsigned int patience = P.patience();
     EXPECT_GT(patience, 30u);
     EXPECT_LT(patience, 1000u);
-    EXPECT_TRUE(P.change(c.A, positions, patience));
+    EXPECT_TRUE(P.change(c.A, nullptr, positions, patience, patience));
     EXPECT_GT(P.patience(), 1000000u);
   }
 } // namespace
@@ -145,8 +145,9 @@ TEST(AutomaticDecisions, SlowSolvesAddUp)
   EXPECT_EQ(P.patience(), 30u);
 }
 
-// Factors that are outdated again and again.
-TEST(AutomaticDecisions, MultigridComesBackForGood)
+// Factors that are outdated again and again. They are tried again, each time
+// twice as late.
+TEST(AutomaticDecisions, MultigridComesBack)
 {
   Case                    c(thin_size(), thin_cells, 3, "automatic");
   AutomaticPreconditioner P;
@@ -167,8 +168,19 @@ TEST(AutomaticDecisions, MultigridComesBackForGood)
   multigrid.vmult(expected, c.b);
   P.vmult(found, c.b);
   EXPECT_EQ(largest_difference(found, expected), 0);
-  EXPECT_GT(P.patience(), 1000000u);
-  EXPECT_FALSE(P.take_note(100000, true));
+  const unsigned int patience = P.patience();
+  EXPECT_FALSE(P.take_note(patience, true));
+  EXPECT_EQ(P.patience(), 30u);
+  EXPECT_TRUE(P.change(c.A, nullptr, positions, 30, 30));
+  EXPECT_NE(P.take_news().find("a sparse factorisation takes the place"),
+            std::string::npos);
+  EXPECT_FALSE(P.take_note(2, true));
+  EXPECT_FALSE(P.take_note(2, false));
+  is_back = false;
+  for (int solve = 0; solve < 1000 && !is_back; ++solve)
+    is_back = P.take_note(1000, true);
+  EXPECT_TRUE(is_back);
+  EXPECT_GE(P.patience(), 2 * (patience - 30));
 }
 
 // Also where nobody has tried the multigrid: then what was expected of it

@@ -181,7 +181,7 @@ TEST(Newton, LineSearch)
       EXPECT_GE(root.n_restored, 2u);
       unsigned int n_short = 0;
       for (const NewtonIteration &iteration : report.history)
-        n_short += iteration.length < 1;
+        n_short += iteration.length < 1 ? 1 : 0;
       EXPECT_EQ(n_short, report.line_searches);
     }
 }

@@ -106,8 +106,8 @@ namespace
         b.local_element(i) = 1;
       body.motion.set_zero(b);
 
-      const auto  selected  = make_p_multigrid();
-      PMultigrid &multigrid = dynamic_cast<PMultigrid &>(*selected);
+      const auto selected  = make_p_multigrid();
+      auto      &multigrid = dynamic_cast<PMultigrid &>(*selected);
       dealii::ParameterHandler prm;
       multigrid.declare_parameters(prm);
       prm.set("Coarse solver", beam.coarse_solver);
@@ -321,7 +321,7 @@ TEST_P(PMultigridTest, EigenvaluesDoNotDependOnRanks)
   const unsigned int       degree = GetParam();
   std::vector<std::string> masses = {"consistent"};
   if (degree == 2)
-    masses.push_back("nodal quadrature");
+    masses.emplace_back("nodal quadrature");
   for (const std::string &mass : masses)
     for (const double distortion : {0., 0.2})
       {

@@ -116,7 +116,8 @@ TEST(SmoothedAggregation, NeedsRotations)
   SmoothedAggregation preconditioner;
   preconditioner.build(*box.matrix, box.positions().data());
   const int                 right = iterations(box, preconditioner);
-  const std::vector<double> nowhere(3 * box.pattern->n_owned(), 1.);
+  const std::vector<double> nowhere(std::size_t(3) * box.pattern->n_owned(),
+                                    1.);
   preconditioner.build(*box.matrix, nowhere.data());
   EXPECT_GT(iterations(box, preconditioner), 1.5 * right);
 }

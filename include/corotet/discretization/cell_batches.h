@@ -78,6 +78,16 @@ namespace corotet
       return {(is_owned ? 0 : n_owned) + i / batch_size, i % batch_size};
     }
 
+    /// First local cell of a batch, and how many cells it has.
+    std::pair<unsigned int, unsigned int>
+    cells(const unsigned int batch) const;
+
+    /// The same batches as if no cells shared nodes: in each batch, node i of
+    /// the cell in lane l has the number l * nodes per cell + i. For sweeps
+    /// over one batch.
+    CellBatches
+    apart() const;
+
     /// Local numbers of the nodes of a batch, [node][lane].
     const unsigned int *
     nodes(const unsigned int batch) const
@@ -143,6 +153,7 @@ namespace corotet
     unsigned int               n_cell_nodes;
     unsigned int               n_local_nodes;
     unsigned int               n_owned_cells;
+    unsigned int               n_local_cells;
     unsigned int               n_owned;
     std::vector<unsigned int>  node_numbers;
     std::vector<unsigned char> at_end;

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,16 @@ namespace corotet
            const Vector                                          *lumped_mass,
            const SurfaceOperator<double> *surface = nullptr);
 
+    /// The same from the symmetric parts of the matrices of all local cells, in
+    /// terms of Elasticity::TakeCellMatrices, which @p hand_over passes on.
+    void
+    update(const std::function<void(
+             const std::function<void(const unsigned int, const double *)> &)>
+                                         &hand_over,
+           const double                   c_M,
+           const Vector                  *lumped_mass,
+           const SurfaceOperator<double> *surface);
+
     const BlockMatrix &
     matrix() const
     {
@@ -77,6 +88,11 @@ namespace corotet
                      const CellCoefficients<double> &coefficients,
                      const double                    c_K,
                      const Simd<double>              masses);
+    /// Adds what no cell has.
+    void
+    add_others(const double                   c_M,
+               const Vector                  *lumped_mass,
+               const SurfaceOperator<double> *surface);
     /// Adds block i, j of these cells and its transpose.
     void
     add_lanes(const unsigned int first,

@@ -49,6 +49,11 @@ namespace corotet
     const BlockMatrix &
     matrix() const;
 
+    /// The object behind matrix(), for other numbers, which are gone when
+    /// matrix() is called again. Collective.
+    AssembledMatrix &
+    matrix_for_others() const;
+
     /// f += S v for owned entries. v has ghost values.
     void
     add_surface(Vector &f, const Vector &v) const
@@ -62,6 +67,13 @@ namespace corotet
     surface() const
     {
       return surface_matrix;
+    }
+
+    /// Its numbers since the last update(); null if there is none.
+    const SurfaceOperator<double> *
+    surface_numbers() const
+    {
+      return surface_operator.get();
     }
 
     /// Its SurfaceMatrix::size() over c_K at the last update [N/m].

@@ -42,7 +42,7 @@ namespace corotet
     if constexpr (is_curved)
       {
         const CurvedBatches &curved = *data.batches.curved();
-        start = straight * data.batches.n_owned_batches() +
+        start                       = straight * data.batches.n_batches() +
                 size.of_cell(curved.n_points()) * curved.index(batch);
       }
     return batch_size * start;

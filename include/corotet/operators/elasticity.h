@@ -11,6 +11,7 @@
 #include <corotet/operators/cell_loop.h>
 #include <corotet/operators/elastic_sweeps.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -130,6 +131,24 @@ namespace corotet
                         const double              c_M,
                         const CellMasses<double> *masses,
                         const Vector             *lumped_mass) const;
+
+    /// Gets the matrices of the cells of a batch, by columns: entry
+    /// [3 j + b][lane][i][a] belongs to rows 3 i + a and columns 3 j + b. There
+    /// is a fourth a without meaning.
+    using TakeCellMatrices =
+      std::function<void(const unsigned int batch, const double *columns)>;
+
+    /**
+     * Hands over the matrices that apply_linearization() applies, without
+     * @p lumped_mass: those of all local cells, ghost cells included. @p u is
+     * the displacement of the last linearize(). Not collective.
+     */
+    void
+    cell_matrices(const Vector             &u,
+                  const double              frozen_factor,
+                  const double              c_M,
+                  const CellMasses<double> *masses,
+                  const TakeCellMatrices   &take);
 
     /// f = K v with that tangent, which must be the last one prepared if it is
     /// not by cell.

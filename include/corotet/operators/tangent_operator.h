@@ -39,6 +39,25 @@ namespace corotet
            const double  load_factor,
            const double  velocity_factor);
 
+    /// Linearizes the elasticity alone, for matrix(): @p u must live until that
+    /// is called. Collective.
+    unsigned int
+    update_elasticity(const Vector &u, const Tangent tangent);
+
+    /// The symmetric part of the matrix of J without the forces' share, at the
+    /// motion of the last update, which must still be there. @p n_frozen times
+    /// the stiffness with frozen rotations is added. It takes the place of the
+    /// matrix of A. Collective.
+    const BlockMatrix &
+    matrix(const double n_frozen) const;
+
+    /// Whether there is such a matrix: A's is it where the tangent is by cell.
+    bool
+    has_matrix() const
+    {
+      return !elasticity.is_by_cell(tangent);
+    }
+
     /// dst = J src. Collective.
     void
     vmult(Vector &dst, const Vector &src) const;
@@ -76,6 +95,7 @@ namespace corotet
     Tangent                  tangent         = Tangent::consistent;
     double                   load_factor     = 1;
     double                   velocity_factor = 0;
+    const Vector            *displacement    = nullptr;
     /// The source without prescribed entries, with ghosts.
     mutable Vector source;
   };

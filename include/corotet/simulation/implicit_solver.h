@@ -145,6 +145,9 @@ namespace corotet
     /// The stage and the displacement that the preconditioner was made with.
     Stage  built_stage = {};
     Vector built_displacement;
+    /// Whether solves were with the tangent operator then, and with which one.
+    bool    built_with_tangent = false;
+    Tangent built_tangent      = Tangent::consistent;
 
     unsigned int clamped_cells = 0;
     /// Of linear solves that were slow.

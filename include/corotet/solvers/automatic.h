@@ -23,7 +23,10 @@ namespace corotet
    * at once; elsewhere when solves have spent as many in vain, if need be in
    * the middle of one. So a solve takes at most about twice as long as by the
    * better way. Where rotations or time steps make factors outdated so often
-   * that solves cost more than they did, the multigrid comes back for good.
+   * that solves cost more than they did, the multigrid comes back; factors are
+   * tried again when it has cost four times as much as that try, and each time
+   * twice as long after, as bodies that move far become others. A solve with
+   * older factors gets new ones when it has cost as much as these.
    *
    * Everything is counted and nothing is measured: runs repeat to the last
    * digit.
@@ -52,6 +55,11 @@ namespace corotet
     build(const EffectiveOperator &A, const Vector &positions) override;
 
     void
+    build_for(const EffectiveOperator &A,
+              const TangentOperator   *J,
+              const Vector            &positions) override;
+
+    void
     update(const EffectiveOperator &A) override;
 
     void
@@ -65,8 +73,16 @@ namespace corotet
 
     bool
     change(const EffectiveOperator &A,
+           const TangentOperator   *J,
            const Vector            &positions,
-           const unsigned int       n_iterations) override;
+           const unsigned int       n_iterations,
+           const double             n_expected) override;
+
+    bool
+    is_worth_another(const unsigned int n_iterations) const override
+    {
+      return is_direct && direct->is_worth_another(n_iterations);
+    }
 
     bool
     take_note(const unsigned int n_iterations, const bool was_built) override;
@@ -90,13 +106,15 @@ namespace corotet
     /// Makes factors; where that cannot be done, the multigrid is there for
     /// good.
     void
-    factorize(const EffectiveOperator &A, const Vector &positions);
+    factorize(const EffectiveOperator &A,
+              const TangentOperator   *J,
+              const Vector            &positions);
     /// Iterations that a solve of @p n has more than one with factors takes.
     double
     too_many(const unsigned int n) const;
-    /// The multigrid from now on; factors are gone.
+    /// The multigrid is used; factors are gone.
     void
-    settle_for_multigrid();
+    leave_factors();
 
     PMultigrid multigrid;
     /// Null until it is first wanted.
@@ -104,11 +122,15 @@ namespace corotet
 
     bool is_direct  = false;
     bool is_settled = false;
-    bool has_costs  = false;
+    /// Whether factors were made for the solve at hand.
+    bool is_fresh  = false;
+    bool has_costs = false;
     /// Solves with the multigrid, their iterations, and those in vain.
     unsigned int n_multigrid = 0;
     double       iterations  = 0;
     double       in_vain     = 0;
+    /// How many in vain until factors are tried again; 0 before the first time.
+    double wait = 0;
     /// Solves with factors since these are in use, and what they have cost.
     unsigned int n_direct    = 0;
     double       direct_cost = 0;

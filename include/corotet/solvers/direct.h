@@ -27,7 +27,8 @@ namespace corotet
   };
 
   /**
-   * By CHOLMOD in double precision, on rank 0.
+   * By CHOLMOD in double precision, on rank 0: of the tangent where that is
+   * definite, else of the effective operator.
    */
   class CholeskyDirect : public DirectSolver
   {
@@ -47,10 +48,29 @@ namespace corotet
     build(const EffectiveOperator &A, const Vector &positions) override;
 
     void
+    build_for(const EffectiveOperator &A,
+              const TangentOperator   *J,
+              const Vector            &positions) override;
+
+    void
     vmult(Vector &dst, const Vector &src) const override;
 
+    bool
+    is_worth_another(const unsigned int n_iterations) const override
+    {
+      return is_makeshift || (is_of_tangent && n_iterations > 10);
+    }
+
   private:
+    /// False if the matrix is not positive definite.
+    bool
+    factorize(const BlockMatrix &matrix);
+
     SparseCholesky factors;
+    /// Whether factors are those of a tangent or of something close to it, and
+    /// whether it was not definite.
+    bool is_of_tangent = false;
+    bool is_makeshift  = false;
   };
 } // namespace corotet
 

@@ -111,10 +111,12 @@ namespace corotet
       return is_built;
     }
 
-    /// Makes the preconditioner again as it was made before a checkpoint; @p A
-    /// and @p positions must be those of that time.
+    /// Makes the preconditioner again as it was made before a checkpoint; @p A,
+    /// @p J and @p positions must be those of that time.
     void
-    build_again(const EffectiveOperator &A, const Vector &positions);
+    build_again(const EffectiveOperator &A,
+                const TangentOperator   *J,
+                const Vector            &positions);
 
     /// Name of the preconditioner, as the parameter has it.
     const std::string &

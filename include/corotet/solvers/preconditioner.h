@@ -15,6 +15,8 @@
 
 namespace corotet
 {
+  class TangentOperator;
+
   /**
    * An approximate inverse P of the effective operator A for conjugate
    * gradients: symmetric and positive definite. The exact inverse is one too.
@@ -36,6 +38,16 @@ namespace corotet
     virtual void
     build(const EffectiveOperator &A, const Vector &positions) = 0;
 
+    /// The same for solves with the operator @p J, which is close to A; null if
+    /// it is A. P may be made of J, if that is definite.
+    virtual void
+    build_for(const EffectiveOperator &A,
+              const TangentOperator * /*J*/,
+              const Vector &positions)
+    {
+      build(A, positions);
+    }
+
     /// Takes over a new A as far as that is cheap. Collective.
     virtual void
     update(const EffectiveOperator & /*A*/)
@@ -52,13 +64,16 @@ namespace corotet
       return std::numeric_limits<unsigned int>::max();
     }
 
-    /// Looks for a better P of the same A, as a solve has taken
+    /// Looks for a better P of the same A and J, as a solve has taken
     /// @p n_iterations, as many as patience() says: afterwards that is longer.
+    /// It would take @p n_expected in all as it goes.
     /// Returns whether P is another one now. Collective.
     virtual bool
     change(const EffectiveOperator & /*A*/,
+           const TangentOperator * /*J*/,
            const Vector & /*positions*/,
-           const unsigned int /*n_iterations*/)
+           const unsigned int /*n_iterations*/,
+           const double /*n_expected*/)
     {
       return false;
     }
@@ -83,6 +98,15 @@ namespace corotet
     virtual void
     transfer(Archive & /*archive*/)
     {}
+
+    /// Whether P, with which a solve has taken so many iterations, is to be
+    /// built anew even if that one was the first with it: the next operator may
+    /// fit better.
+    virtual bool
+    is_worth_another(const unsigned int /*n_iterations*/) const
+    {
+      return false;
+    }
 
     /// Iterations that a solve may take before P counts as outdated,
     /// given those of the first solve after it was built.

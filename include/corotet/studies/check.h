@@ -69,6 +69,8 @@ namespace corotet
     Check(const Check &) = delete;
     Check &
     operator=(const Check &) = delete;
+    Check &
+    operator=(Check &&) = delete;
 
     const std::string &
     name() const
