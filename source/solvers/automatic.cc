@@ -139,7 +139,6 @@ namespace corotet
         if (!direct)
           direct = std::make_unique<CholeskyDirect>();
         direct->build_for(A, J, positions);
-        is_fresh = true;
         return;
       }
     // Too large, for the memory or for the library, or singular up to
@@ -205,9 +204,9 @@ namespace corotet
   }
 
   unsigned int
-  AutomaticPreconditioner::patience() const
+  AutomaticPreconditioner::patience(const bool is_new) const
   {
-    if (is_settled || (is_direct && is_fresh))
+    if (is_settled || (is_direct && is_new))
       return std::numeric_limits<unsigned int>::max();
     if (is_direct)
       return direct->acceptable_iterations(0) + costs.again / costs.solve;
@@ -262,7 +261,6 @@ namespace corotet
         return false;
       }
     ++n_direct;
-    is_fresh = false;
     // The first factorisation is spent: it does not speak against the next
     // solves.
     direct_cost += n_iterations * costs.solve +

@@ -246,7 +246,8 @@ namespace corotet
   }
 
   unsigned int
-  LinearSolver::solve_patiently(const EffectiveOperator &A,
+  LinearSolver::solve_patiently(const bool               is_new,
+                                const EffectiveOperator &A,
                                 const TangentOperator   *J,
                                 Vector                  &x,
                                 const Vector            &b,
@@ -268,7 +269,9 @@ namespace corotet
     };
     for (;;)
       {
-        const unsigned int limit = std::min(most, preconditioner->patience());
+        const unsigned int limit =
+          std::min(most,
+                   preconditioner->patience(is_new || done_before_change > 0));
         if (limit <= done && limit < most)
           {
             change_it(done);
@@ -342,7 +345,8 @@ namespace corotet
     unsigned int iterations = 0;
     try
       {
-        iterations = solve_patiently(A, J, x, b, positions, wanted);
+        iterations =
+          solve_patiently(first_solve, A, J, x, b, positions, wanted);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {

@@ -122,11 +122,11 @@ namespace
   {
     const Vector &positions = c.positions();
     P.build(c.A, positions);
-    const unsigned int patience = P.patience();
+    const unsigned int patience = P.patience(true);
     EXPECT_GT(patience, 30u);
     EXPECT_LT(patience, 1000u);
     EXPECT_TRUE(P.change(c.A, nullptr, positions, patience, patience));
-    EXPECT_GT(P.patience(), 1000000u);
+    EXPECT_GT(P.patience(true), 1000000u);
   }
 } // namespace
 
@@ -136,13 +136,13 @@ TEST(AutomaticDecisions, SlowSolvesAddUp)
   Case                    c(thin_size(), thin_cells, 2, "automatic");
   AutomaticPreconditioner P;
   P.build(c.A, c.positions());
-  const unsigned int first = P.patience();
+  const unsigned int first = P.patience(true);
   EXPECT_FALSE(P.take_note(30, true));
-  EXPECT_EQ(P.patience(), first);
+  EXPECT_EQ(P.patience(true), first);
   EXPECT_FALSE(P.take_note(first / 2, false));
-  EXPECT_LT(P.patience(), first);
+  EXPECT_LT(P.patience(true), first);
   EXPECT_FALSE(P.take_note(first, false));
-  EXPECT_EQ(P.patience(), 30u);
+  EXPECT_EQ(P.patience(true), 30u);
 }
 
 // Factors that are outdated again and again. They are tried again, each time
@@ -168,9 +168,9 @@ TEST(AutomaticDecisions, MultigridComesBack)
   multigrid.vmult(expected, c.b);
   P.vmult(found, c.b);
   EXPECT_EQ(largest_difference(found, expected), 0);
-  const unsigned int patience = P.patience();
+  const unsigned int patience = P.patience(true);
   EXPECT_FALSE(P.take_note(patience, true));
-  EXPECT_EQ(P.patience(), 30u);
+  EXPECT_EQ(P.patience(true), 30u);
   EXPECT_TRUE(P.change(c.A, nullptr, positions, 30, 30));
   EXPECT_NE(P.take_news().find("a sparse factorisation takes the place"),
             std::string::npos);
@@ -180,7 +180,7 @@ TEST(AutomaticDecisions, MultigridComesBack)
   for (int solve = 0; solve < 1000 && !is_back; ++solve)
     is_back = P.take_note(1000, true);
   EXPECT_TRUE(is_back);
-  EXPECT_GE(P.patience(), 2 * (patience - 30));
+  EXPECT_GE(P.patience(true), 2 * (patience - 30));
 }
 
 // Also where nobody has tried the multigrid: then what was expected of it
@@ -190,7 +190,7 @@ TEST(AutomaticDecisions, MultigridComesBackWhereItWasNotTried)
   Case                    c("1, 1, 0.004", thin_cells, 2, "automatic");
   AutomaticPreconditioner P;
   P.build(c.A, c.positions());
-  EXPECT_GT(P.patience(), 1000000u);
+  EXPECT_GT(P.patience(true), 1000000u);
   EXPECT_FALSE(P.take_note(2, true));
   bool is_back = false;
   for (int solve = 0; solve < 100 && !is_back; ++solve)
@@ -209,6 +209,20 @@ TEST(AutomaticDecisions, FactorsStay)
     EXPECT_FALSE(P.take_note(4, false)) << solve;
 }
 
+// A solve with older factors gets new ones when it has cost as much as these.
+TEST(AutomaticDecisions, OldFactorsAreMadeAnew)
+{
+  Case                    c(thin_size(), thin_cells, 3, "automatic");
+  AutomaticPreconditioner P;
+  make_it_change(P, c);
+  EXPECT_FALSE(P.take_note(2, true));
+  const unsigned int patience = P.patience(false);
+  EXPECT_GT(patience, 10u);
+  EXPECT_LT(patience, 100u);
+  EXPECT_TRUE(P.change(c.A, nullptr, c.positions(), patience, patience));
+  EXPECT_GT(P.patience(true), 1000000u);
+}
+
 // From a checkpoint: the same decisions, and the same kind of preconditioner.
 TEST(AutomaticDecisions, Restart)
 {
@@ -216,13 +230,13 @@ TEST(AutomaticDecisions, Restart)
   const Vector           &positions = c.positions();
   AutomaticPreconditioner before, after, changed;
   before.build(c.A, positions);
-  before.take_note(before.patience() / 2, true);
+  before.take_note(before.patience(true) / 2, true);
   MemoryArchive archive;
   before.transfer(archive);
   archive.reading = true;
   after.transfer(archive);
   after.build(c.A, positions);
-  EXPECT_EQ(after.patience(), before.patience());
+  EXPECT_EQ(after.patience(true), before.patience(true));
 
   make_it_change(before, c);
   MemoryArchive second;

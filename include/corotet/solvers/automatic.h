@@ -69,7 +69,7 @@ namespace corotet
     acceptable_iterations(const unsigned int first) const override;
 
     unsigned int
-    patience() const override;
+    patience(const bool is_new) const override;
 
     bool
     change(const EffectiveOperator &A,
@@ -122,9 +122,7 @@ namespace corotet
 
     bool is_direct  = false;
     bool is_settled = false;
-    /// Whether factors were made for the solve at hand.
-    bool is_fresh  = false;
-    bool has_costs = false;
+    bool has_costs  = false;
     /// Solves with the multigrid, their iterations, and those in vain.
     unsigned int n_multigrid = 0;
     double       iterations  = 0;

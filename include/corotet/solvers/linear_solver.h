@@ -140,11 +140,12 @@ namespace corotet
                  const Vector            &x,
                  const Vector            &b) const;
     /// These go on from x to a residual of @p wanted and return the number of
-    /// iterations. The first lets the preconditioner change meanwhile; the
-    /// others throw dealii::SolverControl::NoConvergence after @p limit
-    /// iterations.
+    /// iterations. The first lets the preconditioner change meanwhile, which
+    /// may be new, made for this solve; the others throw
+    /// dealii::SolverControl::NoConvergence after @p limit iterations.
     unsigned int
-    solve_patiently(const EffectiveOperator &A,
+    solve_patiently(const bool               is_new,
+                    const EffectiveOperator &A,
                     const TangentOperator   *J,
                     Vector                  &x,
                     const Vector            &b,

@@ -57,9 +57,10 @@ namespace corotet
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
-    /// Iterations of a solve after which change() is to be called.
+    /// Iterations of a solve after which change() is to be called; @p is_new:
+    /// P was built for this solve.
     virtual unsigned int
-    patience() const
+    patience(const bool /*is_new*/) const
     {
       return std::numeric_limits<unsigned int>::max();
     }
