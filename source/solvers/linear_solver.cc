@@ -381,24 +381,4 @@ namespace corotet
       is_built = false;
     return iterations;
   }
-
-  void
-  LinearSolver::transfer(Archive &archive)
-  {
-    archive.transfer("is_built", is_built);
-    archive.transfer("built_mass_ratio", built_mass_ratio);
-    archive.transfer("built_surface", built_surface);
-    archive.transfer("n_builds", n_builds);
-    archive.transfer("first_iterations", first_iterations);
-    preconditioner->transfer(archive);
-  }
-
-  void
-  LinearSolver::build_again(const EffectiveOperator &A,
-                            const TangentOperator   *J,
-                            const Vector            &positions)
-  {
-    preconditioner->build_for(A, J, positions);
-    known_version = A.version();
-  }
 } // namespace corotet
