@@ -27,7 +27,7 @@ namespace corotet
     {
       static_for<n>(
         [&](auto i) { store_aligned(values[i], next + i * batch_size); });
-      next += n * batch_size;
+      next += std::size_t(n) * batch_size;
     }
 
     COROTET_ALWAYS_INLINE void
@@ -36,7 +36,7 @@ namespace corotet
       static_for<9>([&](auto i) {
         store_aligned(values[i / 3][i % 3], next + i * batch_size);
       });
-      next += 9 * batch_size;
+      next += std::size_t(9) * batch_size;
     }
   };
 
@@ -50,7 +50,7 @@ namespace corotet
     read(Simd<double> (&values)[n])
     {
       static_for<n>([&](auto i) { values[i] = lanes(next + i * batch_size); });
-      next += n * batch_size;
+      next += std::size_t(n) * batch_size;
     }
 
     COROTET_ALWAYS_INLINE void
@@ -58,7 +58,7 @@ namespace corotet
     {
       static_for<9>(
         [&](auto i) { values[i / 3][i % 3] = lanes(next + i * batch_size); });
-      next += 9 * batch_size;
+      next += std::size_t(9) * batch_size;
     }
   };
 
