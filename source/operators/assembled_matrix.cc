@@ -4,7 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
 #include <corotet/operators/assembled_matrix.h>
-#include <corotet/operators/curved_kernel.h>
+#include <corotet/operators/frozen_cell_matrices.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -22,57 +22,20 @@ namespace corotet
     , reference(ReferenceElement::of(nodes.element()))
     , prescribed(is_prescribed)
   {
-    block_matrix = std::make_unique<BlockMatrix>(make_pattern());
+    block_matrix = std::make_unique<BlockMatrix>(block_pattern(nodes));
     locate_blocks();
   }
 
   namespace
   {
-    using V     = Simd<double>;
-    using Block = V[3][3];
+    using V = Simd<double>;
 
     // Numbers of nodes and of blocks.
     constexpr std::size_t largest_int = std::numeric_limits<int>::max();
-
-    // mu (lambda / mu D + D^T + tr D I).
-    COROTET_ALWAYS_INLINE void
-    isotropic_block(const Block &D, const V lame_ratio, Block &K)
-    {
-      const V trace = D[0][0] + D[1][1] + D[2][2];
-      static_for<9>([&](auto ab) {
-        constexpr int a = ab / 3, b = ab % 3;
-        K[a][b] = lame_ratio * D[a][b] + D[b][a];
-        if constexpr (a == b)
-          K[a][b] += trace;
-      });
-    }
-
-    // The block of nodes i, j, with D the integral of grad N_i (x) grad N_j,
-    // from the means of products of
-    // derivatives of N_i and N_j and from the gradients of the kernel.
-    COROTET_ALWAYS_INLINE void
-    stiffness_block(const double *products,
-                    const V (&g)[9],
-                    const V lame_ratio,
-                    Block  &K)
-    {
-      Block half, D;
-      static_for<9>([&](auto kb) {
-        constexpr std::size_t k = kb / 3, b = kb % 3;
-        half[k][b] = products[3 * k] * g[b] + products[3 * k + 1] * g[3 + b] +
-                     products[3 * k + 2] * g[6 + b];
-      });
-      static_for<9>([&](auto ab) {
-        constexpr int a = ab / 3, b = ab % 3;
-        D[a][b] =
-          g[a] * half[0][b] + g[3 + a] * half[1][b] + g[6 + a] * half[2][b];
-      });
-      isotropic_block(D, lame_ratio, K);
-    }
   } // namespace
 
   std::shared_ptr<const BlockPattern>
-  AssembledMatrix::make_pattern() const
+  block_pattern(const Nodes &nodes)
   {
     const unsigned int n_owned = nodes.n_owned_nodes();
     // The cells of each owned node.
@@ -203,83 +166,6 @@ namespace corotet
   }
 
   void
-  AssembledMatrix::add_batch(const unsigned int              first,
-                             const unsigned int              n_cells,
-                             const CellCoefficients<double> &coefficients,
-                             const double                    c_K,
-                             const V                         masses)
-  {
-    V g[9];
-    for (unsigned int i = 0; i < 9; ++i)
-      g[i] = load_aligned<batch_size>(coefficients.gradients[i]);
-    const V ratio = load_aligned<batch_size>(coefficients.lame_ratio);
-    for (unsigned int i = 0; i < reference.n_nodes; ++i)
-      for (unsigned int j = i; j < reference.n_nodes; ++j)
-        {
-          Block K;
-          stiffness_block(&reference.gradient_products(i, j, 0), g, ratio, K);
-          for (unsigned int ab = 0; ab < 9; ++ab)
-            {
-              K[ab / 3][ab % 3] *= c_K;
-              if (ab % 4 == 0)
-                K[ab / 3][ab % 3] += masses * reference.mass(i, j);
-            }
-          add_lanes(first, n_cells, i, j, K);
-        }
-  }
-
-  void
-  AssembledMatrix::add_curved_batch(
-    const unsigned int              first,
-    const unsigned int              n_cells,
-    const CellCoefficients<double> &coefficients,
-    const double                    c_K,
-    const V                         masses)
-  {
-    const CurvedBatches &curved = *nodes.batches().curved();
-    const unsigned int   n = reference.n_nodes, n_points = curved.n_points();
-    const unsigned int   batch  = nodes.batches().place(first).first;
-    const auto          &values = curved.shapes().values;
-    const V ratio = load_aligned<batch_size>(coefficients.lame_ratio);
-
-    // Gradients of the shape functions at the points, [q][node], and weights.
-    point_gradients.resize(std::size_t(n_points) * n);
-    point_weights.resize(n_points);
-    for (unsigned int q = 0; q < n_points; ++q)
-      {
-        using Kernel = CurvedKernel<1, double>;
-        const Kernel::Point point(curved, batch, q);
-        V                   g[3][3];
-        Kernel::gradients(point, coefficients, g);
-        point_weights[q] = point.number(9);
-        const double *dN = &curved.shapes().gradients(q, 0, 0);
-        for (unsigned int i = 0; i < n; ++i, dN += 3)
-          for (unsigned int a = 0; a < 3; ++a)
-            point_gradients[q * n + i][a] =
-              dN[0] * g[0][a] + dN[1] * g[1][a] + dN[2] * g[2][a];
-      }
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i; j < n; ++j)
-        {
-          Block D{}, K;
-          V     mass{};
-          for (unsigned int q = 0; q < n_points; ++q)
-            {
-              const auto &gi = point_gradients[q * n + i];
-              const auto &gj = point_gradients[q * n + j];
-              static_for<9>([&](auto ab) {
-                D[ab / 3][ab % 3] +=
-                  c_K * point_weights[q] * gi[ab / 3] * gj[ab % 3];
-              });
-              mass += masses * point_weights[q] * (values[q][i] * values[q][j]);
-            }
-          isotropic_block(D, ratio, K);
-          static_for<3>([&](auto a) { K[a][a] += mass; });
-          add_lanes(first, n_cells, i, j, K);
-        }
-  }
-
-  void
   AssembledMatrix::update(
     const double                                           c_K,
     const dealii::AlignedVector<CellCoefficients<double>> &coefficients,
@@ -289,25 +175,30 @@ namespace corotet
     const SurfaceOperator<double>                         *surface)
   {
     block_matrix->set_zero();
-    const double consistent = lumped_mass == nullptr ? c_M : 0.;
-    const auto   add = [&](const unsigned int begin, const unsigned int end) {
-      for (unsigned int first = begin; first < end; first += batch_size)
-        {
-          const unsigned int batch  = nodes.batches().place(first).first;
-          const auto        *curved = nodes.batches().curved();
-          const auto function = curved != nullptr && curved->has(batch) ?
-                                    &AssembledMatrix::add_curved_batch :
-                                    &AssembledMatrix::add_batch;
-          (this->*function)(first,
-                            std::min(batch_size, end - first),
-                            coefficients[batch],
-                            c_K,
-                            consistent *
-                              load_aligned<batch_size>(masses[batch].mass));
-        }
-    };
-    add(0, nodes.n_owned_cells());
-    add(nodes.n_owned_cells(), nodes.n_local_cells());
+    const double       consistent = lumped_mass == nullptr ? c_M : 0.;
+    FrozenCellMatrices cells(nodes);
+    cells.for_each_batch([&](const unsigned int first,
+                             const unsigned int n_cells) {
+      const unsigned int batch = nodes.batches().place(first).first;
+      const V mass = consistent * load_aligned<batch_size>(masses[batch].mass);
+      cells.for_each_block(first,
+                           coefficients[batch],
+                           mass,
+                           [&](const unsigned int i,
+                               const unsigned int j,
+                               const auto        &K,
+                               const V            m) {
+                             V block[3][3];
+                             for (unsigned int ab = 0; ab < 9; ++ab)
+                               {
+                                 block[ab / 3][ab % 3] =
+                                   K[ab / 3][ab % 3] * c_K;
+                                 if (ab % 4 == 0)
+                                   block[ab / 3][ab % 3] += m;
+                               }
+                             add_lanes(first, n_cells, i, j, block);
+                           });
+    });
     add_others(c_M, lumped_mass, surface);
   }
 

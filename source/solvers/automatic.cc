@@ -51,8 +51,21 @@ namespace corotet
     constexpr unsigned int slow = 100;
 
     // Iterations for each unit of the mean ratio of cells that are flat or
-    // stretched: the least that has been met.
-    constexpr double iterations_by_ratio = 10;
+    // stretched, the least that has been met: without rotations of vertices,
+    // and with them on flat and on stretched cells.
+    constexpr double iterations_by_ratio           = 10;
+    constexpr double iterations_by_flat_ratio      = 4.5;
+    constexpr double iterations_by_stretched_ratio = 1.3;
+
+    double
+    least_iterations(const CellProportions &cells, const bool has_rotations)
+    {
+      if (!has_rotations)
+        return iterations_by_ratio * cells.mean_ratio;
+      return cells.mean_ratio * (cells.share_flat >= cells.share_stretched ?
+                                   iterations_by_flat_ratio :
+                                   iterations_by_stretched_ratio);
+    }
 
     // Solves after which factors are judged, and how much more than these have
     // cost the multigrid may take in vain before factors are tried again.
@@ -66,7 +79,7 @@ namespace corotet
     has_costs                            = true;
     const Discretization &discretization = A.discretization();
     const double          n              = 3. * discretization.n_global_nodes();
-    const auto            degree_1 = multigrid.factorization_of_degree_1(A);
+    const auto            degree_1 = multigrid.lowest_level().factorization(A);
     const double          r        = n / degree_1.n_unknowns;
     const double          n_operations =
       degree_1.n_operations * std::pow(r, power_of_operations);
@@ -103,15 +116,16 @@ namespace corotet
         return;
       }
     multigrid.build(A, positions);
-    if (is_settled || has_costs || !multigrid.has_factors())
+    if (is_settled || has_costs || !multigrid.lowest_level().has_factors())
       return;
     find_costs(A);
     if (is_settled)
       return;
-    const CellProportions proportions = cell_proportions(A.discretization());
+    const CellProportions &proportions = multigrid.proportions();
     if (proportions.mean_ratio < 2 * CellProportions::limit)
       return;
-    const double forecast = iterations_by_ratio * proportions.mean_ratio;
+    const double forecast =
+      least_iterations(proportions, multigrid.lowest_level().has_rotations());
     if (forecast < costs.first)
       return;
     news =
@@ -240,7 +254,7 @@ namespace corotet
                        "of p-multigrid, whose iterations, {:.0f} by now, have "
                        "cost as much: {}",
                        iterations + n_iterations,
-                       cell_proportions(A.discretization()).text());
+                       multigrid.proportions().text());
     iterations += n_expected;
     is_direct = true;
     factorize(A, J, positions);

@@ -17,9 +17,9 @@ namespace corotet
 {
   namespace
   {
-    /// Below this number of nodes, nested dissection takes longer than it
-    /// saves: measured, one factorisation per ordering.
-    constexpr int min_nodes_for_dissection = 5000;
+    /// Below this number of rows, nested dissection takes longer than it saves:
+    /// measured, one factorisation per ordering.
+    constexpr int min_rows_for_dissection = 15000;
 
     /// A pivot that is smaller than this many machine precisions, relative to
     /// the diagonal entry that it is left of, is round-off.
@@ -92,46 +92,79 @@ namespace corotet
     AssertThrow(common.status >= CHOLMOD_OK, dealii::ExcInternalError());
   }
 
-  /// Orders the graph of nodes, which has a ninth of the matrix's entries.
+  /// The graph of points with @p size unknowns each: whose columns each row of
+  /// a point has, in the order of the rows. False if rows of a point differ.
+  bool
+  CholmodFactor::find_points(const int size, NodeGraph &points) const
+  {
+    if (n_rows % size != 0)
+      return false;
+    const int        n_points = n_rows / size;
+    const int       *starts   = row_starts();
+    const int       *column   = columns();
+    std::vector<int> last_seen(n_points, -1);
+    points = NodeGraph();
+    for (int point = 0; point < n_points; ++point)
+      {
+        const int begin = points.columns.size();
+        for (int row = size * point; row < size * (point + 1); ++row)
+          {
+            int n_seen = 0, last = -1;
+            for (int k = starts[row]; k < starts[row + 1]; ++k)
+              {
+                const int other = column[k] / size;
+                if (std::exchange(last_seen[other], point) != point)
+                  {
+                    if (row > size * point)
+                      return false;
+                    points.columns.push_back(other);
+                  }
+                n_seen += std::exchange(last, other) != other ? 1 : 0;
+              }
+            if (n_seen != static_cast<int>(points.columns.size()) - begin)
+              return false;
+          }
+        points.starts.push_back(points.columns.size());
+      }
+    return true;
+  }
+
+  /// Orders the graph of points, which has a ninth of the matrix's entries, or
+  /// less.
   void
   CholmodFactor::order()
   {
-    const int       n_nodes = n_rows / 3;
-    const int      *starts  = row_starts();
-    const int      *column  = columns();
-    cholmod_sparse *nodes   = cholmod_allocate_sparse(n_nodes,
-                                                    n_nodes,
-                                                    starts[n_rows],
+    NodeGraph points;
+    int       size = 6;
+    while (!find_points(size, points))
+      size /= 2;
+    const int       n_points = points.n_rows();
+    cholmod_sparse *graph    = cholmod_allocate_sparse(n_points,
+                                                    n_points,
+                                                    points.columns.size(),
                                                     0, // not sorted
                                                     1, // packed
                                                     1, // symmetric
                                                     CHOLMOD_PATTERN,
                                                     &common);
     check_status();
-    int             *node_starts = static_cast<int *>(nodes->p);
-    int             *node_rows   = static_cast<int *>(nodes->i);
-    std::vector<int> node_order(n_nodes), last_seen(n_nodes, -1);
-    int              n = 0;
-    for (int node = 0; node < n_nodes; ++node)
-      {
-        node_starts[node] = n;
-        for (int k = starts[std::size_t(3) * node];
-             k < starts[std::size_t(3) * node + 3];
-             ++k)
-          if (std::exchange(last_seen[column[k] / 3], node) != node)
-            node_rows[n++] = column[k] / 3;
-      }
-    node_starts[n_nodes] = n;
-    if (n_nodes < min_nodes_for_dissection)
-      cholmod_amd(nodes, nullptr, 0, node_order.data(), &common);
+    std::copy(points.starts.begin(),
+              points.starts.end(),
+              static_cast<int *>(graph->p));
+    std::copy(points.columns.begin(),
+              points.columns.end(),
+              static_cast<int *>(graph->i));
+    std::vector<int> point_order(n_points);
+    if (n_rows < min_rows_for_dissection)
+      cholmod_amd(graph, nullptr, 0, point_order.data(), &common);
     else
-      cholmod_metis(nodes, nullptr, 0, 1, node_order.data(), &common);
-    cholmod_free_sparse(&nodes, &common);
+      cholmod_metis(graph, nullptr, 0, 1, point_order.data(), &common);
+    cholmod_free_sparse(&graph, &common);
     check_status();
 
     permutation.resize(n_rows);
     for (int row = 0; row < n_rows; ++row)
-      permutation[row] = 3 * node_order[row / 3] + row % 3;
+      permutation[row] = size * point_order[row / size] + row % size;
   }
 
   void

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/cell_proportions.h>
 #include <corotet/solvers/p_multigrid.h>
 
 #include <deal.II/base/array_view.h>
@@ -11,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace corotet
 {
@@ -83,7 +83,6 @@ namespace corotet
   PMultigrid::make_levels(const EffectiveOperator &A)
   {
     levels.clear();
-    coarse_matrix.reset();
     const Nodes               *nodes         = &A.discretization();
     std::vector<unsigned char> is_prescribed = A.is_prescribed();
     while (nodes->degree() > 1)
@@ -96,17 +95,24 @@ namespace corotet
         is_prescribed               = coarser.marks(is_prescribed);
         nodes                       = &coarser;
       }
-    coarse_nodes      = nodes;
-    coarse_prescribed = marked_unknowns(is_prescribed);
-    if (!levels.empty())
+    const Level *last = levels.empty() ? nullptr : levels.back().get();
+    std::vector<unsigned int> finest_nodes(nodes->n_owned_nodes());
+    for (unsigned int n = 0; n < finest_nodes.size(); ++n)
       {
-        coarse_matrix =
-          std::make_unique<AssembledMatrix>(*nodes, is_prescribed);
-        nodes->initialize_vector(coarse_float_x);
-        nodes->initialize_vector(coarse_float_b);
+        // Down the levels: vertices are their own keys.
+        finest_nodes[n] = n;
+        for (unsigned int l = levels.size(); l-- > 0;)
+          finest_nodes[n] = levels[l]->coarser.key(finest_nodes[n]);
       }
-    nodes->initialize_vector(coarse_x);
-    nodes->initialize_vector(coarse_b);
+    the_proportions = cell_proportions(A.discretization());
+    vertex_level =
+      std::make_unique<VertexLevel>(*parameters,
+                                    A,
+                                    the_proportions,
+                                    last ? &last->A.nodes() : nullptr,
+                                    last ? &last->coarser : nullptr,
+                                    last ? last->is_prescribed : is_prescribed,
+                                    std::move(finest_nodes));
     const CellBatches &batches = A.discretization().batches();
     coefficients.resize(batches.n_owned_batches() / floats_per_batch);
     masses.resize(coefficients.size());
@@ -152,14 +158,14 @@ namespace corotet
   void
   PMultigrid::build(const EffectiveOperator &A, const Vector &positions)
   {
-    if (coarse_nodes == nullptr)
+    if (!vertex_level)
       {
         make_levels(A);
         choose_units(A);
       }
     update(A);
     estimate_eigenvalues(A.discretization());
-    build_coarse_solver(A, positions);
+    vertex_level->build(A, stiffness_unit, scale, positions);
   }
 
   void
@@ -176,19 +182,6 @@ namespace corotet
           levels[l - 1]->coarser.restrict_to(start, levels[l - 1]->b);
         levels[l]->smoother.estimate_eigenvalues(start);
       }
-  }
-
-  PMultigrid::Factorization
-  PMultigrid::factorization_of_degree_1(const EffectiveOperator &A) const
-  {
-    const double n = 3. * coarse_nodes->n_global_nodes();
-    if (has_factors())
-      return {n,
-              direct.n_operations(),
-              static_cast<double>(direct.n_entries())};
-    SparseCholesky factor;
-    factor.analyze(coarse_matrix ? coarse_matrix->matrix() : A.matrix());
-    return {n, factor.n_operations(), static_cast<double>(factor.n_entries())};
   }
 
   std::vector<double>
@@ -254,95 +247,11 @@ namespace corotet
   }
 
   void
-  PMultigrid::choose_aggregates(const Discretization &discretization)
-  {
-    if (has_chosen_aggregates)
-      return;
-    has_chosen_aggregates = true;
-    // Aggregates end where a rank does. Partitions cut through lines of flat
-    // cells, whose nodes are coupled strongly: aggregates of what is left of
-    // these are worse than those of all neighbours. Stretched cells are cut in
-    // few places only.
-    constexpr double      few         = 0.1;
-    const CellProportions proportions = cell_proportions(discretization);
-    const bool            is_alone    = dealii::Utilities::MPI::n_mpi_processes(
-                            discretization.communicator()) == 1;
-    if (proportions.share_stretched > few ||
-        (is_alone && proportions.share_flat > few))
-      aggregation.set_least_similarity(0.3);
-  }
-
-  void
-  PMultigrid::build_coarse_solver(const EffectiveOperator &A,
-                                  const Vector            &positions)
-  {
-    if (coarse_matrix)
-      {
-        std::unique_ptr<SurfaceOperator<double>> surface;
-        if (A.surface() != nullptr)
-          {
-            surface = std::make_unique<SurfaceOperator<double>>(*coarse_nodes);
-            surface->set(*A.surface(), 1 / scale);
-          }
-        coarse_matrix->update(1 / stiffness_unit,
-                              A.elasticity().coefficients(),
-                              A.mass_factor() / scale,
-                              A.mass().cell_masses(),
-                              nullptr,
-                              surface.get());
-      }
-    const auto &matrix = coarse_matrix ? coarse_matrix->matrix() : A.matrix();
-    coarse_solver      = parameters->coarse_type;
-    if (coarse_solver == "automatic")
-      coarse_solver =
-        3 * coarse_nodes->n_global_nodes() <= parameters->direct_limit ?
-          "direct" :
-          "aggregation";
-    if (coarse_solver == "direct")
-      {
-        direct.factorize(matrix);
-        return;
-      }
-    for (unsigned int n = 0; n < coarse_nodes->n_owned_nodes(); ++n)
-      {
-        // Down the levels: vertices are their own keys.
-        unsigned int fine = n;
-        for (unsigned int l = levels.size(); l-- > 0;)
-          fine = levels[l]->coarser.key(fine);
-        for (unsigned int a = 0; a < 3; ++a)
-          coarse_x.local_element(3 * n + a) =
-            positions.local_element(3 * fine + a);
-      }
-    if (coarse_solver == "aggregation")
-      {
-        choose_aggregates(A.discretization());
-        aggregation.build(matrix, coarse_x.begin());
-        return;
-      }
-    for (const auto &candidate : parameters->further)
-      if (candidate.name == coarse_solver && !other)
-        other = candidate.make();
-    other->build(matrix, coarse_x);
-  }
-
-  template <typename VectorType>
-  void
-  PMultigrid::apply_coarse_solver(VectorType &x, const VectorType &b) const
-  {
-    if (coarse_solver == "direct")
-      direct.vmult(x, b);
-    else if (coarse_solver == "aggregation")
-      aggregation.vmult(x.begin(), b.begin());
-    else if constexpr (std::is_same_v<VectorType, Vector>)
-      other->vmult(x, b);
-  }
-
-  void
   PMultigrid::vmult(Vector &dst, const Vector &src) const
   {
     if (levels.empty())
       {
-        apply_coarse_solver(dst, src);
+        vertex_level->vmult(dst, src);
         return;
       }
     // Single precision has its limits: sources of any size become one of size
@@ -361,38 +270,22 @@ namespace corotet
   void
   PMultigrid::cycle(const unsigned int l) const
   {
-    Level     &level   = *levels[l];
-    const bool is_last = l + 1 == levels.size();
+    Level &level = *levels[l];
     level.smoother.smooth_from_zero(level.x, level.b);
     level.A.residual(level.residual, level.b, level.x);
 
-    FloatVector &coarse_b = is_last ? coarse_float_b : levels[l + 1]->b;
-    FloatVector &coarse_x = is_last ? coarse_float_x : levels[l + 1]->x;
-    level.coarser.restrict_to(coarse_b, level.residual);
-    if (is_last)
-      solve_coarse(coarse_x, coarse_b);
+    if (l + 1 == levels.size())
+      vertex_level->correct(level.x, level.residual);
     else
-      cycle(l + 1);
-    coarse_x.update_ghost_values();
-    level.coarser.prolongate_add(level.x, coarse_x);
-    coarse_x.zero_out_ghost_values();
+      {
+        Level &next = *levels[l + 1];
+        level.coarser.restrict_to(next.b, level.residual);
+        cycle(l + 1);
+        next.x.update_ghost_values();
+        level.coarser.prolongate_add(level.x, next.x);
+        next.x.zero_out_ghost_values();
+      }
 
     level.smoother.smooth(level.x, level.b);
-  }
-
-  void
-  PMultigrid::solve_coarse(FloatVector &x, FloatVector &b) const
-  {
-    for (const unsigned int i : coarse_prescribed)
-      if (i < b.locally_owned_size())
-        b.local_element(i) = 0;
-    if (!other)
-      {
-        apply_coarse_solver(x, b);
-        return;
-      }
-    copy_scaled(coarse_b, b, 1.);
-    apply_coarse_solver(coarse_x, coarse_b);
-    copy_scaled(x, coarse_x, 1.);
   }
 } // namespace corotet

@@ -31,6 +31,14 @@ namespace corotet
                       "'automatic', the direct one up to the limit below, then "
                       "aggregation.",
                       dealii::Patterns::Selection(names));
+    prm.add_parameter("Vertex rotations",
+                      vertex_rotations,
+                      "Whether degree 1, as the lowest level, also has the "
+                      "rotations of the vertices, with which it bends: thin "
+                      "cells need a fraction of the iterations so, and the "
+                      "level has twice as many unknowns. 'automatic': where "
+                      "more than a tenth of the cells are flat or stretched.",
+                      dealii::Patterns::Selection("automatic|true|false"));
     prm.add_parameter("Direct limit",
                       direct_limit,
                       "Unknowns of degree 1 up to which 'automatic' means "

@@ -14,16 +14,32 @@ namespace corotet
   void
   SmoothedAggregation::build(const BlockMatrix &A, const double *positions)
   {
-    communicator = A.pattern()->communicator();
-    n_nodes      = A.pattern()->n_owned();
+    const int n_nodes = A.pattern()->n_owned();
+    communicator      = A.pattern()->communicator();
+    n_unknowns        = 3 * n_nodes;
+    is_of_aggregates  = false;
     std::vector<PointFrame<3>> frames(n_nodes);
     for (int i = 0; i < n_nodes; ++i)
       for (int a = 0; a < 3; ++a)
         frames[i].centre[a] = positions[3 * i + a];
     finest.build(
       A, A.pattern(), std::move(frames), least_similarity, most_aggregates);
-    const AggregateProblem *problem = &finest.coarse();
-    unsigned int            n_above = 0;
+    build_coarser(&finest.coarse());
+  }
+
+  void
+  SmoothedAggregation::build(const AggregateProblem &A)
+  {
+    communicator     = A.aggregates->communicator();
+    n_unknowns       = 6 * A.aggregates->n_owned();
+    is_of_aggregates = true;
+    build_coarser(&A);
+  }
+
+  void
+  SmoothedAggregation::build_coarser(const AggregateProblem *problem)
+  {
+    unsigned int n_above = 0;
     for (; problem->aggregates != nullptr; ++n_above)
       {
         if (n_above == coarser.size())
@@ -74,26 +90,34 @@ namespace corotet
   {
     // Numbers near 1, which no product takes out of the range of float.
     Number own_largest = 0;
-    for (int i = 0; i < 3 * n_nodes; ++i)
+    for (int i = 0; i < n_unknowns; ++i)
       own_largest = std::max(own_largest, std::abs(src[i]));
     const double largest =
       dealii::Utilities::MPI::max(static_cast<double>(own_largest),
                                   communicator);
-    const Number scale = largest > 0 ? largest : 1;
-    const Number back  = scale / finest.unit();
-    float *const rhs   = finest.right_hand_side();
-    for (int i = 0; i < 3 * n_nodes; ++i)
-      rhs[i] = src[i] / scale;
-    cycle(finest, 0, true);
-    const float *const x = finest.solution();
-    for (int i = 0; i < 3 * n_nodes; ++i)
-      dst[i] = back * x[i];
+    const Number scale   = largest > 0 ? largest : 1;
+    const auto   through = [&](const auto &level, const unsigned int n_above) {
+      const Number back = scale / level.unit();
+      float *const rhs  = level.right_hand_side();
+      for (int i = 0; i < n_unknowns; ++i)
+        rhs[i] = src[i] / scale;
+      cycle(level, n_above, true);
+      const float *const x = level.solution();
+      for (int i = 0; i < n_unknowns; ++i)
+        dst[i] = back * x[i];
+    };
+    if (is_of_aggregates)
+      through(*coarser.front(), 1);
+    else
+      through(finest, 0);
   }
 
   std::vector<int>
   SmoothedAggregation::n_aggregates() const
   {
-    std::vector<int> result{finest.n_aggregates()};
+    std::vector<int> result;
+    if (!is_of_aggregates)
+      result.push_back(finest.n_aggregates());
     for (const auto &level : coarser)
       result.push_back(level->n_aggregates());
     return result;

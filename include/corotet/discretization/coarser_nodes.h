@@ -24,6 +24,14 @@ namespace corotet
   class CoarserNodes : public Nodes
   {
   public:
+    /// A finer node and the coarser ones that its value comes from.
+    template <int n>
+    struct Parents
+    {
+      unsigned int                fine;
+      std::array<unsigned int, n> coarse;
+    };
+
     /// Collective.
     explicit CoarserNodes(const Nodes &finer);
 
@@ -56,15 +64,15 @@ namespace corotet
       dealii::LinearAlgebra::distributed::Vector<Number>       &coarse,
       const dealii::LinearAlgebra::distributed::Vector<Number> &fine) const;
 
-  private:
-    /// A finer node and the coarser ones that its value comes from.
-    template <int n>
-    struct Parents
+    /// Owned finer nodes of degree 2 in the middle of edges, and the vertices
+    /// at their ends, where this is degree 1.
+    const std::vector<Parents<2>> &
+    middles() const
     {
-      unsigned int                fine;
-      std::array<unsigned int, n> coarse;
-    };
+      return on_middles;
+    }
 
+  private:
     void
     number_nodes();
     void

@@ -13,7 +13,6 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -21,6 +20,11 @@
 
 namespace corotet
 {
+  /// The blocks of a matrix of @p nodes: those of nodes that share a cell.
+  /// Throws ComputationError if they are too many for one rank. Collective.
+  std::shared_ptr<const BlockPattern>
+  block_pattern(const Nodes &nodes);
+
   /**
    * The matrix A = c_K K + c_M M of one element, with a matrix of the surface
    * if there is one. Rows and columns of prescribed
@@ -68,26 +72,8 @@ namespace corotet
     }
 
   private:
-    /// The blocks of the owned rows.
-    std::shared_ptr<const BlockPattern>
-    make_pattern() const;
     void
     locate_blocks();
-    /// Adds the blocks of cells first, .., first + n_cells - 1, those of one
-    /// batch.
-    void
-    add_batch(const unsigned int              first,
-              const unsigned int              n_cells,
-              const CellCoefficients<double> &coefficients,
-              const double                    c_K,
-              const Simd<double>              masses);
-    /// The same for a batch with curved cells.
-    void
-    add_curved_batch(const unsigned int              first,
-                     const unsigned int              n_cells,
-                     const CellCoefficients<double> &coefficients,
-                     const double                    c_K,
-                     const Simd<double>              masses);
     /// Adds what no cell has.
     void
     add_others(const double                   c_M,
@@ -116,10 +102,6 @@ namespace corotet
     std::vector<std::uint16_t> block_places;
     /// Local cells with prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
-
-    /// Of the curved batch at hand, [point][node] and [point].
-    dealii::AlignedVector<std::array<Simd<double>, 3>> point_gradients;
-    dealii::AlignedVector<Simd<double>>                point_weights;
   };
 } // namespace corotet
 

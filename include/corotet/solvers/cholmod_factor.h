@@ -4,6 +4,8 @@
 #ifndef corotet_solvers_cholmod_factor_h
 #define corotet_solvers_cholmod_factor_h
 
+#include <corotet/operators/ghost_exchange.h>
+
 #include <cholmod.h>
 
 #include <cstddef>
@@ -13,7 +15,7 @@ namespace corotet
 {
   /**
    * CHOLMOD's factor L of a symmetric positive definite matrix A with three
-   * unknowns per node, on one rank; see SparseCholesky.
+   * unknowns per node, or six per point, on one rank; see SparseCholesky.
    *
    * The user fills in the lower triangle of A row by row (for CHOLMOD, the
    * upper triangle column by column: it can permute that one in one pass),
@@ -41,10 +43,22 @@ namespace corotet
       return static_cast<int *>(lower->p);
     }
 
+    const int *
+    row_starts() const
+    {
+      return static_cast<const int *>(lower->p);
+    }
+
     int *
     columns()
     {
       return static_cast<int *>(lower->i);
+    }
+
+    const int *
+    columns() const
+    {
+      return static_cast<const int *>(lower->i);
     }
 
     /// In the order of columns(); float or double, as is_single() says.
@@ -102,6 +116,8 @@ namespace corotet
 
     void
     solve_rhs();
+    bool
+    find_points(const int size, NodeGraph &points) const;
     void
     order();
     void

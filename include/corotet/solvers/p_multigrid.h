@@ -4,13 +4,12 @@
 #ifndef corotet_solvers_p_multigrid_h
 #define corotet_solvers_p_multigrid_h
 
+#include <corotet/discretization/cell_proportions.h>
 #include <corotet/discretization/coarser_nodes.h>
-#include <corotet/operators/assembled_matrix.h>
 #include <corotet/solvers/chebyshev.h>
 #include <corotet/solvers/p_multigrid_parameters.h>
 #include <corotet/solvers/preconditioner.h>
-#include <corotet/solvers/smoothed_aggregation.h>
-#include <corotet/solvers/sparse_cholesky.h>
+#include <corotet/solvers/vertex_level.h>
 
 #include <memory>
 #include <string>
@@ -70,21 +69,18 @@ namespace corotet
     std::vector<double>
     largest_eigenvalues() const;
 
-    /// What a sparse factorisation of the matrix of degree 1 of @p A would
-    /// take, or has taken: floating-point operations, and entries. After
-    /// build(); collective.
-    struct Factorization
+    /// After the first build().
+    const VertexLevel &
+    lowest_level() const
     {
-      double n_unknowns, n_operations, n_entries;
-    };
-    Factorization
-    factorization_of_degree_1(const EffectiveOperator &A) const;
+      return *vertex_level;
+    }
 
-    /// Whether there is that factorisation.
-    bool
-    has_factors() const
+    /// Of the body's cells, after the first build().
+    const CellProportions &
+    proportions() const
     {
-      return coarse_solver == "direct";
+      return the_proportions;
     }
 
   private:
@@ -116,20 +112,8 @@ namespace corotet
     choose_units(const EffectiveOperator &A);
     void
     estimate_eigenvalues(const Discretization &discretization);
-    /// Lets aggregates join what moves alike where cells are flat or
-    /// stretched.
-    void
-    choose_aggregates(const Discretization &discretization);
-    void
-    build_coarse_solver(const EffectiveOperator &A, const Vector &positions);
-    /// Vector is that of double or float.
-    template <typename VectorType>
-    void
-    apply_coarse_solver(VectorType &x, const VectorType &b) const;
     void
     cycle(const unsigned int level) const;
-    void
-    solve_coarse(FloatVector &x, FloatVector &b) const;
 
     const std::shared_ptr<PMultigridParameters> parameters;
 
@@ -143,19 +127,8 @@ namespace corotet
     /// The operator's, less the unit: what vmult() divides by.
     double scale = 1;
 
-    const Nodes                     *coarse_nodes = nullptr;
-    std::unique_ptr<AssembledMatrix> coarse_matrix;
-    std::string                      coarse_solver;
-    SparseCholesky      direct{SparseCholesky::Precision::single_precision};
-    SmoothedAggregation aggregation;
-    bool                has_chosen_aggregates = false;
-    /// One of the further ones, once it is asked for.
-    std::unique_ptr<CoarseSolver> other;
-    std::vector<unsigned int>     coarse_prescribed;
-    mutable Vector                coarse_x;
-    mutable Vector                coarse_b;
-    mutable FloatVector           coarse_float_x;
-    mutable FloatVector           coarse_float_b;
+    CellProportions              the_proportions;
+    std::unique_ptr<VertexLevel> vertex_level;
   };
 } // namespace corotet
 

@@ -27,10 +27,11 @@ namespace corotet
     declare_parameters(dealii::ParameterHandler &prm);
 
     CoarseSolvers further;
-    unsigned int  smoother_degree = 4;
-    double        smoothing_range = 20;
-    std::string   coarse_type     = "automatic";
-    unsigned int  direct_limit    = 15000;
+    unsigned int  smoother_degree  = 4;
+    double        smoothing_range  = 20;
+    std::string   coarse_type      = "automatic";
+    std::string   vertex_rotations = "automatic";
+    unsigned int  direct_limit     = 15000;
   };
 } // namespace corotet
 

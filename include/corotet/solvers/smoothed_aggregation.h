@@ -64,6 +64,11 @@ namespace corotet
     void
     build(const BlockMatrix &A, const double *positions);
 
+    /// The same for a matrix of aggregates, whose numbers are near one.
+    /// Collective.
+    void
+    build(const AggregateProblem &A);
+
     /// dst = P src, owned entries, for float or double. Only the first call
     /// allocates memory. Collective.
     template <typename Number>
@@ -75,6 +80,9 @@ namespace corotet
     n_aggregates() const;
 
   private:
+    /// The levels of aggregates below @p problem.
+    void
+    build_coarser(const AggregateProblem *problem);
     template <typename Level>
     void
     cycle(const Level       &level,
@@ -85,13 +93,15 @@ namespace corotet
     double             least_similarity = 0;
     int                most_aggregates  = 4000;
 
+    /// Unused where the matrix is one of aggregates.
     AggregationLevel<3>                               finest;
     std::vector<std::unique_ptr<AggregationLevel<6>>> coarser;
     SparseCholesky last_factor{SparseCholesky::Precision::single_precision};
     /// Of the owned aggregates of the last level, six each.
     mutable std::vector<float> last_unknowns;
-    MPI_Comm                   communicator = MPI_COMM_SELF;
-    int                        n_nodes      = 0;
+    MPI_Comm                   communicator     = MPI_COMM_SELF;
+    int                        n_unknowns       = 0;
+    bool                       is_of_aggregates = false;
   };
 } // namespace corotet
 

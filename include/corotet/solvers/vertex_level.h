@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_solvers_vertex_level_h
+#define corotet_solvers_vertex_level_h
+
+#include <corotet/discretization/cell_proportions.h>
+#include <corotet/discretization/coarser_nodes.h>
+#include <corotet/operators/assembled_matrix.h>
+#include <corotet/operators/effective_operator.h>
+#include <corotet/solvers/p_multigrid_parameters.h>
+#include <corotet/solvers/smoothed_aggregation.h>
+#include <corotet/solvers/sparse_cholesky.h>
+#include <corotet/solvers/vertex_motions.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * The lowest level of PMultigrid, whose matrix is assembled: degree 1, where
+   * cells are flat or stretched with the rotations of the vertices
+   * (VertexMotions). A sparse factorisation solves it, or one cycle of smoothed
+   * aggregation.
+   */
+  class VertexLevel
+  {
+  public:
+    using FloatVector = VertexMotions::FloatVector;
+
+    /// Of an element of degree 1, @p A, or, if @p quadratic is not null, below
+    /// that one of degree 2, whose vertices are @p coarser; @p is_prescribed
+    /// of its unknowns. @p finest_nodes: local numbers of the owned vertices
+    /// among the nodes of A. All others must outlive this object. Collective.
+    VertexLevel(const PMultigridParameters       &parameters,
+                const EffectiveOperator          &A,
+                const CellProportions            &proportions,
+                const Nodes                      *quadratic,
+                const CoarserNodes               *coarser,
+                const std::vector<unsigned char> &is_prescribed,
+                std::vector<unsigned int>         finest_nodes);
+
+    /// Takes over A over @p scale, in single precision that of its stiffness
+    /// over @p stiffness_unit. @p positions of the finest nodes [m].
+    /// Collective.
+    void
+    build(const EffectiveOperator &A,
+          const double             stiffness_unit,
+          const double             scale,
+          const Vector            &positions);
+
+    /// x = A^{-1} b, about, where A is of degree 1. Collective.
+    void
+    vmult(Vector &x, const Vector &b) const;
+
+    /// x += P A^{-1} P^T r, about, for the quadratic element: zero at
+    /// prescribed unknowns, where @p x and @p r must be zero. Collective.
+    void
+    correct(FloatVector &x, const FloatVector &r) const;
+
+    /// What a sparse factorisation of the matrix of degree 1, without
+    /// rotations, would take, or has taken: floating-point operations, and
+    /// entries.
+    struct Factorization
+    {
+      double n_unknowns, n_operations, n_entries;
+    };
+
+    /// After build(). Collective.
+    Factorization
+    factorization(const EffectiveOperator &A) const;
+
+    /// Whether there is that factorisation.
+    bool
+    has_factors() const
+    {
+      return solver == "direct";
+    }
+
+    /// Whether vertices have rotations.
+    bool
+    has_rotations() const
+    {
+      return motions != nullptr;
+    }
+
+  private:
+    bool
+    wants_rotations(const CellProportions &cells) const;
+    /// Whether factors of A, the matrix of this level, are small enough.
+    bool
+    factors_pay(const BlockMatrix &A);
+    const BlockMatrix &
+    matrix(const EffectiveOperator &A) const;
+    void
+    assemble(const EffectiveOperator &A,
+             const double             stiffness_unit,
+             const double             scale,
+             const Vector            &positions);
+    /// Owned entries, of float or double.
+    template <typename Number>
+    void
+    solve(Number *x, const Number *b) const;
+
+    const PMultigridParameters &parameters;
+    /// Null where A is of degree 1.
+    const Nodes              *quadratic;
+    const CoarserNodes       *coarser;
+    const Nodes              &vertices;
+    std::vector<unsigned int> finest_nodes;
+    /// Local unknowns of vertices.
+    std::vector<unsigned int> prescribed;
+    bool                      is_thin_body = false;
+
+    /// One of them, or none where A is of degree 1.
+    std::unique_ptr<AssembledMatrix> assembled;
+    std::unique_ptr<VertexMotions>   motions;
+
+    std::string         solver;
+    SparseCholesky      direct{SparseCholesky::Precision::single_precision};
+    SmoothedAggregation aggregation;
+    /// One of the further ones, once it is asked for.
+    std::unique_ptr<CoarseSolver> other;
+
+    mutable Vector             x, b;
+    mutable FloatVector        float_x, float_b;
+    mutable std::vector<float> unknowns;
+  };
+} // namespace corotet
+
+#endif

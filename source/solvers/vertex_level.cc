@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/solvers/vertex_level.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace corotet
+{
+  namespace
+  {
+    // Which part of the cells makes a difference.
+    constexpr double few = 0.1;
+
+    // Faces of the surface for each cell of a body with at most three layers of
+    // cells: one layer has 0.8.
+    constexpr double thin = 0.25;
+
+    // Rotations halve the iterations, or better, and make each of them cost up
+    // to twice as much: they pay on thin bodies, where factors are small, and
+    // on others from this mean ratio of their cells' proportions on.
+    constexpr double least_ratio = 15;
+
+    // Operations that the factors of a cube with n unknowns of degree 1 take,
+    // in terms of n^2.
+    constexpr double operations_of_cube = 12;
+    // Thin bodies with more than that many times as many unknowns as a cube
+    // take more.
+    constexpr double most_unknowns = 8;
+
+    // What a factor takes with six unknowns in place of three at each point of
+    // the same graph.
+    constexpr double operations_of_motions = 8;
+    constexpr double entries_of_motions    = 4;
+
+    bool
+    is_thin(const Discretization &discretization)
+    {
+      std::array<double, 2> sums{
+        {static_cast<double>(discretization.boundary_faces().size()),
+         static_cast<double>(discretization.n_owned_cells())}};
+      dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(),
+                                                                  2),
+                                  discretization.communicator(),
+                                  dealii::ArrayView<double>(sums.data(), 2));
+      return sums[0] > thin * sums[1];
+    }
+  } // namespace
+
+  bool
+  VertexLevel::wants_rotations(const CellProportions &cells) const
+  {
+    // The further solvers know nothing of rotations.
+    for (const auto &candidate : parameters.further)
+      if (candidate.name == parameters.coarse_type)
+        return false;
+    if (parameters.vertex_rotations != "automatic")
+      return parameters.vertex_rotations == "true";
+    if (cells.share_flat <= few && cells.share_stretched <= few)
+      return false;
+    return is_thin_body ||
+           (3 * vertices.n_global_nodes() <= parameters.direct_limit &&
+            cells.mean_ratio > least_ratio);
+  }
+
+  VertexLevel::VertexLevel(const PMultigridParameters       &parameters,
+                           const EffectiveOperator          &A,
+                           const CellProportions            &proportions,
+                           const Nodes                      *quadratic,
+                           const CoarserNodes               *coarser,
+                           const std::vector<unsigned char> &is_prescribed,
+                           std::vector<unsigned int>         finest_nodes)
+    : parameters(parameters)
+    , quadratic(quadratic)
+    , coarser(coarser)
+    , vertices(coarser != nullptr ? static_cast<const Nodes &>(*coarser) :
+                                    A.discretization())
+    , finest_nodes(std::move(finest_nodes))
+  {
+    // Aggregates end where a rank does. Partitions cut through lines of flat
+    // cells, whose nodes are coupled strongly: aggregates of what is left of
+    // these are worse than those of all neighbours. Stretched cells are cut in
+    // few places only.
+    const bool is_alone =
+      dealii::Utilities::MPI::n_mpi_processes(vertices.communicator()) == 1;
+    if (proportions.share_stretched > few ||
+        (is_alone && proportions.share_flat > few))
+      aggregation.set_least_similarity(0.3);
+    vertices.initialize_vector(x);
+    vertices.initialize_vector(b);
+    if (quadratic == nullptr)
+      return;
+    is_thin_body                           = is_thin(A.discretization());
+    const std::vector<unsigned char> marks = coarser->marks(is_prescribed);
+    prescribed                             = marked_unknowns(marks);
+    vertices.initialize_vector(float_x);
+    vertices.initialize_vector(float_b);
+    if (wants_rotations(proportions))
+      motions =
+        std::make_unique<VertexMotions>(*quadratic, *coarser, is_prescribed);
+    else
+      assembled = std::make_unique<AssembledMatrix>(vertices, marks);
+    unknowns.resize(6 * std::size_t(motions ? vertices.n_owned_nodes() : 0));
+  }
+
+  const BlockMatrix &
+  VertexLevel::matrix(const EffectiveOperator &A) const
+  {
+    if (motions)
+      return motions->matrix();
+    return assembled ? assembled->matrix() : A.matrix();
+  }
+
+  void
+  VertexLevel::assemble(const EffectiveOperator &A,
+                        const double             stiffness_unit,
+                        const double             scale,
+                        const Vector            &positions)
+  {
+    if (quadratic == nullptr)
+      return;
+    std::unique_ptr<SurfaceOperator<double>> surface;
+    if (A.surface() != nullptr)
+      {
+        surface = std::make_unique<SurfaceOperator<double>>(
+          motions ? *quadratic : vertices);
+        surface->set(*A.surface(), 1 / scale);
+      }
+    const auto  &cells  = A.elasticity().coefficients();
+    const auto  &masses = A.mass().cell_masses();
+    const double c_K = 1 / stiffness_unit, c_M = A.mass_factor() / scale;
+    if (!motions)
+      {
+        assembled->update(c_K, cells, c_M, masses, nullptr, surface.get());
+        return;
+      }
+    Vector with_ghosts;
+    A.discretization().initialize_vector(with_ghosts);
+    std::copy_n(positions.begin(),
+                positions.locally_owned_size(),
+                with_ghosts.begin());
+    with_ghosts.update_ghost_values();
+    motions->update(
+      A.discretization(), with_ghosts, c_K, cells, c_M, masses, surface.get());
+  }
+
+  bool
+  VertexLevel::factors_pay(const BlockMatrix &A)
+  {
+    const double n     = 3. * vertices.n_global_nodes(),
+                 limit = parameters.direct_limit;
+    if (n <= limit)
+      return true;
+    // Aggregation is slow on these bodies, and their factors are small.
+    if (!motions || !is_thin_body || n > most_unknowns * limit)
+      return false;
+    direct.analyze(A);
+    return direct.n_operations() <=
+           operations_of_motions * operations_of_cube * limit * limit;
+  }
+
+  void
+  VertexLevel::build(const EffectiveOperator &A,
+                     const double             stiffness_unit,
+                     const double             scale,
+                     const Vector            &positions)
+  {
+    assemble(A, stiffness_unit, scale, positions);
+    const BlockMatrix &level_matrix = matrix(A);
+    solver                          = parameters.coarse_type;
+    if (solver == "automatic")
+      solver = factors_pay(level_matrix) ? "direct" : "aggregation";
+    if (solver == "direct")
+      {
+        direct.factorize(level_matrix);
+        return;
+      }
+    if (solver == "aggregation" && motions)
+      {
+        aggregation.build(motions->aggregates());
+        return;
+      }
+    for (unsigned int n = 0; n < vertices.n_owned_nodes(); ++n)
+      for (unsigned int a = 0; a < 3; ++a)
+        x.local_element(3 * n + a) =
+          positions.local_element(3 * finest_nodes[n] + a);
+    if (solver == "aggregation")
+      {
+        aggregation.build(level_matrix, x.begin());
+        return;
+      }
+    for (const auto &candidate : parameters.further)
+      if (candidate.name == solver && !other)
+        other = candidate.make();
+    other->build(level_matrix, x);
+  }
+
+  VertexLevel::Factorization
+  VertexLevel::factorization(const EffectiveOperator &A) const
+  {
+    SparseCholesky analyzed;
+    if (!has_factors())
+      analyzed.analyze(matrix(A));
+    const SparseCholesky &factor = has_factors() ? direct : analyzed;
+    return {3. * vertices.n_global_nodes(),
+            factor.n_operations() / (motions ? operations_of_motions : 1),
+            factor.n_entries() / (motions ? entries_of_motions : 1)};
+  }
+
+  template <typename Number>
+  void
+  VertexLevel::solve(Number *to, const Number *from) const
+  {
+    if (solver == "direct")
+      direct.vmult(to, from);
+    else
+      aggregation.vmult(to, from);
+  }
+
+  void
+  VertexLevel::vmult(Vector &to, const Vector &from) const
+  {
+    if (other)
+      other->vmult(to, from);
+    else
+      solve(to.begin(), from.begin());
+  }
+
+  void
+  VertexLevel::correct(FloatVector &fine, const FloatVector &residual) const
+  {
+    if (motions)
+      {
+        motions->restrict_to(unknowns.data(), residual);
+        solve(unknowns.data(), unknowns.data());
+        motions->prolongate_add(fine, unknowns.data());
+        return;
+      }
+    coarser->restrict_to(float_b, residual);
+    for (const unsigned int i : prescribed)
+      if (i < float_b.locally_owned_size())
+        float_b.local_element(i) = 0;
+    if (other)
+      {
+        std::copy_n(float_b.begin(), b.locally_owned_size(), b.begin());
+        other->vmult(x, b);
+        std::copy_n(x.begin(), x.locally_owned_size(), float_x.begin());
+      }
+    else
+      solve(float_x.begin(), float_b.begin());
+    float_x.update_ghost_values();
+    coarser->prolongate_add(fine, float_x);
+    float_x.zero_out_ghost_values();
+  }
+} // namespace corotet
