@@ -250,15 +250,18 @@ namespace corotet
   }
 
   unsigned int
-  ImplicitSolver::solve_linearized(Vector &dx, const Vector &r)
+  ImplicitSolver::solve_linearized(Vector       &dx,
+                                   const Vector &r,
+                                   const double  tolerance)
   {
-    return solve_tangent_system(dx, r, linearize());
+    return solve_tangent_system(dx, r, linearize(), tolerance);
   }
 
   unsigned int
   ImplicitSolver::solve_tangent_system(Vector                &dx,
                                        const Vector          &r,
-                                       const TangentOperator *J)
+                                       const TangentOperator *J,
+                                       const double           tolerance)
   {
     ScopedTimer timer(equation.wall_times.solve);
     positions.copy_locally_owned_data_from(
@@ -269,13 +272,13 @@ namespace corotet
         // One solve is all that a linear problem needs if it is as good as
         // Newton's method wants it; a tenth is for the round-off between this
         // residual and that of the forces.
-        const double       limit    = is_linear() ?
-                                        0.9 * parameters.residual_tolerance *
+        const double       limit        = is_linear() ?
+                                            0.9 * parameters.residual_tolerance *
                                  std::max(stage_scale, force_scale) :
-                                        std::numeric_limits<double>::infinity();
-        const unsigned int n_builds = preconditioner_builds();
-        const unsigned int n_iterations =
-          linear_solver.solve(*effective_operator, dx, r, positions, J, limit);
+                                            std::numeric_limits<double>::infinity();
+        const unsigned int n_builds     = preconditioner_builds();
+        const unsigned int n_iterations = linear_solver.solve(
+          *effective_operator, dx, r, positions, J, limit, tolerance);
         if (preconditioner_builds() > n_builds)
           {
             built_stage        = stage;

@@ -25,6 +25,7 @@ namespace corotet
     for (const int kind : shown)
       shown_round_off.insert(static_cast<NewtonReport::RoundOff>(kind));
 
+    archive.within("newton", [&] { newton.transfer(archive); });
     archive.within("linear_solver", [&] { linear_solver.transfer(archive); });
     if (!linear_solver.is_preconditioner_built())
       return;

@@ -64,7 +64,9 @@ namespace corotet
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Residual at which iterations stop, relative to the "
-                      "right hand side [-].",
+                      "right hand side [-]. Where an iteration of Newton's "
+                      "method will leave more of it anyway, as the same one of "
+                      "the step before tells, a tenth of that does.",
                       dealii::Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       max_iterations,
@@ -317,11 +319,13 @@ namespace corotet
                       const Vector            &b,
                       const Vector            &positions,
                       const TangentOperator   *J,
-                      const double             limit)
+                      const double             limit,
+                      const double             loosest)
   {
     const double b_norm = norm(b);
-    const double wanted = std::min(tolerance * b_norm, limit);
-    x                   = 0;
+    const double wanted =
+      std::min(std::max(tolerance, loosest) * b_norm, limit);
+    x = 0;
     if (b_norm == 0)
       return 0;
     if (std::abs(A.mass_ratio() - built_mass_ratio) >
@@ -355,7 +359,7 @@ namespace corotet
         is_built = false;
         if (!first_solve)
           // Perhaps only the preconditioner was outdated.
-          return solve(A, x, b, positions, J, limit);
+          return solve(A, x, b, positions, J, limit, loosest);
         throw ComputationError(fmt::format(
           "the linear solver stopped after {} iterations at a relative "
           "residual of {:.3g}; required is {:.3g} within {} iterations",
@@ -365,8 +369,12 @@ namespace corotet
           parameters.max_iterations));
       }
 
-    const bool         was_built = first_solve || done_before_change > 0;
-    const unsigned int with_this = iterations - done_before_change;
+    const bool was_built = first_solve || done_before_change > 0;
+    // In terms of solves to the tolerance.
+    const double digits =
+      loosest > tolerance ? std::log(loosest) / std::log(tolerance) : 1.;
+    const auto with_this =
+      static_cast<unsigned int>((iterations - done_before_change) / digits);
     if (was_built)
       first_iterations = with_this;
     unsigned int acceptable =

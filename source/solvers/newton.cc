@@ -76,7 +76,8 @@ namespace corotet
   {
   public:
     Iteration(Newton &newton, NewtonProblem &problem, NewtonReport &report)
-      : parameters(newton.parameters)
+      : newton(newton)
+      , parameters(newton.parameters)
       , problem(problem)
       , report(report)
       , r(newton.r)
@@ -108,12 +109,13 @@ namespace corotet
           record(problem.add(1., dx), 1.);
           return;
         }
-      best = residual.value;
+      best = first = residual.value;
       while (report.iterations < parameters.max_iterations)
         {
           iterate();
           if (has_converged())
             {
+              keep_contractions();
               report.final_residual = relative_residual();
               report.round_off      = round_off_limit();
               return;
@@ -178,6 +180,19 @@ namespace corotet
           "; Newton/Tangent = consistent may help"));
     }
 
+    // What the residual of the linear solve may be, relative to r: a tenth of
+    // what the iteration leaves anyway, as far as the last solve tells.
+    double
+    linear_tolerance() const
+    {
+      constexpr double share = 0.1, loosest = 1e-2;
+      const auto      &last = newton.contractions;
+      if (problem.is_linear() || parameters.linearly_implicit ||
+          report.iterations >= last.size())
+        return 0;
+      return std::min(share * last[report.iterations], loosest);
+    }
+
     // A direction from the present point. What the exact tangent has none for,
     // the definite one may have.
     void
@@ -185,7 +200,8 @@ namespace corotet
     {
       try
         {
-          linear_iterations = problem.solve_linearized(dx, r);
+          linear_iterations =
+            problem.solve_linearized(dx, r, linear_tolerance());
           if (std::isfinite(norm(dx)))
             return;
         }
@@ -193,10 +209,23 @@ namespace corotet
         {
           if (definite || !use_definite_tangent())
             throw;
-          linear_iterations = problem.solve_linearized(dx, r);
+          linear_iterations =
+            problem.solve_linearized(dx, r, linear_tolerance());
           return;
         }
       fail("met a direction that is not finite");
+    }
+
+    void
+    keep_contractions()
+    {
+      newton.contractions.clear();
+      double previous = first;
+      for (const double value : values)
+        {
+          newton.contractions.push_back(value / previous);
+          previous = value;
+        }
     }
 
     bool
@@ -348,6 +377,7 @@ namespace corotet
                          parameters.max_iterations));
     }
 
+    Newton                 &newton;
     const NewtonParameters &parameters;
     NewtonProblem          &problem;
     NewtonReport           &report;
@@ -364,7 +394,8 @@ namespace corotet
     unsigned int linear_iterations      = 0;
     unsigned int n_without_progress     = 0;
     /// Residual at the best point. A search for less energy may raise it.
-    double best = 0;
+    double best  = 0;
+    double first = 0;
     /// Residuals after each iteration.
     std::vector<double> values;
   };

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "../memory_archive.h"
 #include "scalar_problem.h"
 
 using namespace corotet;
@@ -87,6 +88,50 @@ TEST(Newton, TextOfTheReport)
   EXPECT_EQ(report.text(),
             "Newton 3 iterations, linear 12; residual 1.0e+00 1.0e-02 1.0e-04 "
             "1.0e-08; increment 1.0e-02 1.0e-04 1.0e-08; order 2.00");
+}
+
+// A solve tells the next one what its iterations will leave of the residual: a
+// tenth of that is as good as nothing in the linear solves. The first solve,
+// and iterations that the last one did not need, get the full tolerance.
+TEST(Newton, LinearSolvesAreAsGoodAsNeeded)
+{
+  NewtonParameters parameters;
+  Newton           newton(parameters);
+  const auto       solve_from = [&](Newton &method, const double start) {
+    Scalar       root([](double x) { return x * x - 2; },
+                [](double x) { return 2 * x; },
+                start);
+    NewtonReport report;
+    Vector       x(1);
+    method.solve(root, x, report);
+    EXPECT_NEAR(root.x, std::sqrt(2.), 1e-8);
+    return std::make_pair(root.tolerances, report.history);
+  };
+  const auto [first, history] = solve_from(newton, 1.3);
+  for (const double tolerance : first)
+    EXPECT_EQ(tolerance, 0);
+
+  MemoryArchive archive;
+  newton.transfer(archive);
+  archive.reading = true;
+  Newton restarted(parameters);
+  restarted.transfer(archive);
+  const auto second = solve_from(newton, 3.).first;
+  EXPECT_EQ(solve_from(restarted, 3.).first, second);
+  ASSERT_GT(second.size(), first.size());
+  double previous = std::abs(1.3 * 1.3 - 2);
+  for (unsigned int k = 0; k < second.size(); ++k)
+    {
+      if (k >= first.size())
+        {
+          EXPECT_EQ(second[k], 0);
+          continue;
+        }
+      EXPECT_NEAR(second[k],
+                  std::min(0.1 * history[k].residual / previous, 1e-2),
+                  1e-12);
+      previous = history[k].residual;
+    }
 }
 
 // With the slope frozen at 4 the error shrinks by |1 - f'/4| = 0.29 per

@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace corotet::tests
 {
@@ -34,8 +35,11 @@ namespace corotet::tests
     }
 
     unsigned int
-    solve_linearized(Vector &dx, const Vector &r) override
+    solve_linearized(Vector       &dx,
+                     const Vector &r,
+                     const double  tolerance) override
     {
+      tolerances.push_back(tolerance);
       dx = r;
       dx *= 1 / slope(x);
       return 1;
@@ -72,6 +76,8 @@ namespace corotet::tests
     double                        kept        = 0;
     unsigned int                  n_restored  = 0;
     bool                          with_energy = false;
+    // Of all linear solves.
+    std::vector<double> tolerances;
   };
 
   inline NewtonReport

@@ -64,7 +64,9 @@ namespace corotet
     Norm
     residual(Vector &r) override;
     unsigned int
-    solve_linearized(Vector &dx, const Vector &r) override;
+    solve_linearized(Vector       &dx,
+                     const Vector &r,
+                     const double  tolerance) override;
     Norm
     add(const double factor, const Vector &dx) override;
     void
@@ -98,7 +100,10 @@ namespace corotet
     /// Solves J dx = r, or A dx = r if @p J is null. Returns the number of
     /// linear iterations. Throws ComputationError.
     unsigned int
-    solve_tangent_system(Vector &dx, const Vector &r, const TangentOperator *J);
+    solve_tangent_system(Vector                &dx,
+                         const Vector          &r,
+                         const TangentOperator *J,
+                         const double           tolerance = 0);
     /// What round-off may make of the sum of the last evaluation's forces [N].
     double
     round_off() const;

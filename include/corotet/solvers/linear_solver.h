@@ -76,12 +76,12 @@ namespace corotet
 
     /**
      * Solves J x = b, or A x = b if J is null, from x = 0 until the residual is
-     * below the tolerance times |b| and below @p limit, or, if it gets no
-     * further, what round-off makes of J x. @p positions: current positions of
-     * the nodes [m]. Returns the number of iterations. Throws ComputationError
-     * if it does not get there.
-     * All operators must be the same object, of which the numbers change, and
-     * live as long as this one is used. Collective.
+     * below the tolerance, or @p loosest if that is larger, times |b| and below
+     * @p limit, or, if it gets no further, what round-off makes of J x. @p
+     * positions: current positions of the nodes [m]. Returns the number of
+     * iterations. Throws ComputationError if it does not get there. All
+     * operators must be the same object, of which the numbers change, and live
+     * as long as this one is used. Collective.
      */
     unsigned int
     solve(const EffectiveOperator &A,
@@ -89,7 +89,8 @@ namespace corotet
           const Vector            &b,
           const Vector            &positions,
           const TangentOperator   *J = nullptr,
-          const double limit         = std::numeric_limits<double>::infinity());
+          const double limit         = std::numeric_limits<double>::infinity(),
+          const double loosest       = 0);
 
     /// Lines for the log on how it solves, new since the last call.
     std::string

@@ -4,11 +4,14 @@
 #ifndef corotet_solvers_newton_h
 #define corotet_solvers_newton_h
 
+#include <corotet/base/archive.h>
 #include <corotet/base/vector.h>
 #include <corotet/operators/tangent.h>
 #include <corotet/solvers/newton_report.h>
 
 #include <deal.II/base/parameter_handler.h>
+
+#include <vector>
 
 namespace corotet
 {
@@ -36,10 +39,11 @@ namespace corotet
     residual(Vector &r) = 0;
 
     /// Solves J dx = r with an approximation J of -dr/dx at the x of the last
-    /// residual. Returns the number of linear iterations. Throws
-    /// ComputationError.
+    /// residual. What is left of r may be @p tolerance times r, if that is not
+    /// below what the problem asks for itself. Returns the number of linear
+    /// iterations. Throws ComputationError.
     virtual unsigned int
-    solve_linearized(Vector &dx, const Vector &r) = 0;
+    solve_linearized(Vector &dx, const Vector &r, const double tolerance) = 0;
 
     /// x += factor dx. The norm is that of factor dx, its scale the size of x,
     /// and its round-off what x is known to.
@@ -120,6 +124,11 @@ namespace corotet
    * smaller |r|. If that finds nothing, it tries the definite tangent's
    * direction, which always leads down in energy.
    *
+   * Linear solves are as good as needed: what they leave is a tenth of what the
+   * same iteration of the last solve left, as steps resemble each other. With
+   * an exact tangent, iterations remain as few, and the last one is solved to
+   * the full tolerance.
+   *
    * Linearly implicit, it makes one iteration and is done: what then remains of
    * the residual is an error of the time step.
    */
@@ -137,10 +146,19 @@ namespace corotet
           const Vector  &prototype,
           NewtonReport  &report);
 
+    /// What later solves depend on.
+    void
+    transfer(Archive &archive)
+    {
+      archive.transfer("contractions", contractions);
+    }
+
   private:
     class Iteration;
 
     const NewtonParameters parameters;
+    /// Of the residual in each iteration of the last solve, by full increments.
+    std::vector<double> contractions;
     // Work space.
     Vector r;
     Vector dx;
