@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 """Linear solves of bodies whose cells are well-shaped, flat and stretched: boxes that are clamped at a side and bent by their weight,
-statics to the program's tolerance by p-multigrid, with smoothed aggregation for degree 1. Run it inside of scripts/toolchain:
+statics to the program's tolerance. Run it inside of scripts/toolchain:
 
-    benchmarks/proportions.py [--degree 1] [--ranks 1] [--repetitions 2] [--programs PROGRAM [PROGRAM]] [--quick] [--document]
+    benchmarks/proportions.py [--solvers] [--ranks 1] [--repetitions 2] [--programs PROGRAM [PROGRAM]] [--quick] [--document]
 
-Programs take turns, so that one can be compared with an older one; of each the better time is taken. --quick leaves out bodies of more
-than 60,000 unknowns of degree 1. --document writes the table of the first program into doc/algorithms.md.
+By p-multigrid with smoothed aggregation for degree 1; or, with --solvers, by p-multigrid, without and with rotations of the vertices,
+`automatic` and `direct` for degrees 2 and 3. Programs take turns, so that one can be compared with an older one; of each the better time
+is taken. --quick leaves out large bodies. --document writes the table of the first program into doc/algorithms.md.
 """
 
 import argparse
@@ -20,7 +21,6 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "algorithms.md"
-MARKS = ("<!-- aggregation -->\n", "\n<!-- end of aggregation -->")
 # Size, cuboids.
 BODIES = {
     "well-shaped": [("4, 1, 1", "40, 10, 10"), ("4, 1, 1", "80, 20, 20"), ("4, 1, 1", "140, 35, 35")],
@@ -32,6 +32,19 @@ BODIES = {
     "plate of two layers": [("1, 1, 0.01", "80, 80, 2")],
 }
 QUICK = 60000
+# Name, size, cuboids, Poisson's ratio; the first is well-shaped.
+HARD_BODIES = [
+    ("beam of well-shaped cells", "4, 1, 1", "28, 7, 7", 0.3),
+    ("plate 1 x 1 x 0.01 of 10 x 10 x 1 cuboids", "1, 1, 0.01", "10, 10, 1", 0.3),
+    ("the same of 20 x 20 x 1", "1, 1, 0.01", "20, 20, 1", 0.3),
+    ("plate 1 x 1 x 0.0025 of 40 x 40 x 1", "1, 1, 0.0025", "40, 40, 1", 0.3),
+    ("plate 1 x 1 x 0.1 of 8 x 8 x 8, flat by 10", "1, 1, 0.1", "8, 8, 8", 0.3),
+    ("plate 1 x 1 x 0.01 of 8 x 8 x 8, flat by 100", "1, 1, 0.01", "8, 8, 8", 0.3),
+    ("bar 10 x 1 x 1 of 8 x 8 x 8, stretched by 10", "10, 1, 1", "8, 8, 8", 0.3),
+    ("bar 100 x 1 x 1 of 8 x 8 x 8, stretched by 100", "100, 1, 1", "8, 8, 8", 0.3),
+    ("the beam, Poisson's ratio 0.49", "4, 1, 1", "28, 7, 7", 0.49),
+    ("the beam, Poisson's ratio 0.4999", "4, 1, 1", "28, 7, 7", 0.4999),
+]
 CASE = """subsection Mesh
   set Type = box
   subsection box
@@ -43,7 +56,8 @@ subsection Discretization
   set Degree = {degree}
 end
 subsection Material
-  set Type = linear
+  set Type            = linear
+  set Poisson's ratio = {poisson}
 end
 subsection Boundary conditions
   set Fixed = x-min
@@ -55,9 +69,10 @@ subsection Time integration
   set Type = static
 end
 subsection Linear solver
-  set Type = p-multigrid
+  set Type = {type}
   subsection p-multigrid
-    set Coarse solver = aggregation
+    set Coarse solver    = {coarse}
+    set Vertex rotations = {rotations}
   end
 end
 subsection Output
@@ -76,37 +91,76 @@ def solve(program, folder, case, ranks):
     return summary["dofs"], summary["final"]["linear_iterations"], times["assembly"] + times["solve"], summary["peak_memory_bytes"] / 1e6
 
 
+def document(mark, lines):
+    """Puts the lines between the marks of that name in the page."""
+    begin, end = f"<!-- {mark} -->\n", f"\n<!-- end of {mark} -->"
+    before, rest = PAGE.read_text(encoding="utf-8").split(begin)
+    PAGE.write_text(before + begin + "\n".join(lines) + end + rest.split(end.strip())[1], encoding="utf-8")
+
+
+def measure(options, folder, case):
+    """The fastest run of each program."""
+    runs = {program: [] for program in options.programs}
+    for _ in range(options.repetitions):
+        for program in options.programs:
+            runs[program].append(solve(os.path.abspath(program), folder, case, options.ranks))
+    return {program: min(found, key=lambda run: run[2]) for program, found in runs.items()}
+
+
+def aggregation(options, folder):
+    lines = ["| body of degree 1 | unknowns | iterations | seconds | MB |", "|---|---:|---:|---:|---:|"]
+    for name, sizes in BODIES.items():
+        for size, cells in sizes:
+            counts = [int(n) + 1 for n in cells.split(",")]
+            if options.quick and 3 * counts[0] * counts[1] * counts[2] > QUICK:
+                continue
+            case = CASE.format(size=size, cells=cells, degree=1, poisson=0.3, type="p-multigrid", coarse="aggregation", rotations="automatic")
+            for program, (unknowns, iterations, seconds, memory) in measure(options, folder, case).items():
+                line = f"| {name} | {unknowns} | {iterations} | {seconds:.2g} | {memory:.0f} |"
+                print(line + ("" if len(options.programs) == 1 else f" {program}"), flush=True)
+                if program == options.programs[0]:
+                    lines.append(line)
+    return lines
+
+
+def solvers(options, folder):
+    lines = ["| body | degree | unknowns | points alone: iterations | seconds | `p-multigrid`: iterations | seconds | `automatic`: seconds | "
+             "for each unknown, beam = 1 | `direct`: seconds |", "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"]
+    of_beam = {}
+    for name, size, cells, poisson in HARD_BODIES:
+        for degree in (2, 3):
+            if options.quick and (degree == 3 or "40" in cells):
+                continue
+            found = {}
+            for kind, (solver, rotations) in {"points": ("p-multigrid", "false"), "p-multigrid": ("p-multigrid", "automatic"),
+                                              "automatic": ("automatic", "automatic"), "direct": ("direct", "automatic")}.items():
+                case = CASE.format(size=size, cells=cells, degree=degree, poisson=poisson, type=solver, coarse="automatic",
+                                   rotations=rotations)
+                found[kind] = measure(options, folder, case)[options.programs[0]]
+            unknowns = found["points"][0]
+            each = found["automatic"][2] / unknowns
+            of_beam.setdefault(degree, each)
+            times = {kind: f"{run[2]:.2g}" for kind, run in found.items()}
+            lines.append(f"| {name if degree == 2 else ''} | {degree} | {unknowns} | {found['points'][1]} | {times['points']} | "
+                         f"{found['p-multigrid'][1]} | {times['p-multigrid']} | {times['automatic']} | {each / of_beam[degree]:.2g} | "
+                         f"{times['direct']} |")
+            print(lines[-1], flush=True)
+    return lines
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--degree", type=int, default=1)
+    parser.add_argument("--solvers", action="store_true")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--repetitions", type=int, default=2)
     parser.add_argument("--programs", nargs="+", default=[str(ROOT / "build" / "release" / "corotet")])
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--document", action="store_true")
     options = parser.parse_args()
-    lines = ["| body of degree 1 | unknowns | iterations | seconds | MB |", "|---|---:|---:|---:|---:|"]
     with tempfile.TemporaryDirectory() as temporary:
-        folder = pathlib.Path(temporary)
-        for name, sizes in BODIES.items():
-            for size, cells in sizes:
-                counts = [int(n) + 1 for n in cells.split(",")]
-                if options.quick and 3 * counts[0] * counts[1] * counts[2] > QUICK:
-                    continue
-                case = CASE.format(size=size, cells=cells, degree=options.degree)
-                runs = {program: [] for program in options.programs}
-                for _ in range(options.repetitions):
-                    for program in options.programs:
-                        runs[program].append(solve(os.path.abspath(program), folder, case, options.ranks))
-                for program, found in runs.items():
-                    unknowns, iterations, seconds, memory = min(found, key=lambda run: run[2])
-                    line = f"| {name} | {unknowns} | {iterations} | {seconds:.2g} | {memory:.0f} |"
-                    print(line + ("" if len(runs) == 1 else f" {program}"), flush=True)
-                    if program == options.programs[0]:
-                        lines.append(line)
+        lines = (solvers if options.solvers else aggregation)(options, pathlib.Path(temporary))
     if options.document:
-        before, rest = PAGE.read_text(encoding="utf-8").split(MARKS[0])
-        PAGE.write_text(before + MARKS[0] + "\n".join(lines) + MARKS[1] + rest.split(MARKS[1].strip())[1], encoding="utf-8")
+        document("solvers" if options.solvers else "aggregation", lines)
     return 0
 
 

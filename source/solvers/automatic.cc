@@ -52,19 +52,26 @@ namespace corotet
 
     // Iterations for each unit of the mean ratio of cells that are flat or
     // stretched, the least that has been met: without rotations of vertices,
-    // and with them on flat and on stretched cells.
+    // and with them on flat and on stretched cells. On flat ones of degree 3
+    // they grow by the square root of the ratio more.
     constexpr double iterations_by_ratio           = 10;
     constexpr double iterations_by_flat_ratio      = 4.5;
     constexpr double iterations_by_stretched_ratio = 1.3;
+    constexpr double growth_begins                 = 10;
 
     double
-    least_iterations(const CellProportions &cells, const bool has_rotations)
+    least_iterations(const CellProportions &cells,
+                     const bool             has_rotations,
+                     const unsigned int     degree)
     {
+      const double ratio = cells.mean_ratio;
       if (!has_rotations)
-        return iterations_by_ratio * cells.mean_ratio;
-      return cells.mean_ratio * (cells.share_flat >= cells.share_stretched ?
-                                   iterations_by_flat_ratio :
-                                   iterations_by_stretched_ratio);
+        return iterations_by_ratio * ratio;
+      if (cells.share_stretched > cells.share_flat)
+        return iterations_by_stretched_ratio * ratio;
+      const double growth =
+        degree > 2 ? std::sqrt(std::max(1., ratio / growth_begins)) : 1.;
+      return iterations_by_flat_ratio * ratio * growth;
     }
 
     // Solves after which factors are judged, and how much more than these have
@@ -125,7 +132,9 @@ namespace corotet
     if (proportions.mean_ratio < 2 * CellProportions::limit)
       return;
     const double forecast =
-      least_iterations(proportions, multigrid.lowest_level().has_rotations());
+      least_iterations(proportions,
+                       multigrid.lowest_level().has_rotations(),
+                       A.discretization().degree());
     if (forecast < costs.first)
       return;
     news =

@@ -64,9 +64,9 @@ namespace corotet
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Residual at which iterations stop, relative to the "
-                      "right hand side [-]. Where an iteration of Newton's "
-                      "method will leave more of it anyway, as the same one of "
-                      "the step before tells, a tenth of that does.",
+                      "right hand side [-]. Iterations of Newton's method "
+                      "that are not the last one, as the step before tells, "
+                      "and will leave more of it anyway get by with less.",
                       dealii::Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       max_iterations,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace corotet
 {
@@ -27,47 +28,6 @@ namespace corotet
       return std::isfinite(norm.value) && std::isfinite(norm.scale);
     }
   } // namespace
-
-  void
-  NewtonParameters::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    add_enumeration(prm,
-                    "Tangent",
-                    tangent,
-                    tangents,
-                    "Derivative of the corotational forces: 'consistent' is "
-                    "exact and converges quadratically; 'frozen rotation' "
-                    "leaves out that of the rotations, is always positive "
-                    "and converges linearly, if at all.");
-    prm.add_parameter("Residual tolerance",
-                      residual_tolerance,
-                      "Residual at which iterations stop, relative to the "
-                      "largest of the internal, external, inertia and damping "
-                      "forces [-].",
-                      dealii::Patterns::Double(1e-15, 0.1));
-    prm.add_parameter("Increment tolerance",
-                      increment_tolerance,
-                      "Estimated error of the displacement at which iterations "
-                      "stop, relative to the displacement [-].",
-                      dealii::Patterns::Double(1e-15, 0.1));
-    prm.add_parameter("Maximum iterations",
-                      max_iterations,
-                      "A step that needs more has failed [-].",
-                      dealii::Patterns::Integer(1));
-    prm.add_parameter("Linearly implicit",
-                      linearly_implicit,
-                      "Whether one iteration is all: steps of a fixed price "
-                      "that cannot fail, with an error that shrinks with the "
-                      "time step; as interactive codes do. With the tangent "
-                      "'frozen rotation' it brings back bodies whose cells are "
-                      "collapsed or inside out, where rotations jump. For "
-                      "dynamics only.");
-    prm.add_parameter("Log every solve",
-                      always_log,
-                      "Whether the log shows the convergence history of every "
-                      "solve. If not, it shows those of load steps and those "
-                      "that needed a line search or failed.");
-  }
 
   /**
    * The state of one solve.
@@ -88,6 +48,7 @@ namespace corotet
     void
     run()
     {
+      n_expected            = std::exchange(newton.n_last, 0);
       residual              = problem.residual(r);
       report.first_residual = relative_residual();
       if (!is_finite(residual))
@@ -109,13 +70,17 @@ namespace corotet
           record(problem.add(1., dx), 1.);
           return;
         }
-      best = first = residual.value;
+      best = residual.value;
       while (report.iterations < parameters.max_iterations)
         {
           iterate();
-          if (has_converged())
+          const bool converged = has_converged();
+          if (converged && n_needed == 0)
+            n_needed = report.iterations;
+          // The last linear solve has the full tolerance.
+          if (converged && (tolerance_of_solve == 0 || is_round_off()))
             {
-              keep_contractions();
+              newton.n_last         = report.line_searches == 0 ? n_needed : 0;
               report.final_residual = relative_residual();
               report.round_off      = round_off_limit();
               return;
@@ -180,17 +145,25 @@ namespace corotet
           "; Newton/Tangent = consistent may help"));
     }
 
-    // What the residual of the linear solve may be, relative to r: a tenth of
-    // what the iteration leaves anyway, as far as the last solve tells.
+    // What the residual of the linear solve may be, relative to r. Quadratic
+    // convergence doubles the digits in each iteration, and the last solve
+    // tells how many iterations there will be: a small part of what an
+    // iteration will leave by that is as good as nothing. What was the last one
+    // may be the last again; from the fifth on there are as many digits as
+    // there may be. More than eight are no quadratic convergence.
     double
     linear_tolerance() const
     {
-      constexpr double share = 0.1, loosest = 1e-2;
-      const auto      &last = newton.contractions;
-      if (problem.is_linear() || parameters.linearly_implicit ||
-          report.iterations >= last.size())
+      constexpr double       share = 0.03, loosest = 0.01;
+      constexpr unsigned int most = 5, too_many = 8;
+      const auto             n = static_cast<int>(std::min(n_expected, most));
+      const auto             k = static_cast<int>(report.iterations) + 1;
+      if (problem.is_linear() || parameters.linearly_implicit || n_needed > 0 ||
+          k >= n || n_expected > too_many || report.line_searches > 0)
         return 0;
-      return std::min(share * last[report.iterations], loosest);
+      return std::min(share * std::pow(parameters.residual_tolerance,
+                                       std::ldexp(1., k - n)),
+                      loosest);
     }
 
     // A direction from the present point. What the exact tangent has none for,
@@ -200,8 +173,9 @@ namespace corotet
     {
       try
         {
+          tolerance_of_solve = linear_tolerance();
           linear_iterations =
-            problem.solve_linearized(dx, r, linear_tolerance());
+            problem.solve_linearized(dx, r, tolerance_of_solve);
           if (std::isfinite(norm(dx)))
             return;
         }
@@ -210,22 +184,10 @@ namespace corotet
           if (definite || !use_definite_tangent())
             throw;
           linear_iterations =
-            problem.solve_linearized(dx, r, linear_tolerance());
+            problem.solve_linearized(dx, r, tolerance_of_solve);
           return;
         }
       fail("met a direction that is not finite");
-    }
-
-    void
-    keep_contractions()
-    {
-      newton.contractions.clear();
-      double previous = first;
-      for (const double value : values)
-        {
-          newton.contractions.push_back(value / previous);
-          previous = value;
-        }
     }
 
     bool
@@ -392,10 +354,14 @@ namespace corotet
     /// Of the last full increment.
     bool         increment_is_round_off = false;
     unsigned int linear_iterations      = 0;
-    unsigned int n_without_progress     = 0;
+    double       tolerance_of_solve     = 0;
+    /// Iterations of the last solve, if it has converged without a search, and
+    /// those of this one until it had converged.
+    unsigned int n_expected         = 0;
+    unsigned int n_needed           = 0;
+    unsigned int n_without_progress = 0;
     /// Residual at the best point. A search for less energy may raise it.
-    double best  = 0;
-    double first = 0;
+    double best = 0;
     /// Residuals after each iteration.
     std::vector<double> values;
   };

@@ -76,8 +76,9 @@ def steps(units, kind, step, end):
 
 
 def statics(units):
-    # Bent by half its length.
-    return {**beam(units, "6, 1, 1", 2), "Time integration/Type": "static", "Time integration/static/Load steps": 6, "Time integration/End time": repr(units.time),
+    # Bent by half its length. The preconditioner's single precision rounds differently in other units, which decides what inexact linear
+    # solves leave and, squared by Newton's method, which error remains: with its default tolerances of 1e-8, up to 3e-12 of the energy.
+    return {**beam(units, "6, 1, 1", 2), "Newton/Residual tolerance": 1e-12, "Newton/Increment tolerance": 1e-12, "Time integration/Type": "static", "Time integration/static/Load steps": 6, "Time integration/End time": repr(units.time),
             "Boundary conditions/Traction": f"x-max: 0; 0; {2e-3 * units.stiffness!r}"}
 
 
@@ -143,7 +144,7 @@ class Scales(ProgramTest):
                 if column == "linear_iterations" and name not in EXACT:
                     # Where a residual is next to its bound, round-off decides whether there is one more; and where one more is one too many,
                     # a preconditioner is built anew, which saves some of the next.
-                    allowed = (0.01 if others == builds else 0.2) * largest
+                    allowed = max(1, 0.01 * largest) if others == builds else 0.2 * largest
                 elif column.endswith("iterations"):
                     allowed = 0
                 for one, other in zip(expected, found):

@@ -11,8 +11,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <vector>
-
 namespace corotet
 {
   /**
@@ -124,10 +122,10 @@ namespace corotet
    * smaller |r|. If that finds nothing, it tries the definite tangent's
    * direction, which always leads down in energy.
    *
-   * Linear solves are as good as needed: what they leave is a tenth of what the
-   * same iteration of the last solve left, as steps resemble each other. With
-   * an exact tangent, iterations remain as few, and the last one is solved to
-   * the full tolerance.
+   * Linear solves are as good as needed: what they leave is a small part of
+   * what quadratic convergence will leave after as many iterations as the last
+   * solve has needed (an inexact Newton method: Eisenstat, Walker 1996), at
+   * most a hundredth. The last one is solved to the full tolerance.
    *
    * Linearly implicit, it makes one iteration and is done: what then remains of
    * the residual is an error of the time step.
@@ -150,15 +148,16 @@ namespace corotet
     void
     transfer(Archive &archive)
     {
-      archive.transfer("contractions", contractions);
+      archive.transfer("n_last", n_last);
     }
 
   private:
     class Iteration;
 
     const NewtonParameters parameters;
-    /// Of the residual in each iteration of the last solve, by full increments.
-    std::vector<double> contractions;
+    /// Iterations that the last solve needed; 0 before the first one, and after
+    /// one that failed or searched along a direction.
+    unsigned int n_last = 0;
     // Work space.
     Vector r;
     Vector dx;
