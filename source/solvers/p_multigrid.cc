@@ -105,14 +105,14 @@ namespace corotet
           finest_nodes[n] = levels[l]->coarser.key(finest_nodes[n]);
       }
     the_proportions = cell_proportions(A.discretization());
-    vertex_level =
-      std::make_unique<VertexLevel>(*parameters,
-                                    A,
-                                    the_proportions,
-                                    last ? &last->A.nodes() : nullptr,
-                                    last ? &last->coarser : nullptr,
-                                    last ? last->is_prescribed : is_prescribed,
-                                    std::move(finest_nodes));
+    vertex_level    = std::make_unique<VertexLevel>(
+      *parameters,
+      A,
+      the_proportions,
+      last != nullptr ? &last->A.nodes() : nullptr,
+      last != nullptr ? &last->coarser : nullptr,
+      last != nullptr ? last->is_prescribed : is_prescribed,
+      std::move(finest_nodes));
     const CellBatches &batches = A.discretization().batches();
     coefficients.resize(batches.n_owned_batches() / floats_per_batch);
     masses.resize(coefficients.size());

@@ -130,7 +130,7 @@ namespace corotet
         for (unsigned int a = 0; a < 3; ++a)
           {
             const unsigned int b = (a + 1) % 3, c = (a + 2) % 3;
-            const float *const from = w + 3 * middle.vertices[end];
+            const float *const from = w + std::size_t(3) * middle.vertices[end];
             y[3 * middle.node + a] +=
               from[b] * middle.arms[end][c] - from[c] * middle.arms[end][b];
           }

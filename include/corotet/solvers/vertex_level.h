@@ -51,14 +51,14 @@ namespace corotet
           const double             scale,
           const Vector            &positions);
 
-    /// x = A^{-1} b, about, where A is of degree 1. Collective.
+    /// to = A^{-1} from, about, where A is of degree 1. Collective.
     void
-    vmult(Vector &x, const Vector &b) const;
+    vmult(Vector &to, const Vector &from) const;
 
-    /// x += P A^{-1} P^T r, about, for the quadratic element: zero at
-    /// prescribed unknowns, where @p x and @p r must be zero. Collective.
+    /// fine += P A^{-1} P^T residual, about, for the quadratic element: zero at
+    /// prescribed unknowns, where both must be zero. Collective.
     void
-    correct(FloatVector &x, const FloatVector &r) const;
+    correct(FloatVector &fine, const FloatVector &residual) const;
 
     /// What a sparse factorisation of the matrix of degree 1, without
     /// rotations, would take, or has taken: floating-point operations, and
@@ -102,7 +102,7 @@ namespace corotet
     /// Owned entries, of float or double.
     template <typename Number>
     void
-    solve(Number *x, const Number *b) const;
+    solve(Number *to, const Number *from) const;
 
     const PMultigridParameters &parameters;
     /// Null where A is of degree 1.
