@@ -74,6 +74,11 @@ namespace corotet
       return iterations_by_flat_ratio * ratio * growth;
     }
 
+    // Exact tangents that are indefinite may take five factorisations, and do
+    // so again in Newton's next iteration: they get none where one is worth
+    // more iterations than these.
+    constexpr double most_for_tangent = 400;
+
     // Solves after which factors are judged, and how much more than these have
     // cost the multigrid may take in vain before factors are tried again.
     constexpr unsigned int trial                   = 3;
@@ -250,6 +255,11 @@ namespace corotet
     if (!has_costs)
       {
         find_costs(A);
+        return false;
+      }
+    if (J != nullptr && !is_direct && costs.first > most_for_tangent)
+      {
+        is_settled = true;
         return false;
       }
     if (is_direct)
