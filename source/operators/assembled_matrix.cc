@@ -22,8 +22,13 @@ namespace corotet
     , reference(ReferenceElement::of(nodes.element()))
     , prescribed(is_prescribed)
   {
-    block_matrix = std::make_unique<BlockMatrix>(block_pattern(nodes));
-    locate_blocks();
+    block_matrix     = std::make_unique<BlockMatrix>(block_pattern(nodes));
+    places_of_blocks = block_places(nodes, *block_matrix->pattern());
+    touches_prescribed.resize(nodes.n_local_cells());
+    for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
+      for (const unsigned int node : nodes.cell_nodes(c))
+        for (unsigned int a = 0; a < 3; ++a)
+          touches_prescribed[c] |= prescribed[3 * node + a];
   }
 
   namespace
@@ -77,37 +82,31 @@ namespace corotet
     return std::make_shared<const BlockPattern>(rows, nodes.communicator());
   }
 
-  void
-  AssembledMatrix::locate_blocks()
+  std::vector<std::uint16_t>
+  block_places(const Nodes &nodes, const BlockPattern &pattern)
   {
-    const BlockPattern &pattern = *block_matrix->pattern();
-    const unsigned int  n_owned = nodes.n_owned_nodes();
-    const unsigned int  n       = reference.n_nodes;
-    block_places.resize(static_cast<std::size_t>(n) * n *
-                        nodes.n_local_cells());
-    touches_prescribed.resize(nodes.n_local_cells());
-    std::uint16_t *next = block_places.data();
+    const unsigned int         n_owned = nodes.n_owned_nodes();
+    const unsigned int         n       = nodes.n_nodes_per_cell();
+    std::vector<std::uint16_t> result(static_cast<std::size_t>(n) * n *
+                                      nodes.n_local_cells());
+    std::uint16_t             *next = result.data();
     for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
-      {
-        const auto cell_nodes = nodes.cell_nodes(c);
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int a = 0; a < 3; ++a)
-            touches_prescribed[c] |= prescribed[3 * cell_nodes[j] + a];
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j, ++next)
-            if (cell_nodes[i] < n_owned)
+      for (const unsigned int i : nodes.cell_nodes(c))
+        for (const unsigned int j : nodes.cell_nodes(c))
+          {
+            if (i < n_owned)
               {
                 const int column =
-                  cell_nodes[j] < n_owned ?
-                    cell_nodes[j] :
-                    pattern.local_node(nodes.global_node(cell_nodes[j]));
-                const int place = pattern.place(cell_nodes[i], column);
+                  j < n_owned ? j : pattern.local_node(nodes.global_node(j));
+                const int place = pattern.place(i, column);
                 AssertThrow(place <= std::numeric_limits<std::uint16_t>::max(),
                             dealii::ExcMessage(
                               "A row of the matrix is too long."));
                 *next = place;
               }
-      }
+            ++next;
+          }
+    return result;
   }
 
   void
@@ -125,7 +124,7 @@ namespace corotet
               (i != j || a != b))
             block[a][b] = 0;
     const std::uint16_t *const places =
-      block_places.data() + static_cast<std::size_t>(n) * n * cell;
+      places_of_blocks.data() + static_cast<std::size_t>(n) * n * cell;
     if (nodes[i] < this->nodes.n_owned_nodes())
       {
         double *row =

@@ -74,14 +74,12 @@ namespace corotet
       return iterations_by_flat_ratio * ratio * growth;
     }
 
-    // Exact tangents that are indefinite may take five factorisations, and do
-    // so again in Newton's next iteration: they get none where one is worth
-    // more iterations than these.
-    constexpr double most_for_tangent = 400;
-
-    // Solves after which factors are judged, and how much more than these have
-    // cost the multigrid may take in vain before factors are tried again.
-    constexpr unsigned int trial                   = 3;
+    // Solves after which factors are judged, as hard ones come together, at the
+    // beginning of a step; how much more than the multigrid they may take until
+    // then, in first factorisations; and how much more than factors have cost
+    // the multigrid may take in vain before they are tried again.
+    constexpr unsigned int trial                   = 10;
+    constexpr double       patience_with_trial     = 4;
     constexpr double       patience_with_multigrid = 4;
   } // namespace
 
@@ -166,7 +164,12 @@ namespace corotet
       {
         if (!direct)
           direct = std::make_unique<CholeskyDirect>();
-        direct->build_for(A, J, positions);
+        // Exact tangents of well-shaped cells are indefinite far from the
+        // solution alone, and take several factorisations there that the next
+        // iterate has no use for.
+        direct->build_for(A,
+                          multigrid.proportions().are_poor() ? J : nullptr,
+                          positions);
         return;
       }
     // Too large, for the memory or for the library, or singular up to
@@ -232,7 +235,8 @@ namespace corotet
   }
 
   unsigned int
-  AutomaticPreconditioner::patience(const bool is_new) const
+  AutomaticPreconditioner::patience(const bool is_new,
+                                    const bool is_tangent) const
   {
     if (is_settled || (is_direct && is_new))
       return std::numeric_limits<unsigned int>::max();
@@ -240,9 +244,11 @@ namespace corotet
       return direct->acceptable_iterations(0) + costs.again / costs.solve;
     if (!has_costs)
       return slow;
+    const double left = (wait > 0 ? wait : costs.first) - in_vain;
+    if (left > 0 && is_tangent && !multigrid.proportions().are_poor())
+      return std::numeric_limits<unsigned int>::max();
     return std::max<double>(usual_iterations,
-                            (wait > 0 ? wait : costs.first) - in_vain +
-                              direct_iterations * costs.solve);
+                            left + direct_iterations * costs.solve);
   }
 
   bool
@@ -255,11 +261,6 @@ namespace corotet
     if (!has_costs)
       {
         find_costs(A);
-        return false;
-      }
-    if (J != nullptr && !is_direct && costs.first > most_for_tangent)
-      {
-        is_settled = true;
         return false;
       }
     if (is_direct)
@@ -298,8 +299,10 @@ namespace corotet
     // solves.
     direct_cost += n_iterations * costs.solve +
                    (was_built && n_direct > 1 ? costs.again : 0);
-    if (n_direct < trial || n_multigrid == 0 ||
-        direct_cost / n_direct <= iterations / n_multigrid)
+    const double allowed =
+      n_direct < trial ? patience_with_trial * costs.first : 0;
+    if (n_multigrid == 0 ||
+        direct_cost <= n_direct * iterations / n_multigrid + allowed)
       return false;
     news = fmt::format("Linear solver: p-multigrid again, as {} "
                        "solves with factors of the matrix have cost {:.0f} "

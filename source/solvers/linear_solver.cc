@@ -4,7 +4,6 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/solvers/flexible_cg.h>
 #include <corotet/solvers/linear_solver.h>
-#include <corotet/solvers/preconditioners.h>
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
@@ -17,65 +16,6 @@
 
 namespace corotet
 {
-  namespace
-  {
-    const Enumeration<KrylovMethod> methods{
-      {"automatic", KrylovMethod::automatic},
-      {"conjugate gradients", KrylovMethod::conjugate_gradients},
-      {"minres", KrylovMethod::minres},
-      {"gmres", KrylovMethod::gmres}};
-
-    const Enumeration<bool> operators{{"matrix-free", false},
-                                      {"assembled", true}};
-  } // namespace
-
-  LinearSolverParameters::LinearSolverParameters()
-    : preconditioner(preconditioners(), "automatic")
-  {}
-
-  void
-  LinearSolverParameters::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    preconditioner.declare_parameters(
-      prm,
-      "Preconditioner: 'automatic', p-multigrid, or a sparse factorisation "
-      "where that is the faster way, as on thin bodies of few cells across; "
-      "'p-multigrid', over the degrees down to 1, matrix-free; 'amg', smoothed "
-      "aggregation with rigid body modes, on the assembled matrix (where "
-      "Trilinos has ML); 'jacobi', the diagonal; 'direct', a sparse "
-      "factorisation of the assembled matrix.");
-    add_enumeration(prm,
-                    "Method",
-                    method,
-                    methods,
-                    "Krylov method. 'automatic': conjugate gradients for "
-                    "symmetric systems, MINRES where these turn out to be "
-                    "indefinite; for those that are not symmetric flexible "
-                    "conjugate gradients, and where these are slow GMRES "
-                    "(flexible, restarted after 30 iterations, up to 200 "
-                    "where its vectors take less than 64 MiB), whose "
-                    "vectors take nearly as much memory as all the rest.");
-    add_enumeration(prm,
-                    "Operator",
-                    is_assembled,
-                    operators,
-                    "How the matrix is applied: cell by cell without "
-                    "storing it, or assembled.");
-    prm.add_parameter("Tolerance",
-                      tolerance,
-                      "Residual at which iterations stop, relative to the "
-                      "right hand side [-]. Iterations of Newton's method "
-                      "that are not the last one, as the step before tells, "
-                      "and will leave more of it anyway get by with less.",
-                      dealii::Patterns::Double(1e-15, 0.1));
-    prm.add_parameter("Maximum iterations",
-                      max_iterations,
-                      "A solve that needs more has failed [-]. With an exact "
-                      "tangent 1,000 are enough to fail: then the frozen one "
-                      "is asked.",
-                      dealii::Patterns::Integer(1));
-  }
-
   namespace
   {
     // Ratios of mass to stiffness that differ by no more are the same but for
@@ -124,24 +64,6 @@ namespace corotet
     , tolerance(std::min(parameters.tolerance, largest_tolerance))
     , preconditioner(parameters.preconditioner.make())
   {}
-
-  void
-  LinearSolver::check_fit(const bool symmetric) const
-  {
-    if (parameters.is_assembled)
-      throw InputError("Linear solver/Operator",
-                       "found assembled; allowed: matrix-free, as this "
-                       "material's tangent is not assembled (an assembled "
-                       "one needs Material/Rotation = cell centre and "
-                       "Newton/Tangent = frozen rotation)");
-    const KrylovMethod method = parameters.method;
-    if (!symmetric && method != KrylovMethod::automatic &&
-        method != KrylovMethod::gmres)
-      throw InputError("Linear solver/Method",
-                       fmt::format("found {}; allowed: automatic or gmres, as "
-                                   "this tangent is not symmetric",
-                                   name_of(methods, method)));
-  }
 
   template <typename Matrix>
   unsigned int
@@ -248,6 +170,21 @@ namespace corotet
   }
 
   unsigned int
+  LinearSolver::largest_number(const bool is_new, const bool is_tangent) const
+  {
+    if (!is_tangent)
+      return parameters.max_iterations;
+    // Far from a solution exact tangents may be next to singular: Newton's
+    // method has others. Whether the preconditioner is outdated shows earlier.
+    constexpr double many = 1000, least = 100;
+    const double     most = std::max(many / preconditioner->cost(), least);
+    return std::min<double>(parameters.max_iterations,
+                            is_new ?
+                              most :
+                              std::min(most, least + 2. * first_iterations));
+  }
+
+  unsigned int
   LinearSolver::solve_patiently(const bool               is_new,
                                 const EffectiveOperator &A,
                                 const TangentOperator   *J,
@@ -256,24 +193,22 @@ namespace corotet
                                 const Vector            &positions,
                                 const double             wanted)
   {
-    // Far from a solution exact tangents may be next to singular: Newton's
-    // method has others.
-    const unsigned int most = J != nullptr ?
-                                std::min(parameters.max_iterations, 1000u) :
-                                parameters.max_iterations;
-    unsigned int       done = 0;
-    done_before_change      = 0;
-    const auto change_it    = [&](const double expected) {
+    unsigned int done      = 0;
+    done_before_change     = 0;
+    unsigned int most      = largest_number(is_new, J != nullptr);
+    const auto   change_it = [&](const double expected) {
       if (!preconditioner->change(A, J, positions, done, expected))
         return;
       done_before_change = done;
+      most               = done + largest_number(true, J != nullptr);
       ++n_builds;
     };
     for (;;)
       {
         const unsigned int limit =
           std::min(most,
-                   preconditioner->patience(is_new || done_before_change > 0));
+                   preconditioner->patience(is_new || done_before_change > 0,
+                                            J != nullptr));
         if (limit <= done && limit < most)
           {
             change_it(done);

@@ -17,6 +17,8 @@ namespace corotet
   {
     // Full increments that may raise the residual before a line search.
     constexpr unsigned int patience = 5;
+    // Solves that begin with the definite tangent where the exact one fails.
+    constexpr unsigned int longest_pause = 16;
     // Trials of a line search: the last are some 1e-4 of the increment.
     constexpr unsigned int max_trials = 10;
     // Residuals this much above the best one are divergence.
@@ -176,6 +178,8 @@ namespace corotet
           tolerance_of_solve = linear_tolerance();
           linear_iterations =
             problem.solve_linearized(dx, r, tolerance_of_solve);
+          if (report.iterations == 0 && !definite)
+            newton.last_pause = 0;
           if (std::isfinite(norm(dx)))
             return;
         }
@@ -183,6 +187,9 @@ namespace corotet
         {
           if (definite || !use_definite_tangent())
             throw;
+          if (report.iterations == 0)
+            newton.n_without_exact = newton.last_pause =
+              std::clamp(2 * newton.last_pause, 1u, longest_pause);
           linear_iterations =
             problem.solve_linearized(dx, r, tolerance_of_solve);
           return;
@@ -202,6 +209,11 @@ namespace corotet
     {
       definite = false;
       problem.use_definite_tangent(false);
+      if (report.iterations == 0 && newton.n_without_exact > 0)
+        {
+          --newton.n_without_exact;
+          use_definite_tangent();
+        }
       find_direction();
       if (n_without_progress == 0)
         {

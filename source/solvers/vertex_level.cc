@@ -14,9 +14,6 @@ namespace corotet
 {
   namespace
   {
-    // Which part of the cells makes a difference.
-    constexpr double few = 0.1;
-
     // Faces of the surface for each cell of a body with at most three layers of
     // cells: one layer has 0.8.
     constexpr double thin = 0.25;
@@ -61,11 +58,10 @@ namespace corotet
         return false;
     if (parameters.vertex_rotations != "automatic")
       return parameters.vertex_rotations == "true";
-    if (cells.share_flat <= few && cells.share_stretched <= few)
-      return false;
-    return is_thin_body ||
-           (3 * vertices.n_global_nodes() <= parameters.direct_limit &&
-            cells.mean_ratio > least_ratio);
+    return cells.are_poor() &&
+           (is_thin_body ||
+            (3 * vertices.n_global_nodes() <= parameters.direct_limit &&
+             cells.mean_ratio > least_ratio));
   }
 
   VertexLevel::VertexLevel(const PMultigridParameters       &parameters,
@@ -88,8 +84,8 @@ namespace corotet
     // few places only.
     const bool is_alone =
       dealii::Utilities::MPI::n_mpi_processes(vertices.communicator()) == 1;
-    if (proportions.share_stretched > few ||
-        (is_alone && proportions.share_flat > few))
+    if (proportions.share_stretched > CellProportions::few ||
+        (is_alone && proportions.share_flat > CellProportions::few))
       aggregation.set_least_similarity(0.3);
     vertices.initialize_vector(x);
     vertices.initialize_vector(b);

@@ -28,7 +28,7 @@ namespace corotet
       for (const unsigned int node : quadratic.cell_nodes(c))
         for (unsigned int a = 0; a < 3; ++a)
           touches_prescribed[c] |= is_prescribed[3 * node + a];
-    locate_blocks();
+    make_matrix();
   }
 
   void

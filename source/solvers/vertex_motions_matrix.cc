@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/base/mpi.h>
 #include <corotet/discretization/tetrahedron.h>
 #include <corotet/operators/assembled_matrix.h>
 #include <corotet/solvers/vertex_motions.h>
 
+#include <algorithm>
 #include <limits>
-#include <utility>
+#include <memory>
 
 #include "vertex_motions_cell.h"
 
@@ -22,8 +22,7 @@ namespace corotet
 
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
-    // The two patterns of a matrix: points of six unknowns, and two nodes for
-    // each of them.
+    // The pattern with two nodes for each one.
     std::shared_ptr<const BlockPattern>
     twice(const BlockPattern &pattern)
     {
@@ -44,35 +43,15 @@ namespace corotet
           }
       return std::make_shared<const BlockPattern>(rows, pattern.communicator());
     }
-
   } // namespace
 
   void
-  VertexMotions::locate_blocks()
+  VertexMotions::make_matrix()
   {
     pattern            = block_pattern(vertices);
+    places_of_blocks   = block_places(vertices, *pattern);
     problem.matrix     = std::make_unique<BlockMatrix>(twice(*pattern));
     problem.aggregates = pattern;
-    block_places.resize(std::size_t(16) * vertices.n_local_cells());
-    std::uint16_t *next = block_places.data();
-    for (unsigned int c = 0; c < vertices.n_local_cells(); ++c)
-      for (const unsigned int i : vertices.cell_nodes(c))
-        for (const unsigned int j : vertices.cell_nodes(c))
-          {
-            if (i < vertices.n_owned_nodes())
-              {
-                const int column =
-                  j < vertices.n_owned_nodes() ?
-                    j :
-                    pattern->local_node(vertices.global_node(j));
-                const int place = pattern->place(i, column);
-                AssertThrow(place <= std::numeric_limits<std::uint16_t>::max(),
-                            dealii::ExcMessage(
-                              "A row of the matrix is too long."));
-                *next = place;
-              }
-            ++next;
-          }
   }
 
   void
@@ -129,7 +108,7 @@ namespace corotet
           return touches && a < 3 && is_vertex_prescribed[3 * nodes[i] + a];
         };
         const std::uint16_t *place =
-          &block_places[std::size_t(16) * (first + lane)];
+          &places_of_blocks[std::size_t(16) * (first + lane)];
         for (unsigned int i = 0; i < 4; ++i)
           for (unsigned int j = 0; j < 4; ++j, ++place)
             if (nodes[i] < vertices.n_owned_nodes())

@@ -149,11 +149,11 @@ namespace
   {
     const Vector &positions = c.positions();
     P.build(c.A, positions);
-    const unsigned int patience = P.patience(true);
+    const unsigned int patience = P.patience(true, false);
     EXPECT_GT(patience, 30u);
     EXPECT_LT(patience, 1000u);
     EXPECT_TRUE(P.change(c.A, nullptr, positions, patience, patience));
-    EXPECT_GT(P.patience(true), 1000000u);
+    EXPECT_GT(P.patience(true, false), 1000000u);
   }
 } // namespace
 
@@ -163,13 +163,13 @@ TEST(AutomaticDecisions, SlowSolvesAddUp)
   Case                    c(thin_size(), thin_cells, 2, "automatic");
   AutomaticPreconditioner P(slow_multigrid());
   P.build(c.A, c.positions());
-  const unsigned int first = P.patience(true);
+  const unsigned int first = P.patience(true, false);
   EXPECT_FALSE(P.take_note(30, true));
-  EXPECT_EQ(P.patience(true), first);
+  EXPECT_EQ(P.patience(true, false), first);
   EXPECT_FALSE(P.take_note(first / 2, false));
-  EXPECT_LT(P.patience(true), first);
+  EXPECT_LT(P.patience(true, false), first);
   EXPECT_FALSE(P.take_note(first, false));
-  EXPECT_EQ(P.patience(true), 30u);
+  EXPECT_EQ(P.patience(true, false), 30u);
 }
 
 // Factors that are outdated again and again. They are tried again, each time
@@ -195,19 +195,19 @@ TEST(AutomaticDecisions, MultigridComesBack)
   multigrid.vmult(expected, c.b);
   P.vmult(found, c.b);
   EXPECT_EQ(largest_difference(found, expected), 0);
-  const unsigned int patience = P.patience(true);
+  const unsigned int patience = P.patience(true, false);
   EXPECT_FALSE(P.take_note(patience, true));
-  EXPECT_EQ(P.patience(true), 30u);
+  EXPECT_EQ(P.patience(true, false), 30u);
   EXPECT_TRUE(P.change(c.A, nullptr, positions, 30, 30));
   EXPECT_NE(P.take_news().find("a sparse factorisation takes the place"),
             std::string::npos);
   EXPECT_FALSE(P.take_note(2, true));
   EXPECT_FALSE(P.take_note(2, false));
   is_back = false;
-  for (int solve = 0; solve < 1000 && !is_back; ++solve)
-    is_back = P.take_note(1000, true);
+  for (int solve = 0; solve < 100 && !is_back; ++solve)
+    is_back = P.take_note(100 * patience, true);
   EXPECT_TRUE(is_back);
-  EXPECT_GE(P.patience(true), 2 * (patience - 30));
+  EXPECT_GE(P.patience(true, false), 2 * (patience - 30));
 }
 
 // Also where nobody has tried the multigrid: then what was expected of it
@@ -217,7 +217,7 @@ TEST(AutomaticDecisions, MultigridComesBackWhereItWasNotTried)
   Case                    c("1, 1, 0.004", thin_cells, 2, "automatic");
   AutomaticPreconditioner P(slow_multigrid());
   P.build(c.A, c.positions());
-  EXPECT_GT(P.patience(true), 1000000u);
+  EXPECT_GT(P.patience(true, false), 1000000u);
   EXPECT_FALSE(P.take_note(2, true));
   bool is_back = false;
   for (int solve = 0; solve < 100 && !is_back; ++solve)
@@ -236,6 +236,61 @@ TEST(AutomaticDecisions, FactorsStay)
     EXPECT_FALSE(P.take_note(4, false)) << solve;
 }
 
+// A slow solve with an exact tangent may fail as that is indefinite. Where
+// cells are well shaped it changes nothing, and when such solves that have come
+// to their end have cost as much in vain, factors are those of the frozen
+// matrix.
+TEST(AutomaticDecisions, SlowTangentsOfWellShapedBodies)
+{
+  Case                    c("1, 1, 0.25", thin_cells, 2, "automatic");
+  const Vector           &positions = c.positions();
+  AutomaticPreconditioner P(slow_multigrid());
+  P.build(c.A, positions);
+  const unsigned int patience = P.patience(true, false);
+  EXPECT_LT(patience, 1000u);
+  EXPECT_GT(P.patience(true, true), 1000000u);
+  EXPECT_EQ(P.cost(), 1);
+  EXPECT_FALSE(P.take_note(2 * patience, true));
+  EXPECT_EQ(P.patience(true, true), 30u);
+  Vector u(c.body.state.u);
+  for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+    u.local_element(i) = 1e-2 * std::sin(1. + i);
+  TangentOperator J(c.A, c.body.elasticity, c.body.system.equation().terms);
+  J.update({0., u, c.body.state.u}, Tangent::consistent, 1., 0.);
+  EXPECT_TRUE(P.change(c.A, &J, positions, 30, 30));
+  EXPECT_GT(P.cost(), 1);
+  CholeskyDirect direct;
+  direct.build(c.A, positions);
+  Vector expected(c.b), found(c.b);
+  direct.vmult(expected, c.b);
+  P.vmult(found, c.b);
+  EXPECT_EQ(largest_difference(found, expected), 0);
+}
+
+TEST(AutomaticDecisions, SlowTangentsOfFlatCells)
+{
+  Case                    c(thin_size(), thin_cells, 2, "automatic");
+  AutomaticPreconditioner P(slow_multigrid());
+  P.build(c.A, c.positions());
+  EXPECT_EQ(P.patience(true, true), P.patience(true, false));
+}
+
+// Factors are not judged by the first solves of a step, which are the hardest;
+// but these may not take any number of iterations.
+TEST(AutomaticDecisions, FactorsHaveATrial)
+{
+  Case                    c(thin_size(), thin_cells, 3, "automatic");
+  AutomaticPreconditioner P(slow_multigrid());
+  make_it_change(P, c);
+  const double first = P.patience(false, false);
+  EXPECT_FALSE(P.take_note(first, true));
+  for (int solve = 0; solve < 20; ++solve)
+    EXPECT_FALSE(P.take_note(4, false)) << solve;
+  AutomaticPreconditioner Q(slow_multigrid());
+  make_it_change(Q, c);
+  EXPECT_TRUE(Q.take_note(10000, true));
+}
+
 // A solve with older factors gets new ones when it has cost as much as these.
 TEST(AutomaticDecisions, OldFactorsAreMadeAnew)
 {
@@ -243,11 +298,11 @@ TEST(AutomaticDecisions, OldFactorsAreMadeAnew)
   AutomaticPreconditioner P(slow_multigrid());
   make_it_change(P, c);
   EXPECT_FALSE(P.take_note(2, true));
-  const unsigned int patience = P.patience(false);
+  const unsigned int patience = P.patience(false, false);
   EXPECT_GT(patience, 10u);
   EXPECT_LT(patience, 100u);
   EXPECT_TRUE(P.change(c.A, nullptr, c.positions(), patience, patience));
-  EXPECT_GT(P.patience(true), 1000000u);
+  EXPECT_GT(P.patience(true, false), 1000000u);
 }
 
 // From a checkpoint: the same decisions, and the same kind of preconditioner.
@@ -258,13 +313,13 @@ TEST(AutomaticDecisions, Restart)
   AutomaticPreconditioner before(slow_multigrid()), after(slow_multigrid()),
     changed(slow_multigrid());
   before.build(c.A, positions);
-  before.take_note(before.patience(true) / 2, true);
+  before.take_note(before.patience(true, false) / 2, true);
   MemoryArchive archive;
   before.transfer(archive);
   archive.reading = true;
   after.transfer(archive);
   after.build(c.A, positions);
-  EXPECT_EQ(after.patience(true), before.patience(true));
+  EXPECT_EQ(after.patience(true, false), before.patience(true, false));
 
   make_it_change(before, c);
   MemoryArchive second;

@@ -4,6 +4,8 @@
 #ifndef corotet_tests_solvers_clamped_body_h
 #define corotet_tests_solvers_clamped_body_h
 
+#include <deal.II/lac/solver_cg.h>
+
 #include <string>
 
 #include "../body.h"
@@ -41,6 +43,19 @@ namespace corotet::tests
     EffectiveOperator A;
     Vector            b;
   };
+
+  /// Of conjugate gradients to 1e-8.
+  template <typename Inverse>
+  unsigned int
+  iterations(const ClampedBody &body, const Inverse &inverse)
+  {
+    Vector                   x(body.b);
+    dealii::SolverControl    control(2000, 1e-8 * body.b.l2_norm());
+    dealii::SolverCG<Vector> cg(control);
+    x = 0;
+    cg.solve(body.A, x, body.b, inverse);
+    return control.last_step();
+  }
 } // namespace corotet::tests
 
 #endif

@@ -224,67 +224,6 @@ TEST(Newton, LineSearch)
     }
 }
 
-namespace
-{
-  // The gradient of the energy x^4 / 4 - x^2 / 2, with a definite tangent, 1,
-  // or without one. At the start the exact slope 3 x^2 - 1 is -1e-4: its
-  // direction leads up in energy, and by 3,850 to the left, where the residual
-  // is 1e11 times larger. The definite one leads down, to 1.
-  class DoubleWell : public Scalar
-  {
-  public:
-    explicit DoubleWell(const bool has_definite_tangent)
-      : Scalar([](double x) { return x * x * x - x; },
-               exact_slope,
-               std::sqrt((1 - 1e-4) / 3))
-      , has_definite_tangent(has_definite_tangent)
-    {
-      with_energy = true;
-    }
-
-    bool
-    use_definite_tangent(const bool use) override
-    {
-      if (!has_definite_tangent)
-        return false;
-      if (use)
-        slope = [](double) { return 1.; };
-      else
-        slope = exact_slope;
-      return true;
-    }
-
-  private:
-    static double
-    exact_slope(const double x)
-    {
-      return 3 * x * x - 1;
-    }
-
-    const bool has_definite_tangent;
-  };
-} // namespace
-
-// With an energy a direction must lead down: where a search would have to go
-// along one that leads up, the definite tangent takes over, once, and the exact
-// one goes on from there with its order. Without a definite one there is no
-// way.
-TEST(Newton, DefiniteTangentStandsIn)
-{
-  DoubleWell         double_well(true);
-  const NewtonReport report = solve(double_well);
-  EXPECT_NEAR(double_well.x, 1, 1e-12) << report.text();
-  ASSERT_GE(report.history.size(), 3u);
-  EXPECT_TRUE(report.history[0].definite) << report.text();
-  for (std::size_t k = 1; k < report.history.size(); ++k)
-    EXPECT_FALSE(report.history[k].definite) << report.text();
-  EXPECT_NEAR(report.observed_order(), 2, 0.1);
-
-  DoubleWell indefinite(false);
-  EXPECT_NE(failure(indefinite).find("found no descent along its direction"),
-            std::string::npos);
-}
-
 // log(x) - 1 from 10: the first full step goes to x < 0, where there is no
 // logarithm. The search backs off until there is one.
 TEST(Newton, BacksOffFromWhatIsNotFinite)

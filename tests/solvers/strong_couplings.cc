@@ -9,7 +9,6 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/lac/solver_cg.h>
 
 #include <gtest/gtest.h>
 
@@ -20,19 +19,6 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Of conjugate gradients to 1e-8.
-  template <typename Inverse>
-  unsigned int
-  iterations(const ClampedBody &body, const Inverse &inverse)
-  {
-    Vector                   x(body.b);
-    dealii::SolverControl    control(1000, 1e-8 * body.b.l2_norm());
-    dealii::SolverCG<Vector> cg(control);
-    x = 0;
-    cg.solve(body.A, x, body.b, inverse);
-    return control.last_step();
-  }
-
   struct Cycle
   {
     void

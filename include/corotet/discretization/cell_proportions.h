@@ -23,6 +23,8 @@ namespace corotet
   {
     /// From which ratio on a cell counts as flat, or as stretched.
     static constexpr double limit = 4;
+    /// Up to which share of such cells a body counts as well-shaped.
+    static constexpr double few = 0.1;
 
     double share_flat      = 0;
     double share_stretched = 0;
@@ -31,6 +33,13 @@ namespace corotet
     /// The largest of these, and the centre of its cell at rest [m].
     double           largest_ratio = 1;
     dealii::Point<3> place;
+
+    /// Whether more than a few cells are flat, or stretched.
+    bool
+    are_poor() const
+    {
+      return share_flat > few || share_stretched > few;
+    }
 
     /// "12 % of the cells are flat, 3 % stretched (by more than 4; most by
     /// 17, at (x, y, z))".

@@ -25,6 +25,12 @@ namespace corotet
   std::shared_ptr<const BlockPattern>
   block_pattern(const Nodes &nodes);
 
+  /// Where the blocks of the cells are in a matrix of that pattern, [local
+  /// cell][row node i][column node j]: the place of the block in its row;
+  /// without meaning for rows of other ranks. Not collective.
+  std::vector<std::uint16_t>
+  block_places(const Nodes &nodes, const BlockPattern &pattern);
+
   /**
    * The matrix A = c_K K + c_M M of one element, with a matrix of the surface
    * if there is one. Rows and columns of prescribed
@@ -72,8 +78,6 @@ namespace corotet
     }
 
   private:
-    void
-    locate_blocks();
     /// Adds what no cell has.
     void
     add_others(const double                   c_M,
@@ -98,8 +102,8 @@ namespace corotet
     const std::vector<unsigned char> prescribed;
 
     std::unique_ptr<BlockMatrix> block_matrix;
-    /// [local cell][row node i][column node j]: place of the block in its row.
-    std::vector<std::uint16_t> block_places;
+    /// See block_places().
+    std::vector<std::uint16_t> places_of_blocks;
     /// Local cells with prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
   };

@@ -28,6 +28,11 @@ namespace corotet
    * twice as long after, as bodies that move far become others. A solve with
    * older factors gets new ones when it has cost as much as these.
    *
+   * Exact tangents get factors only where many cells are flat or stretched.
+   * Those of well-shaped cells are slow where they are indefinite, far from the
+   * solution: they get factors of the frozen matrix, and these not in the
+   * middle of a solve, which may fail with them as well.
+   *
    * Everything is counted and nothing is measured: runs repeat to the last
    * digit.
    */
@@ -68,8 +73,14 @@ namespace corotet
     unsigned int
     acceptable_iterations(const unsigned int first) const override;
 
+    double
+    cost() const override
+    {
+      return is_direct ? costs.solve : 1.;
+    }
+
     unsigned int
-    patience(const bool is_new) const override;
+    patience(const bool is_new, const bool is_tangent) const override;
 
     bool
     change(const EffectiveOperator &A,

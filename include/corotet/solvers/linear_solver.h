@@ -140,6 +140,9 @@ namespace corotet
                  const TangentOperator   *J,
                  const Vector            &x,
                  const Vector            &b) const;
+    /// Iterations after which a solve has failed.
+    unsigned int
+    largest_number(const bool is_new, const bool is_tangent) const;
     /// These go on from x to a residual of @p wanted and return the number of
     /// iterations. The first lets the preconditioner change meanwhile, which
     /// may be new, made for this solve; the others throw

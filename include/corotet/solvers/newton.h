@@ -127,6 +127,10 @@ namespace corotet
    * solve has needed (an inexact Newton method: Eisenstat, Walker 1996), at
    * most a hundredth. The last one is solved to the full tolerance.
    *
+   * Where the linear solve of a first iteration has failed with the exact
+   * tangent, the next solve begins with the definite one; the exact one is
+   * tried again after one solve, two, four and so on.
+   *
    * Linearly implicit, it makes one iteration and is done: what then remains of
    * the residual is an error of the time step.
    */
@@ -149,6 +153,8 @@ namespace corotet
     transfer(Archive &archive)
     {
       archive.transfer("n_last", n_last);
+      archive.transfer("n_without_exact", n_without_exact);
+      archive.transfer("last_pause", last_pause);
     }
 
   private:
@@ -158,6 +164,11 @@ namespace corotet
     /// Iterations that the last solve needed; 0 before the first one, and after
     /// one that failed or searched along a direction.
     unsigned int n_last = 0;
+    /// Solves that are to begin with the definite tangent, as linear solves
+    /// with the exact one have failed in first iterations, and how many were to
+    /// do so when the last one failed.
+    unsigned int n_without_exact = 0;
+    unsigned int last_pause      = 0;
     // Work space.
     Vector r;
     Vector dx;

@@ -57,10 +57,18 @@ namespace corotet
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
+    /// What an iteration takes, where that is far more than the operator's
+    /// application: in iterations of a preconditioner that is as cheap.
+    virtual double
+    cost() const
+    {
+      return 1;
+    }
+
     /// Iterations of a solve after which change() is to be called; @p is_new:
-    /// P was built for this solve.
+    /// P was built for this solve; @p is_tangent: it is one with J.
     virtual unsigned int
-    patience(const bool /*is_new*/) const
+    patience(const bool /*is_new*/, const bool /*is_tangent*/) const
     {
       return std::numeric_limits<unsigned int>::max();
     }

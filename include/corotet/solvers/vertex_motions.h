@@ -20,7 +20,8 @@ namespace corotet
 {
   /**
    * The quadratic functions that displacements and rotations of the vertices
-   * make: the middle of an edge d from a to b moves by
+   * make (as in the triangle of Allman 1984): the middle of an edge d from a to
+   * b moves by
    *
    *   (u_a + u_b) / 2 + (w_a - w_b) x d / 8 + (w_a + w_b) x c / 2
    *
@@ -51,7 +52,9 @@ namespace corotet
 
     /// Takes the places of the nodes and the matrix A = c_K K + c_M M + S of
     /// the quadratic element for these functions. @p positions of the nodes of
-    /// @p discretization, the finest element, with ghosts [m]. Collective.
+    /// @p discretization, the finest element, with ghosts [m]. Coefficients
+    /// and masses as AssembledMatrix::update() takes them; @p surface of the
+    /// quadratic element, null without S. Collective.
     void
     update(const Discretization &discretization,
            const Vector         &positions,
@@ -102,7 +105,7 @@ namespace corotet
     void
     find_places(const Discretization &discretization, const Vector &positions);
     void
-    locate_blocks();
+    make_matrix();
     std::array<dealii::Tensor<1, 3>, 2>
     arms(const dealii::Point<3> &a,
          const dealii::Point<3> &b,
@@ -137,10 +140,9 @@ namespace corotet
     std::vector<Middle> middles;
     /// Local cells with prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
-    /// Of vertices that share a cell, and in it: [local cell][4][4], place of
-    /// the block in its row.
+    /// Of vertices that share a cell, and where their blocks are in it.
     std::shared_ptr<const BlockPattern> pattern;
-    std::vector<std::uint16_t>          block_places;
+    std::vector<std::uint16_t>          places_of_blocks;
     AggregateProblem                    problem;
 
     mutable FloatVector displacements, rotations;
