@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Linear solves of bodies whose cells are well-shaped, flat and stretched: boxes that are clamped at a side and bent by their weight,
-statics to the program's tolerance. Run it inside of scripts/toolchain:
+"""Linear solves of degree 1 by smoothed aggregation, of bodies whose cells are well-shaped, flat and stretched: boxes that are clamped at a
+side and bent by their weight, statics to the program's tolerance. Run it inside of scripts/toolchain:
 
-    benchmarks/proportions.py [--solvers] [--ranks 1] [--repetitions 2] [--programs PROGRAM [PROGRAM]] [--quick] [--document]
+    benchmarks/proportions.py [--ranks 1] [--repetitions 2] [--programs PROGRAM [PROGRAM]] [--quick] [--document]
 
-By p-multigrid with smoothed aggregation for degree 1; or, with --solvers, by p-multigrid, without and with rotations of the vertices,
-`automatic` and `direct` for degrees 2 and 3. Programs take turns, so that one can be compared with an older one; of each the better time
-is taken. --quick leaves out large bodies. --document writes the table of the first program into doc/algorithms.md.
+Programs take turns, so that one can be compared with an older one; of each the better time is taken. --quick leaves out large bodies.
+--document writes the table of the first program into doc/algorithms.md. What all solvers take, of all degrees: hard_bodies.py.
 """
 
 import argparse
@@ -32,19 +31,6 @@ BODIES = {
     "plate of two layers": [("1, 1, 0.01", "80, 80, 2")],
 }
 QUICK = 60000
-# Name, size, cuboids, Poisson's ratio; the first is well-shaped.
-HARD_BODIES = [
-    ("beam of well-shaped cells", "4, 1, 1", "28, 7, 7", 0.3),
-    ("plate 1 x 1 x 0.01 of 10 x 10 x 1 cuboids", "1, 1, 0.01", "10, 10, 1", 0.3),
-    ("the same of 20 x 20 x 1", "1, 1, 0.01", "20, 20, 1", 0.3),
-    ("plate 1 x 1 x 0.0025 of 40 x 40 x 1", "1, 1, 0.0025", "40, 40, 1", 0.3),
-    ("plate 1 x 1 x 0.1 of 8 x 8 x 8, flat by 10", "1, 1, 0.1", "8, 8, 8", 0.3),
-    ("plate 1 x 1 x 0.01 of 8 x 8 x 8, flat by 100", "1, 1, 0.01", "8, 8, 8", 0.3),
-    ("bar 10 x 1 x 1 of 8 x 8 x 8, stretched by 10", "10, 1, 1", "8, 8, 8", 0.3),
-    ("bar 100 x 1 x 1 of 8 x 8 x 8, stretched by 100", "100, 1, 1", "8, 8, 8", 0.3),
-    ("the beam, Poisson's ratio 0.49", "4, 1, 1", "28, 7, 7", 0.49),
-    ("the beam, Poisson's ratio 0.4999", "4, 1, 1", "28, 7, 7", 0.4999),
-]
 CASE = """subsection Mesh
   set Type = box
   subsection box
@@ -53,11 +39,10 @@ CASE = """subsection Mesh
   end
 end
 subsection Discretization
-  set Degree = {degree}
+  set Degree = 1
 end
 subsection Material
-  set Type            = linear
-  set Poisson's ratio = {poisson}
+  set Type = linear
 end
 subsection Boundary conditions
   set Fixed = x-min
@@ -69,10 +54,9 @@ subsection Time integration
   set Type = static
 end
 subsection Linear solver
-  set Type = {type}
+  set Type = p-multigrid
   subsection p-multigrid
-    set Coarse solver    = {coarse}
-    set Vertex rotations = {rotations}
+    set Coarse solver = aggregation
   end
 end
 subsection Output
@@ -114,7 +98,7 @@ def aggregation(options, folder):
             counts = [int(n) + 1 for n in cells.split(",")]
             if options.quick and 3 * counts[0] * counts[1] * counts[2] > QUICK:
                 continue
-            case = CASE.format(size=size, cells=cells, degree=1, poisson=0.3, type="p-multigrid", coarse="aggregation", rotations="automatic")
+            case = CASE.format(size=size, cells=cells)
             for program, (unknowns, iterations, seconds, memory) in measure(options, folder, case).items():
                 line = f"| {name} | {unknowns} | {iterations} | {seconds:.2g} | {memory:.0f} |"
                 print(line + ("" if len(options.programs) == 1 else f" {program}"), flush=True)
@@ -123,34 +107,8 @@ def aggregation(options, folder):
     return lines
 
 
-def solvers(options, folder):
-    lines = ["| body | degree | unknowns | points alone: iterations | seconds | `p-multigrid`: iterations | seconds | `automatic`: seconds | "
-             "for each unknown, beam = 1 | `direct`: seconds |", "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"]
-    of_beam = {}
-    for name, size, cells, poisson in HARD_BODIES:
-        for degree in (2, 3):
-            if options.quick and (degree == 3 or "40" in cells):
-                continue
-            found = {}
-            for kind, (solver, rotations) in {"points": ("p-multigrid", "false"), "p-multigrid": ("p-multigrid", "automatic"),
-                                              "automatic": ("automatic", "automatic"), "direct": ("direct", "automatic")}.items():
-                case = CASE.format(size=size, cells=cells, degree=degree, poisson=poisson, type=solver, coarse="automatic",
-                                   rotations=rotations)
-                found[kind] = measure(options, folder, case)[options.programs[0]]
-            unknowns = found["points"][0]
-            each = found["automatic"][2] / unknowns
-            of_beam.setdefault(degree, each)
-            times = {kind: f"{run[2]:.2g}" for kind, run in found.items()}
-            lines.append(f"| {name if degree == 2 else ''} | {degree} | {unknowns} | {found['points'][1]} | {times['points']} | "
-                         f"{found['p-multigrid'][1]} | {times['p-multigrid']} | {times['automatic']} | {each / of_beam[degree]:.2g} | "
-                         f"{times['direct']} |")
-            print(lines[-1], flush=True)
-    return lines
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--solvers", action="store_true")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--repetitions", type=int, default=2)
     parser.add_argument("--programs", nargs="+", default=[str(ROOT / "build" / "release" / "corotet")])
@@ -158,9 +116,9 @@ def main():
     parser.add_argument("--document", action="store_true")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
-        lines = (solvers if options.solvers else aggregation)(options, pathlib.Path(temporary))
+        lines = aggregation(options, pathlib.Path(temporary))
     if options.document:
-        document("solvers" if options.solvers else "aggregation", lines)
+        document("aggregation", lines)
     return 0
 
 

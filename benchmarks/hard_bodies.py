@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Linear solves of bodies that are hard for p-multigrid, thin, flat, stretched, nearly incompressible, of slivers and of two materials, by
+all solvers: bodies that are clamped at x = 0 and bent by their weight, statics, to the program's tolerance. Run it inside of
+scripts/toolchain:
+
+    benchmarks/hard_bodies.py [--program PROGRAM] [--repetitions 2] [--ranks 1] [--quick] [--document]
+
+Times are those of the matrix, the solver's set-up and the solution, of the fastest run; memory is the most that the process has had.
+`amg` gets 1,000 iterations, a minute and one run. --quick leaves out degree 3 and large bodies. --document writes the table into
+doc/algorithms.md.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "doc" / "algorithms.md"
+MARKS = ("<!-- solvers -->\n", "\n<!-- end of solvers -->")
+
+
+def box(size, cells):
+    return f"  set Type = box\n  subsection box\n    set Size  = {size}\n    set Cells = {cells}\n  end\n"
+
+
+def file(name, *lines):
+    entries = "".join(f"    set {line}\n" for line in (f"File = {name}", *lines))
+    return f"  set Type = file\n  subsection file\n{entries}  end\n"
+
+
+BEAM = box("4, 1, 1", "28, 7, 7")
+# Name, mesh, Poisson's ratio; the first is well-shaped.
+BODIES = [
+    ("beam of well-shaped cells", BEAM, 0.3),
+    ("plate 1 x 1 x 0.01 of 10 x 10 x 1 cuboids", box("1, 1, 0.01", "10, 10, 1"), 0.3),
+    ("the same of 20 x 20 x 1", box("1, 1, 0.01", "20, 20, 1"), 0.3),
+    ("the same of 100 x 100 x 1", box("1, 1, 0.01", "100, 100, 1"), 0.3),
+    ("plate 1 x 1 x 0.0025 of 40 x 40 x 1", box("1, 1, 0.0025", "40, 40, 1"), 0.3),
+    ("plate 1 x 1 x 0.1 of 8 x 8 x 8, flat by 10", box("1, 1, 0.1", "8, 8, 8"), 0.3),
+    ("plate 1 x 1 x 0.01 of 8 x 8 x 8, flat by 100", box("1, 1, 0.01", "8, 8, 8"), 0.3),
+    ("bar 10 x 1 x 1 of 8 x 8 x 8, stretched by 10", box("10, 1, 1", "8, 8, 8"), 0.3),
+    ("bar 100 x 1 x 1 of 8 x 8 x 8, stretched by 100", box("100, 1, 1", "8, 8, 8"), 0.3),
+    ("the beam, Poisson's ratio 0.45", BEAM, 0.45),
+    ("the beam, Poisson's ratio 0.49", BEAM, 0.49),
+    ("the beam, Poisson's ratio 0.499", BEAM, 0.499),
+    ("the beam, Poisson's ratio 0.4999", BEAM, 0.4999),
+    ("slivers: Delaunay cells of random points", file("slivers.vtu"), 0.3),
+    ("beam of gmsh's cells, not optimised", file("beam.msh"), 0.3),
+]
+CASE = """subsection Mesh
+{mesh}end
+subsection Selections
+  set Boundaries = held: box -1e-6 -1 -1 1e-6 2 2
+end
+subsection Discretization
+  set Degree = {degree}
+end
+subsection Material
+  set Type            = linear
+  set Poisson's ratio = {poisson}
+end
+subsection Boundary conditions
+  set Fixed = held
+end
+subsection Loads
+  set Gravity = 0; 0; -1
+end
+subsection Time integration
+  set Type = static
+end
+subsection Linear solver
+  set Type               = {solver}
+  set Maximum iterations = {most}
+{options}end
+subsection Output
+  set Overwrite = true
+end
+"""
+POINTS = "  subsection p-multigrid\n    set Vertex rotations = false\n  end\n"
+# Name: Type, further entries, most iterations, most seconds, runs at most.
+SOLVERS = {
+    "points": ("p-multigrid", POINTS, 20000, None, 1),
+    "p-multigrid": ("p-multigrid", "", 20000, None, 9),
+    "automatic": ("automatic", "", 20000, None, 9),
+    "direct": ("direct", "", 20000, None, 1),
+    "amg": ("amg", "", 1000, 60, 1),
+}
+BEAM_OF_GMSH = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 4, 1, 1};
+MeshSize {PointsOf {Volume {1};}} = 0.16;
+Mesh.Optimize = 0;
+Mesh.OptimizeNetgen = 0;
+"""
+
+
+def write_slivers(path, n_points):
+    """Delaunay cells of random points of a box of 4 x 1 x 1 m: a quarter of them on its surface, those without volume left out."""
+    import vtk  # pylint: disable=import-outside-toplevel
+    from vtk.util import numpy_support  # pylint: disable=import-outside-toplevel
+
+    vtk.vtkObject.GlobalWarningDisplayOff()  # of degenerate triangles
+    random, size = np.random.default_rng(1), np.array([4.0, 1.0, 1.0])
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size
+    on_surface = random.random((n_points // 4, 3)) * size
+    for point in on_surface:
+        axis = random.choice(3, p=[0.06, 0.47, 0.47])
+        point[axis] = random.integers(2) * size[axis]
+    positions = np.vstack([corners, on_surface, random.random((n_points - n_points // 4, 3)) * size])
+    points, cloud = vtk.vtkPoints(), vtk.vtkPolyData()
+    points.SetDataTypeToDouble()
+    points.SetData(numpy_support.numpy_to_vtk(positions, deep=True))
+    cloud.SetPoints(points)
+    delaunay = vtk.vtkDelaunay3D()
+    delaunay.SetInputData(cloud)
+    delaunay.SetTolerance(0)
+    delaunay.Update()
+    cells = numpy_support.vtk_to_numpy(delaunay.GetOutput().GetCells().GetConnectivityArray()).reshape(-1, 4)
+    edges = positions[cells[:, 1:]] - positions[cells[:, :1]]
+    volumes = np.linalg.det(edges)
+    cells = np.where((volumes > 0)[:, None], cells, cells[:, [0, 2, 1, 3]])[np.abs(volumes) > 1e-9]
+    used, numbers = np.unique(cells, return_inverse=True)
+    points.SetData(numpy_support.numpy_to_vtk(positions[used], deep=True))
+    grid = vtk.vtkUnstructuredGrid()
+    grid.SetPoints(points)
+    for cell in numbers.reshape(-1, 4):
+        grid.InsertNextCell(vtk.VTK_TETRA, 4, [int(vertex) for vertex in cell])
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    writer.Write()
+
+
+def solve(options, folder, case, most_seconds):
+    """Unknowns, iterations, seconds of assembly, set-up of the solver and solve, MB; None if it takes too long."""
+    (folder / "case.prm").write_text(case, encoding="utf-8")
+    launcher = ["mpirun", "--bind-to", "none", "-np", str(options.ranks)] if options.ranks > 1 else []
+    command = [*launcher, os.path.abspath(options.program), "case.prm", "--output", "results", "--quiet"]
+    try:
+        done = subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
+                              timeout=most_seconds)
+    except subprocess.TimeoutExpired:
+        return None
+    if done.returncode != 0:
+        if "the linear solver stopped" not in done.stderr:
+            raise RuntimeError(f"{done.stderr}\n{case}")
+        return None
+    summary = json.loads((folder / "results" / "summary.json").read_text(encoding="utf-8"))
+    times = summary["wall_time"]
+    return summary["dofs"], summary["final"]["linear_iterations"], times["assembly"] + times["solve"], summary["peak_memory_bytes"] / 1e6
+
+
+def measure(options, folder, mesh, degree, poisson):
+    """Of each solver the fastest run."""
+    found = {}
+    for name, (solver, entries, most, most_seconds, n_runs) in SOLVERS.items():
+        case = CASE.format(mesh=mesh, degree=degree, poisson=poisson, solver=solver, options=entries, most=most)
+        runs = [solve(options, folder, case, most_seconds) for _ in range(min(n_runs, options.repetitions))]
+        found[name] = None if None in runs else min(runs, key=lambda run: run[2])
+    return found
+
+
+def columns(run, *kinds):
+    text = {"n": "{0[1]}", "s": "{0[2]:.2g}", "MB": "{0[3]:.0f}"}
+    return ["-" if run is None else text[kind].format(run) for kind in kinds]
+
+
+def table(options, folder):
+    heads = ["body", "degree", "unknowns", "points alone: iterations", "`p-multigrid`: iterations", "seconds", "MB", "`automatic`: seconds",
+             "for each unknown, beam = 1", "`direct`: seconds", "MB", "`amg`: iterations", "seconds", "MB"]
+    lines = ["| " + " | ".join(heads) + " |", "|---|---|" + "---:|" * (len(heads) - 2)]
+    of_beam = {}
+    for name, mesh, poisson in BODIES:
+        for degree in (1, 2, 3):
+            if options.quick and (degree == 3 or "40" in mesh or "100, 100" in mesh):
+                continue
+            found = measure(options, folder, mesh, degree, poisson)
+            unknowns = found["direct"][0]
+            each = found["automatic"][2] / unknowns
+            of_beam.setdefault(degree, each)
+            cells = [name if degree == 1 else "", degree, unknowns, *columns(found["points"], "n"),
+                     *columns(found["p-multigrid"], "n", "s", "MB"), *columns(found["automatic"], "s"), f"{each / of_beam[degree]:.2g}",
+                     *columns(found["direct"], "s", "MB"), *columns(found["amg"], "n", "s", "MB")]
+            lines.append("| " + " | ".join(map(str, cells)) + " |")
+            print(lines[-1], flush=True)
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default=str(ROOT / "build" / "release" / "corotet"))
+    parser.add_argument("--repetitions", type=int, default=2)
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--document", action="store_true")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        write_slivers(folder / "slivers.vtu", 1000 if options.quick else 4000)
+        (folder / "beam.geo").write_text(BEAM_OF_GMSH, encoding="utf-8")
+        subprocess.run(["gmsh", "-3", "beam.geo", "-o", "beam.msh", "-v", "1"], cwd=folder, check=True)
+        lines = table(options, folder)
+    if options.document:
+        before, rest = PAGE.read_text(encoding="utf-8").split(MARKS[0])
+        PAGE.write_text(before + MARKS[0] + "\n".join(lines) + MARKS[1] + rest.split(MARKS[1])[1], encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
