@@ -10,12 +10,37 @@
 namespace corotet
 {
   double
+  local_inner_product(const Vector &a, const Vector &b)
+  {
+    // Independent sums: additions need not wait for each other, and round-off
+    // is that of shorter sums.
+    constexpr unsigned int     n_sums = 16;
+    const unsigned int         n      = a.locally_owned_size();
+    const double              *x = a.begin(), *y = b.begin();
+    std::array<double, n_sums> sums{};
+    unsigned int               i = 0;
+    for (; i + n_sums <= n; i += n_sums)
+      for (unsigned int k = 0; k < n_sums; ++k)
+        sums[k] += x[i + k] * y[i + k];
+    for (unsigned int k = 0; i < n; ++i, ++k)
+      sums[k] += x[i] * y[i];
+    for (unsigned int half = n_sums / 2; half > 0; half /= 2)
+      for (unsigned int k = 0; k < half; ++k)
+        sums[k] += sums[k + half];
+    return sums[0];
+  }
+
+  void
+  sum_over_ranks(const std::span<double> values, const MPI_Comm comm)
+  {
+    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+      MPI_Allreduce(
+        MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM, comm);
+  }
+
+  double
   norm(const Vector &vector)
   {
-    double sum = 0;
-    for (unsigned int i = 0; i < vector.locally_owned_size(); ++i)
-      sum += vector.local_element(i) * vector.local_element(i);
-    return std::sqrt(
-      dealii::Utilities::MPI::sum(sum, vector.get_mpi_communicator()));
+    return norms<1>({{&vector}})[0];
   }
 } // namespace corotet

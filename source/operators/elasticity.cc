@@ -313,21 +313,37 @@ namespace corotet
       }
   }
 
+  void
+  ElasticState::reduce(JointReduction &reduction)
+  {
+    reduction.sum(energy);
+    reduction.min(min_det_F);
+    for (unsigned int *count :
+         {&inverted_cells, &degenerate_cells, &robust_rotations})
+      reduction.sum(*count);
+  }
+
   ElasticState
-  Elasticity::state(const Vector &u) const
+  Elasticity::local_state(const Vector &u) const
   {
     ElasticData data = elastic_data();
     sweeps.state(
       data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
     const PointResults &local = data.results;
-    using namespace dealii::Utilities::MPI;
-    const MPI_Comm comm = discretization.communicator();
-    ElasticState   result;
-    result.energy           = sum(local.energy, comm);
-    result.min_det_F        = min(local.min_det_F, comm);
-    result.inverted_cells   = sum(local.inverted_cells, comm);
-    result.degenerate_cells = sum(counts.degenerate, comm);
-    result.robust_rotations = sum(counts.robust, comm);
+    return {local.energy,
+            local.min_det_F,
+            local.inverted_cells,
+            counts.degenerate,
+            counts.robust};
+  }
+
+  ElasticState
+  Elasticity::state(const Vector &u) const
+  {
+    ElasticState   result = local_state(u);
+    JointReduction reduction;
+    result.reduce(reduction);
+    reduction.run(discretization.communicator());
     return result;
   }
 

@@ -8,9 +8,9 @@
 namespace corotet
 {
   double
-  displaced_volume(const Discretization   &discretization,
-                   const ReferenceElement &reference,
-                   const Vector           &u)
+  local_displaced_volume(const Discretization   &discretization,
+                         const ReferenceElement &reference,
+                         const Vector           &u)
   {
     double volume = 0;
     for (const BoundaryFace &face : discretization.boundary_faces())
@@ -18,6 +18,17 @@ namespace corotet
         discretization, reference, face, &u, [&](const SurfacePoint &point) {
           volume += point.position * point.area / 3;
         });
-    return dealii::Utilities::MPI::sum(volume, discretization.communicator());
+    return volume;
+  }
+
+  double
+  displaced_volume(const Discretization   &discretization,
+                   const ReferenceElement &reference,
+                   const Vector           &u)
+  {
+    return dealii::Utilities::MPI::sum(local_displaced_volume(discretization,
+                                                              reference,
+                                                              u),
+                                       discretization.communicator());
   }
 } // namespace corotet

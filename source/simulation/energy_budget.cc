@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/joint_reduction.h>
 #include <corotet/operators/surface.h>
 #include <corotet/simulation/energy_budget.h>
 
@@ -159,54 +160,64 @@ namespace corotet
                        const double time)
   {
     const EquationOfMotion::Forces &terms = equation.last_forces();
-    const MPI_Comm                  comm  = body.discretization.communicator();
 
     // Where the equation of motion holds.
-    Tensor<1, 3> reaction;
+    record.reaction = Tensor<1, 3>();
     for (const unsigned int i : body.motion.unknowns())
-      reaction[i % 3] +=
+      record.reaction[i % 3] +=
         terms.inertia.local_element(i) + terms.damping.local_element(i) +
         terms.internal.local_element(i) - terms.external.local_element(i);
     if (force_terms.has_elastic())
       for (const unsigned int i : body.motion.unknowns())
-        reaction[i % 3] += terms.elastic.local_element(i);
-    record.reaction = dealii::Utilities::MPI::sum(reaction, comm);
+        record.reaction[i % 3] += terms.elastic.local_element(i);
 
     const auto vector_at = [](const Vector &vector, const unsigned int n) {
       return Tensor<1, 3>({vector.local_element(3 * n),
                            vector.local_element(3 * n + 1),
                            vector.local_element(3 * n + 2)});
     };
-    Tensor<1, 3> moment;
+    record.internal_moment = Tensor<1, 3>();
     for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
-      moment += cross_product_3d(body.discretization.node_position(n) +
-                                   vector_at(equation.displacement(), n),
-                                 vector_at(terms.internal, n));
-    record.internal_moment = dealii::Utilities::MPI::sum(moment, comm);
+      record.internal_moment +=
+        cross_product_3d(body.discretization.node_position(n) +
+                           vector_at(equation.displacement(), n),
+                         vector_at(terms.internal, n));
 
     // At the end of the step.
     equation.set_state(state);
     body.mass.apply(momentum, equation.velocity());
-    record.kinetic_energy = 0.5 * (momentum * state.v);
+    record.kinetic_energy = 0.5 * local_inner_product(momentum, state.v);
     if (is_staggered)
-      record.kinetic_energy -= 0.125 * dt * dt * (terms.inertia * state.a);
-    Tensor<1, 3> linear, angular;
-    double       largest_square = 0;
+      record.kinetic_energy -=
+        0.125 * dt * dt * local_inner_product(terms.inertia, state.a);
+    record.momentum = record.angular_momentum = Tensor<1, 3>();
+    double largest_square                     = 0;
     for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
       {
         const Tensor<1, 3> p = vector_at(momentum, n);
         const Tensor<1, 3> u = vector_at(state.u, n);
-        linear += p;
-        angular +=
+        record.momentum += p;
+        record.angular_momentum +=
           cross_product_3d(body.discretization.node_position(n) + u, p);
         largest_square = std::max(largest_square, u.norm_square());
       }
-    record.momentum         = dealii::Utilities::MPI::sum(linear, comm);
-    record.angular_momentum = dealii::Utilities::MPI::sum(angular, comm);
-    record.max_displacement =
-      std::sqrt(dealii::Utilities::MPI::max(largest_square, comm));
+    ElasticState elastic = body.elasticity.local_state(equation.displacement());
+    record.volume        = local_displaced_volume(body.discretization,
+                                           body.reference,
+                                           equation.displacement());
+    JointReduction reduction;
+    for (Tensor<1, 3> *vector : {&record.reaction,
+                                 &record.internal_moment,
+                                 &record.momentum,
+                                 &record.angular_momentum})
+      reduction.sum(*vector);
+    reduction.sum(record.kinetic_energy);
+    reduction.max(largest_square);
+    elastic.reduce(reduction);
+    reduction.sum(record.volume);
+    reduction.run(body.discretization.communicator());
 
-    const ElasticState elastic = body.elasticity.state(equation.displacement());
+    record.max_displacement = std::sqrt(largest_square);
     const Motion motion{time, equation.displacement(), equation.velocity()};
     record.elastic_energy = elastic.energy + force_terms.energy(motion);
     if (!std::isfinite(record.elastic_energy + record.kinetic_energy))
@@ -215,9 +226,6 @@ namespace corotet
     record.inverted_cells   = elastic.inverted_cells;
     record.degenerate_cells = elastic.degenerate_cells;
     record.robust_rotations = elastic.robust_rotations;
-    record.volume           = displaced_volume(body.discretization,
-                                     body.reference,
-                                     equation.displacement());
 
     const double external_work =
       work + force_terms.changing_energy(motion) - initial_changing_energy;

@@ -150,16 +150,19 @@ namespace corotet
     const auto &forces =
       equation.evaluate(*stage_state, stage.time, stage.load_factor);
     equation.residual(r);
-    force_scale =
-      std::max({norm(forces.external),
-                norm(forces.internal),
-                norm(forces.damping),
-                norm(forces.inertia),
-                equation.terms.has_elastic() ? norm(forces.elastic) : 0.});
+    const auto sizes =
+      norms<6>({{&r,
+                 &forces.external,
+                 &forces.internal,
+                 &forces.damping,
+                 &forces.inertia,
+                 equation.terms.has_elastic() ? &forces.elastic : nullptr}});
+    external_force = sizes[1];
+    force_scale    = *std::max_element(sizes.begin() + 1, sizes.end());
     // Far from the solution of a nonlinear problem forces may be of any size.
     if (is_linear())
       stage_scale = std::max(stage_scale, force_scale);
-    return {norm(r), std::max(stage_scale, force_scale), round_off()};
+    return {sizes[0], std::max(stage_scale, force_scale), round_off()};
   }
 
   double
@@ -169,7 +172,7 @@ namespace corotet
     const double         sum   = noise.of_force(equation.displacement()) +
                        4 * machine_precision * force_scale;
     return sum + equation.terms.round_off(equation.last_motion(),
-                                          norm(equation.last_forces().external),
+                                          external_force,
                                           noise);
   }
 
@@ -325,8 +328,8 @@ namespace corotet
     stage_state->u.add(factor, dx);
     stage_state->v.add(factor * stage.velocity_factor, dx);
     stage_state->a.add(factor * stage.acceleration_factor, dx);
-    const double size = norm(stage_state->u);
-    return {std::abs(factor) * norm(dx), size, 4 * machine_precision * size};
+    const auto [size, increment] = norms<2>({{&stage_state->u, &dx}});
+    return {std::abs(factor) * increment, size, 4 * machine_precision * size};
   }
 
   void

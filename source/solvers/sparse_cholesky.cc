@@ -9,6 +9,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <exception>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <vector>
@@ -238,7 +241,19 @@ namespace corotet
       return factor->solve(dst, src, 1 / unit);
     auto &all = std::get<std::vector<Number>>(buffers);
     row_shares.gather(src, row_counts.size(), all.data(), comm);
-    on_root(comm, [&] { factor->solve(all.data(), all.data(), 1 / unit); });
+    if (is_root)
+      try
+        {
+          factor->solve(all.data(), all.data(), 1 / unit);
+        }
+      catch (const std::exception &)
+        {
+          // It has had its memory since the factorisation. If it fails all the
+          // same, all ranks see numbers that are none, without a message more.
+          std::fill(all.begin(),
+                    all.end(),
+                    std::numeric_limits<Number>::quiet_NaN());
+        }
     MPI_Scatterv(all.data(),
                  row_shares.counts.data(),
                  row_shares.offsets.data(),

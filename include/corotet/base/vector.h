@@ -6,6 +6,10 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
+#include <cmath>
+#include <span>
+
 namespace corotet
 {
   /**
@@ -14,12 +18,36 @@ namespace corotet
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
+  /// This rank's share of the inner product of two vectors.
+  double
+  local_inner_product(const Vector &a, const Vector &b);
+
+  /// Replaces this rank's shares of sums by the sums over all ranks, with one
+  /// message. Collective.
+  void
+  sum_over_ranks(const std::span<double> values, const MPI_Comm comm);
+
   /**
    * Euclidean norm. Other than Vector::l2_norm(), which stops the program in
    * debug mode, it is not finite if the vector is not. Collective.
    */
   double
   norm(const Vector &vector);
+
+  /// The norms of several vectors, with one message; 0 for null. Collective.
+  template <std::size_t n>
+  std::array<double, n>
+  norms(const std::array<const Vector *, n> &vectors)
+  {
+    std::array<double, n> result{};
+    for (std::size_t i = 0; i < n; ++i)
+      if (vectors[i] != nullptr)
+        result[i] = local_inner_product(*vectors[i], *vectors[i]);
+    sum_over_ranks(result, vectors[0]->get_mpi_communicator());
+    for (double &value : result)
+      value = std::sqrt(value);
+    return result;
+  }
 } // namespace corotet
 
 #endif

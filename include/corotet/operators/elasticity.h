@@ -4,6 +4,7 @@
 #ifndef corotet_operators_elasticity_h
 #define corotet_operators_elasticity_h
 
+#include <corotet/base/joint_reduction.h>
 #include <corotet/base/vector.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
@@ -19,7 +20,7 @@
 namespace corotet
 {
   /**
-   * Elastic energy and shape of a deformed body, over all ranks.
+   * Elastic energy and shape of a deformed body.
    */
   struct ElasticState
   {
@@ -34,6 +35,10 @@ namespace corotet
     unsigned int degenerate_cells = 0;
     /// Cells whose rotation the fast algorithm left to the robust one.
     unsigned int robust_rotations = 0;
+
+    /// What makes the state of the body of those of its ranks.
+    void
+    reduce(JointReduction &reduction);
   };
 
   /**
@@ -163,6 +168,10 @@ namespace corotet
 
     ElasticState
     state(const Vector &u) const;
+
+    /// The same of this rank's cells. Not collective.
+    ElasticState
+    local_state(const Vector &u) const;
 
     CellResults
     cell_results(const Vector &u) const;

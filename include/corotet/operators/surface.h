@@ -92,9 +92,15 @@ namespace corotet
   }
 
   /**
-   * Volume of the body displaced by @p u [m^3], by the divergence theorem:
-   * exact. Collective.
+   * The share of this rank's faces of the volume of the body displaced by @p u
+   * [m^3], by the divergence theorem: the sum over all ranks is exact.
    */
+  double
+  local_displaced_volume(const Discretization   &discretization,
+                         const ReferenceElement &reference,
+                         const Vector           &u);
+
+  /// The volume itself. Collective.
   double
   displaced_volume(const Discretization   &discretization,
                    const ReferenceElement &reference,

@@ -138,9 +138,10 @@ namespace corotet
     State  kept;
     /// Size of the forces [N]: of the last residual, of the last stage that was
     /// solved, and what residuals of the stage are compared with at least.
-    double force_scale  = 0;
-    double solved_scale = 0;
-    double stage_scale  = 0;
+    double force_scale    = 0;
+    double external_force = 0;
+    double solved_scale   = 0;
+    double stage_scale    = 0;
     /// Which ends by round-off the log has shown.
     std::set<NewtonReport::RoundOff> shown_round_off;
     // Of the last update of the operator.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -23,7 +24,8 @@ namespace corotet
    * gradients do. The preconditioner, symmetric and positive definite, need not
    * be quite linear.
    *
-   * It takes 2 k + 3 vectors, while GMRES takes two in each iteration.
+   * It takes 2 k + 3 vectors, while GMRES takes two in each iteration; and
+   * three sums over the ranks in each iteration.
    */
   class FlexibleCG
   {
@@ -34,6 +36,8 @@ namespace corotet
       , directions(k)
       , images(k)
       , curvatures(k)
+      , crosses(k * k)
+      , sums(k + 2)
     {}
 
     /**
@@ -66,23 +70,15 @@ namespace corotet
 
           P.vmult(p, r);
           A.vmult(Ap, p);
-          // From the oldest on: later ones are conjugate to it already.
-          const unsigned int k     = directions.size();
-          const unsigned int first = step < k ? 0 : step - k;
-          for (unsigned int i = first; i < step; ++i)
-            {
-              const double factor =
-                -(directions[i % k] * Ap) / curvatures[i % k];
-              p.add(factor, directions[i % k]);
-              Ap.add(factor, images[i % k]);
-            }
-          const double curvature = p * Ap;
+          make_conjugate(step, p, Ap);
+          const auto [curvature, slope] = take_products(step, p, Ap, r);
           if (!(curvature > 0))
             return false;
-          const double length = (p * r) / curvature;
+          const double length = slope / curvature;
           x.add(length, p);
-          residual = std::sqrt(std::max(r.add_and_dot(-length, Ap, r), 0.));
-          keep(step % k, p, Ap, curvature);
+          r.add(-length, Ap);
+          residual = norm(r);
+          keep(step % directions.size(), p, Ap, curvature);
         }
     }
 
@@ -100,6 +96,56 @@ namespace corotet
         std::log(residuals[n - 1 - window] / residuals[n - 1]);
       const double left = std::log(residuals[n - 1] / control.tolerance());
       return !(left * window <= 2. * n * fall);
+    }
+
+    /// The oldest of the directions that are kept at @p step.
+    unsigned int
+    first(const unsigned int step) const
+    {
+      const unsigned int k = directions.size();
+      return step < k ? 0 : step - k;
+    }
+
+    /// Makes A p orthogonal to the kept directions. From the oldest on: the
+    /// images of later ones are orthogonal to it already, and what its own
+    /// image adds to the products with later ones is known, so that all
+    /// products are taken together.
+    void
+    make_conjugate(const unsigned int step, Vector &p, Vector &Ap)
+    {
+      const unsigned int k = directions.size(), begin = first(step);
+      if (begin == step)
+        return;
+      for (unsigned int i = begin; i < step; ++i)
+        sums[i - begin] = local_inner_product(directions[i % k], Ap);
+      sum_over_ranks({sums.data(), step - begin}, p.get_mpi_communicator());
+      for (unsigned int i = begin; i < step; ++i)
+        {
+          const double factor = -sums[i - begin] / curvatures[i % k];
+          p.add(factor, directions[i % k]);
+          Ap.add(factor, images[i % k]);
+          for (unsigned int j = i + 1; j < step; ++j)
+            sums[j - begin] += factor * crosses[(j % k) * k + i % k];
+        }
+    }
+
+    /// p . A p and p . r. Notes the products of p with the images of the
+    /// directions that the next step has, too.
+    std::pair<double, double>
+    take_products(const unsigned int step,
+                  const Vector      &p,
+                  const Vector      &Ap,
+                  const Vector      &r)
+    {
+      const unsigned int k = directions.size(), begin = first(step + 1);
+      sums[0] = local_inner_product(p, Ap);
+      sums[1] = local_inner_product(p, r);
+      for (unsigned int i = begin; i < step; ++i)
+        sums[2 + i - begin] = local_inner_product(p, images[i % k]);
+      sum_over_ranks({sums.data(), 2 + step - begin}, p.get_mpi_communicator());
+      for (unsigned int i = begin; i < step; ++i)
+        crosses[(step % k) * k + i % k] = sums[2 + i - begin];
+      return {sums[0], sums[1]};
     }
 
     /// In place of the oldest direction, whose storage the next one takes.
@@ -123,6 +169,9 @@ namespace corotet
     std::vector<Vector>    directions;
     std::vector<Vector>    images;
     std::vector<double>    curvatures;
+    /// Entry (j, i): direction j times image i, of an older one.
+    std::vector<double> crosses;
+    std::vector<double> sums;
   };
 } // namespace corotet
 
