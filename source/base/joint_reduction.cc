@@ -13,14 +13,15 @@ namespace corotet
   {
     // One item is an array: the number of its sums, these, and then numbers of
     // which the largest are wanted. So MPI cannot cut it into pieces.
-    void
+    // The parameters are those of MPI's functions of this kind.
+    void // NOLINTNEXTLINE(readability-non-const-parameter)
     combine(void *in, void *in_out, int *n_items, MPI_Datatype *type)
     {
       int size = 0;
       MPI_Type_size(*type, &size);
-      const int     n = size / static_cast<int>(sizeof(double));
-      const double *a = static_cast<const double *>(in);
-      double       *b = static_cast<double *>(in_out);
+      const int   n = size / static_cast<int>(sizeof(double));
+      const auto *a = static_cast<const double *>(in);
+      auto       *b = static_cast<double *>(in_out);
       for (int item = 0; item < *n_items; ++item, a += n, b += n)
         {
           const int end_of_sums = 1 + static_cast<int>(b[0]);
@@ -49,11 +50,11 @@ namespace corotet
     for (const double *value : minima)
       values.push_back(-*value);
 
-    MPI_Datatype type;
+    MPI_Datatype type = MPI_DATATYPE_NULL;
     MPI_Type_contiguous(values.size(), MPI_DOUBLE, &type);
     MPI_Type_commit(&type);
-    MPI_Op operation;
-    MPI_Op_create(combine, true, &operation);
+    MPI_Op operation = MPI_OP_NULL;
+    MPI_Op_create(combine, 1, &operation);
     MPI_Allreduce(MPI_IN_PLACE, values.data(), 1, type, operation, comm);
     MPI_Op_free(&operation);
     MPI_Type_free(&type);

@@ -200,7 +200,8 @@ namespace corotet
       if (!preconditioner->change(A, J, positions, done, expected))
         return;
       done_before_change = done;
-      most               = done + largest_number(true, J != nullptr);
+      most               = std::min(parameters.max_iterations,
+                      done + largest_number(true, J != nullptr));
       ++n_builds;
     };
     for (;;)

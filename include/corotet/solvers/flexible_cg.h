@@ -36,7 +36,7 @@ namespace corotet
       , directions(k)
       , images(k)
       , curvatures(k)
-      , crosses(k * k)
+      , crosses(std::size_t(k) * k)
       , sums(k + 2)
     {}
 
