@@ -10,22 +10,22 @@
 namespace corotet
 {
   double
-  local_inner_product(const Vector &a, const Vector &b)
+  inner_product(const std::span<const double> a,
+                const std::span<const double> b)
   {
     // Independent sums: additions need not wait for each other, and round-off
     // is that of shorter sums.
-    constexpr unsigned int     n_sums = 16;
-    const unsigned int         n      = a.locally_owned_size();
-    const double              *x = a.begin(), *y = b.begin();
+    constexpr std::size_t      n_sums = 16;
+    const std::size_t          n      = a.size();
     std::array<double, n_sums> sums{};
-    unsigned int               i = 0;
+    std::size_t                i = 0;
     for (; i + n_sums <= n; i += n_sums)
-      for (unsigned int k = 0; k < n_sums; ++k)
-        sums[k] += x[i + k] * y[i + k];
-    for (unsigned int k = 0; i < n; ++i, ++k)
-      sums[k] += x[i] * y[i];
-    for (unsigned int half = n_sums / 2; half > 0; half /= 2)
-      for (unsigned int k = 0; k < half; ++k)
+      for (std::size_t k = 0; k < n_sums; ++k)
+        sums[k] += a[i + k] * b[i + k];
+    for (std::size_t k = 0; i < n; ++i, ++k)
+      sums[k] += a[i] * b[i];
+    for (std::size_t half = n_sums / 2; half > 0; half /= 2)
+      for (std::size_t k = 0; k < half; ++k)
         sums[k] += sums[k + half];
     return sums[0];
   }

@@ -44,24 +44,6 @@ namespace corotet
           y[i] = sum;
         }
     }
-
-    // Eight sums, so that processors add them side by side.
-    double
-    dot_product(const double *x, const double *y, const unsigned int n)
-    {
-      constexpr unsigned int width = 8;
-      double                 sums[width]{};
-      unsigned int           i = 0;
-      for (; i + width <= n; i += width)
-        for (unsigned int k = 0; k < width; ++k)
-          sums[k] += x[i + k] * y[i + k];
-      for (unsigned int k = 0; i < n; ++i, ++k)
-        sums[k] += x[i] * y[i];
-      double sum = 0;
-      for (const double part : sums)
-        sum += part;
-      return sum;
-    }
   } // namespace
 
   VectorSpace::VectorSpace(const Vector                    &like,
@@ -191,9 +173,8 @@ namespace corotet
                      double *sum = sums.data();
                      for (unsigned int j = 0; j < B.size(); ++j)
                        for (unsigned int i = 0; i < A.size(); ++i)
-                         *sum++ += dot_product(A[i].begin() + begin,
-                                               B[j].begin() + begin,
-                                               n);
+                         *sum++ += inner_product({A[i].begin() + begin, n},
+                                                 {B[j].begin() + begin, n});
                    });
     dealii::Utilities::MPI::sum(sums,
                                 A.the_space->zero.get_mpi_communicator(),
@@ -208,9 +189,7 @@ namespace corotet
   {
     std::vector<double> result(size());
     for (unsigned int j = 0; j < size(); ++j)
-      result[j] = dot_product(columns[j]->begin(),
-                              other[j].begin(),
-                              columns[j]->locally_owned_size());
+      result[j] = local_inner_product(*columns[j], other[j]);
     dealii::Utilities::MPI::sum(result,
                                 the_space->zero.get_mpi_communicator(),
                                 result);

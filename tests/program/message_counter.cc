@@ -16,6 +16,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <numeric>
 #include <string>
 
 namespace
@@ -38,314 +39,252 @@ namespace
 
   Kind messages{"messages"}, reductions{"reductions"}, gathers{"gathers"},
     exchanges{"exchanges"}, barriers{"barriers"};
+
+  long
+  n_ranks(const MPI_Comm comm)
+  {
+    int size = 0;
+    PMPI_Comm_size(comm, &size);
+    return size;
+  }
 } // namespace
+
+// Function MPI_NAME: adds so many items to its kind, and does what it does.
+#define COUNTED(kind, count, type, name, parameters, arguments) \
+  int MPI_##name parameters                                     \
+  {                                                             \
+    kind.add(count, type);                                      \
+    return PMPI_##name arguments;                               \
+  }
+
+#define COUNTED_SEND(name)    \
+  COUNTED(messages,           \
+          n,                  \
+          type,               \
+          name,               \
+          (const void  *data, \
+           int          n,    \
+           MPI_Datatype type, \
+           int          to,   \
+           int          tag,  \
+           MPI_Comm     comm),    \
+          (data, n, type, to, tag, comm))
+
+#define COUNTED_ISEND(name)       \
+  COUNTED(messages,               \
+          n,                      \
+          type,                   \
+          name,                   \
+          (const void  *data,     \
+           int          n,        \
+           MPI_Datatype type,     \
+           int          to,       \
+           int          tag,      \
+           MPI_Comm     comm,     \
+           MPI_Request *request), \
+          (data, n, type, to, tag, comm, request))
+
+#define COUNTED_REDUCTION(name) \
+  COUNTED(reductions,           \
+          n,                    \
+          type,                 \
+          name,                 \
+          (const void  *data,   \
+           void        *result, \
+           int          n,      \
+           MPI_Datatype type,   \
+           MPI_Op       op,     \
+           MPI_Comm     comm),      \
+          (data, result, n, type, op, comm))
 
 extern "C"
 {
-  int
-  MPI_Send(const void  *data,
+  COUNTED_SEND(Send)
+  COUNTED_SEND(Ssend)
+  COUNTED_SEND(Rsend)
+  COUNTED_ISEND(Isend)
+  COUNTED_ISEND(Issend)
+  COUNTED_REDUCTION(Allreduce)
+  COUNTED_REDUCTION(Scan)
+  COUNTED_REDUCTION(Exscan)
+  COUNTED(messages,
+          n,
+          type,
+          Sendrecv,
+          (const void  *data,
            int          n,
            MPI_Datatype type,
            int          to,
            int          tag,
-           MPI_Comm     comm)
-  {
-    messages.add(n, type);
-    return PMPI_Send(data, n, type, to, tag, comm);
-  }
-
-  int
-  MPI_Ssend(const void  *data,
-            int          n,
-            MPI_Datatype type,
-            int          to,
-            int          tag,
-            MPI_Comm     comm)
-  {
-    messages.add(n, type);
-    return PMPI_Ssend(data, n, type, to, tag, comm);
-  }
-
-  int
-  MPI_Isend(const void  *data,
-            int          n,
-            MPI_Datatype type,
-            int          to,
-            int          tag,
-            MPI_Comm     comm,
-            MPI_Request *request)
-  {
-    messages.add(n, type);
-    return PMPI_Isend(data, n, type, to, tag, comm, request);
-  }
-
-  int
-  MPI_Issend(const void  *data,
-             int          n,
-             MPI_Datatype type,
-             int          to,
-             int          tag,
-             MPI_Comm     comm,
-             MPI_Request *request)
-  {
-    messages.add(n, type);
-    return PMPI_Issend(data, n, type, to, tag, comm, request);
-  }
-
-  int
-  MPI_Rsend(const void  *data,
-            int          n,
-            MPI_Datatype type,
-            int          to,
-            int          tag,
-            MPI_Comm     comm)
-  {
-    messages.add(n, type);
-    return PMPI_Rsend(data, n, type, to, tag, comm);
-  }
-
-  int
-  MPI_Sendrecv(const void  *data,
-               int          n,
-               MPI_Datatype type,
-               int          to,
-               int          tag,
-               void        *received,
-               int          n_received,
-               MPI_Datatype type_received,
-               int          from,
-               int          tag_received,
-               MPI_Comm     comm,
-               MPI_Status  *status)
-  {
-    messages.add(n, type);
-    return PMPI_Sendrecv(data,
-                         n,
-                         type,
-                         to,
-                         tag,
-                         received,
-                         n_received,
-                         type_received,
-                         from,
-                         tag_received,
-                         comm,
-                         status);
-  }
-
-  int
-  MPI_Allreduce(const void  *data,
-                void        *result,
-                int          n,
-                MPI_Datatype type,
-                MPI_Op       op,
-                MPI_Comm     comm)
-  {
-    reductions.add(n, type);
-    return PMPI_Allreduce(data, result, n, type, op, comm);
-  }
-
-  int
-  MPI_Iallreduce(const void  *data,
-                 void        *result,
-                 int          n,
-                 MPI_Datatype type,
-                 MPI_Op       op,
-                 MPI_Comm     comm,
-                 MPI_Request *request)
-  {
-    reductions.add(n, type);
-    return PMPI_Iallreduce(data, result, n, type, op, comm, request);
-  }
-
-  int
-  MPI_Reduce(const void  *data,
-             void        *result,
-             int          n,
-             MPI_Datatype type,
-             MPI_Op       op,
-             int          root,
-             MPI_Comm     comm)
-  {
-    reductions.add(n, type);
-    return PMPI_Reduce(data, result, n, type, op, root, comm);
-  }
-
-  int
-  MPI_Scan(const void  *data,
+           void        *received,
+           int          n_received,
+           MPI_Datatype received_type,
+           int          from,
+           int          received_tag,
+           MPI_Comm     comm,
+           MPI_Status  *status),
+          (data,
+           n,
+           type,
+           to,
+           tag,
+           received,
+           n_received,
+           received_type,
+           from,
+           received_tag,
+           comm,
+           status))
+  COUNTED(reductions,
+          n,
+          type,
+          Reduce,
+          (const void  *data,
            void        *result,
            int          n,
            MPI_Datatype type,
            MPI_Op       op,
-           MPI_Comm     comm)
-  {
-    reductions.add(n, type);
-    return PMPI_Scan(data, result, n, type, op, comm);
-  }
-
-  int
-  MPI_Exscan(const void  *data,
-             void        *result,
-             int          n,
-             MPI_Datatype type,
-             MPI_Op       op,
-             MPI_Comm     comm)
-  {
-    reductions.add(n, type);
-    return PMPI_Exscan(data, result, n, type, op, comm);
-  }
-
-  int
-  MPI_Bcast(void *data, int n, MPI_Datatype type, int root, MPI_Comm comm)
-  {
-    gathers.add(n, type);
-    return PMPI_Bcast(data, n, type, root, comm);
-  }
-
-  int
-  MPI_Gather(const void  *data,
-             int          n,
-             MPI_Datatype type,
-             void        *all,
-             int          n_all,
-             MPI_Datatype type_all,
-             int          root,
-             MPI_Comm     comm)
-  {
-    gathers.add(data == MPI_IN_PLACE ? 0 : n, type);
-    return PMPI_Gather(data, n, type, all, n_all, type_all, root, comm);
-  }
-
-  int
-  MPI_Gatherv(const void  *data,
-              int          n,
-              MPI_Datatype type,
-              void        *all,
-              const int   *counts,
-              const int   *offsets,
-              MPI_Datatype type_all,
-              int          root,
-              MPI_Comm     comm)
-  {
-    gathers.add(data == MPI_IN_PLACE ? 0 : n, type);
-    return PMPI_Gatherv(
-      data, n, type, all, counts, offsets, type_all, root, comm);
-  }
-
-  int
-  MPI_Scatter(const void  *all,
-              int          n_all,
-              MPI_Datatype type_all,
-              void        *data,
-              int          n,
-              MPI_Datatype type,
-              int          root,
-              MPI_Comm     comm)
-  {
-    gathers.add(data == MPI_IN_PLACE ? 0 : n, type);
-    return PMPI_Scatter(all, n_all, type_all, data, n, type, root, comm);
-  }
-
-  int
-  MPI_Scatterv(const void  *all,
-               const int   *counts,
-               const int   *offsets,
-               MPI_Datatype type_all,
-               void        *data,
-               int          n,
-               MPI_Datatype type,
-               int          root,
-               MPI_Comm     comm)
-  {
-    gathers.add(data == MPI_IN_PLACE ? 0 : n, type);
-    return PMPI_Scatterv(
-      all, counts, offsets, type_all, data, n, type, root, comm);
-  }
-
-  int
-  MPI_Allgather(const void  *data,
-                int          n,
-                MPI_Datatype type,
-                void        *all,
-                int          n_all,
-                MPI_Datatype type_all,
-                MPI_Comm     comm)
-  {
-    exchanges.add(data == MPI_IN_PLACE ? 0 : n, type);
-    return PMPI_Allgather(data, n, type, all, n_all, type_all, comm);
-  }
-
-  int
-  MPI_Allgatherv(const void  *data,
-                 int          n,
-                 MPI_Datatype type,
-                 void        *all,
-                 const int   *counts,
-                 const int   *offsets,
-                 MPI_Datatype type_all,
-                 MPI_Comm     comm)
-  {
-    exchanges.add(data == MPI_IN_PLACE ? 0 : n, type);
-    return PMPI_Allgatherv(data, n, type, all, counts, offsets, type_all, comm);
-  }
-
-  int
-  MPI_Alltoall(const void  *data,
-               int          n,
-               MPI_Datatype type,
-               void        *received,
-               int          n_received,
-               MPI_Datatype type_received,
-               MPI_Comm     comm)
-  {
-    int size = 0;
-    PMPI_Comm_size(comm, &size);
-    exchanges.add(static_cast<long>(n) * size, type);
-    return PMPI_Alltoall(
-      data, n, type, received, n_received, type_received, comm);
-  }
-
-  int
-  MPI_Alltoallv(const void  *data,
-                const int   *counts,
-                const int   *offsets,
-                MPI_Datatype type,
-                void        *received,
-                const int   *received_counts,
-                const int   *received_offsets,
-                MPI_Datatype received_type,
-                MPI_Comm     comm)
-  {
-    int size = 0;
-    PMPI_Comm_size(comm, &size);
-    long n = 0;
-    for (int rank = 0; rank < size; ++rank)
-      n += counts[rank];
-    exchanges.add(n, type);
-    return PMPI_Alltoallv(data,
-                          counts,
-                          offsets,
-                          type,
-                          received,
-                          received_counts,
-                          received_offsets,
-                          received_type,
-                          comm);
-  }
-
-  int
-  MPI_Barrier(MPI_Comm comm)
-  {
-    ++barriers.calls;
-    return PMPI_Barrier(comm);
-  }
-
-  int
-  MPI_Ibarrier(MPI_Comm comm, MPI_Request *request)
-  {
-    ++barriers.calls;
-    return PMPI_Ibarrier(comm, request);
-  }
+           int          root,
+           MPI_Comm     comm),
+          (data, result, n, type, op, root, comm))
+  COUNTED(reductions,
+          n,
+          type,
+          Iallreduce,
+          (const void  *data,
+           void        *result,
+           int          n,
+           MPI_Datatype type,
+           MPI_Op       op,
+           MPI_Comm     comm,
+           MPI_Request *request),
+          (data, result, n, type, op, comm, request))
+  COUNTED(gathers,
+          n,
+          type,
+          Bcast,
+          (void *data, int n, MPI_Datatype type, int root, MPI_Comm comm),
+          (data, n, type, root, comm))
+  COUNTED(gathers,
+          data == MPI_IN_PLACE ? 0 : n,
+          type,
+          Gather,
+          (const void  *data,
+           int          n,
+           MPI_Datatype type,
+           void        *all,
+           int          n_all,
+           MPI_Datatype all_type,
+           int          root,
+           MPI_Comm     comm),
+          (data, n, type, all, n_all, all_type, root, comm))
+  COUNTED(gathers,
+          data == MPI_IN_PLACE ? 0 : n,
+          type,
+          Gatherv,
+          (const void  *data,
+           int          n,
+           MPI_Datatype type,
+           void        *all,
+           const int   *counts,
+           const int   *offsets,
+           MPI_Datatype all_type,
+           int          root,
+           MPI_Comm     comm),
+          (data, n, type, all, counts, offsets, all_type, root, comm))
+  COUNTED(gathers,
+          data == MPI_IN_PLACE ? 0 : n,
+          type,
+          Scatter,
+          (const void  *all,
+           int          n_all,
+           MPI_Datatype all_type,
+           void        *data,
+           int          n,
+           MPI_Datatype type,
+           int          root,
+           MPI_Comm     comm),
+          (all, n_all, all_type, data, n, type, root, comm))
+  COUNTED(gathers,
+          data == MPI_IN_PLACE ? 0 : n,
+          type,
+          Scatterv,
+          (const void  *all,
+           const int   *counts,
+           const int   *offsets,
+           MPI_Datatype all_type,
+           void        *data,
+           int          n,
+           MPI_Datatype type,
+           int          root,
+           MPI_Comm     comm),
+          (all, counts, offsets, all_type, data, n, type, root, comm))
+  COUNTED(exchanges,
+          data == MPI_IN_PLACE ? 0 : n,
+          type,
+          Allgather,
+          (const void  *data,
+           int          n,
+           MPI_Datatype type,
+           void        *all,
+           int          n_all,
+           MPI_Datatype all_type,
+           MPI_Comm     comm),
+          (data, n, type, all, n_all, all_type, comm))
+  COUNTED(exchanges,
+          data == MPI_IN_PLACE ? 0 : n,
+          type,
+          Allgatherv,
+          (const void  *data,
+           int          n,
+           MPI_Datatype type,
+           void        *all,
+           const int   *counts,
+           const int   *offsets,
+           MPI_Datatype all_type,
+           MPI_Comm     comm),
+          (data, n, type, all, counts, offsets, all_type, comm))
+  COUNTED(exchanges,
+          n *n_ranks(comm),
+          type,
+          Alltoall,
+          (const void  *data,
+           int          n,
+           MPI_Datatype type,
+           void        *received,
+           int          n_received,
+           MPI_Datatype received_type,
+           MPI_Comm     comm),
+          (data, n, type, received, n_received, received_type, comm))
+  COUNTED(exchanges,
+          std::accumulate(counts, counts + n_ranks(comm), 0L),
+          type,
+          Alltoallv,
+          (const void  *data,
+           const int   *counts,
+           const int   *offsets,
+           MPI_Datatype type,
+           void        *received,
+           const int   *received_counts,
+           const int   *received_offsets,
+           MPI_Datatype received_type,
+           MPI_Comm     comm),
+          (data,
+           counts,
+           offsets,
+           type,
+           received,
+           received_counts,
+           received_offsets,
+           received_type,
+           comm))
+  COUNTED(barriers, 0, MPI_BYTE, Barrier, (MPI_Comm comm), (comm))
+  COUNTED(barriers,
+          0,
+          MPI_BYTE,
+          Ibarrier,
+          (MPI_Comm comm, MPI_Request *request),
+          (comm, request))
 
   int
   MPI_Finalize()

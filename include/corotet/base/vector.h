@@ -18,9 +18,18 @@ namespace corotet
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /// This rank's share of the inner product of two vectors.
+  /// Inner product of two arrays of the same length.
   double
-  local_inner_product(const Vector &a, const Vector &b);
+  inner_product(const std::span<const double> a,
+                const std::span<const double> b);
+
+  /// This rank's share of the inner product of two vectors.
+  inline double
+  local_inner_product(const Vector &a, const Vector &b)
+  {
+    return inner_product({a.begin(), a.locally_owned_size()},
+                         {b.begin(), b.locally_owned_size()});
+  }
 
   /// Replaces this rank's shares of sums by the sums over all ranks, with one
   /// message. Collective.
