@@ -13,27 +13,35 @@ and large bodies. --document writes the table into doc/algorithms.md.
 """
 
 import argparse
-import json
-import os
+import functools
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkDelaunay3D
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+sys.dont_write_bytecode = True
+
+from program_runs import document, solve  # pylint: disable=wrong-import-position
+from vtk_grids import tetrahedra_grid, vtk_points  # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "algorithms.md"
-MARKS = ("<!-- solvers -->\n", "\n<!-- end of solvers -->")
 
 
 def box(size, cells):
     return f"  set Type = box\n  subsection box\n    set Size  = {size}\n    set Cells = {cells}\n  end\n"
 
 
-def file(name, *lines):
-    entries = "".join(f"    set {line}\n" for line in (f"File = {name}", *lines))
-    return f"  set Type = file\n  subsection file\n{entries}  end\n"
+def file(name):
+    return f"  set Type = file\n  subsection file\n    set File = {name}\n  end\n"
 
 
 BEAM = box("4, 1, 1", "28, 7, 7")
@@ -105,10 +113,7 @@ Mesh.OptimizeNetgen = 0;
 
 def write_slivers(path, n_points):
     """Delaunay cells of random points of a box of 4 x 1 x 1 m: a quarter of them on its surface, those without volume left out."""
-    import vtk  # pylint: disable=import-outside-toplevel
-    from vtk.util import numpy_support  # pylint: disable=import-outside-toplevel
-
-    vtk.vtkObject.GlobalWarningDisplayOff()  # of degenerate triangles
+    vtkObject.GlobalWarningDisplayOff()  # of degenerate triangles
     random, size = np.random.default_rng(1), np.array([4.0, 1.0, 1.0])
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size
     on_surface = random.random((n_points // 4, 3)) * size
@@ -116,47 +121,29 @@ def write_slivers(path, n_points):
         axis = random.choice(3, p=[0.06, 0.47, 0.47])
         point[axis] = random.integers(2) * size[axis]
     positions = np.vstack([corners, on_surface, random.random((n_points - n_points // 4, 3)) * size])
-    points, cloud = vtk.vtkPoints(), vtk.vtkPolyData()
-    points.SetDataTypeToDouble()
-    points.SetData(numpy_support.numpy_to_vtk(positions, deep=True))
-    cloud.SetPoints(points)
-    delaunay = vtk.vtkDelaunay3D()
+    cloud = vtkPolyData()
+    cloud.SetPoints(vtk_points(positions))
+    delaunay = vtkDelaunay3D()
     delaunay.SetInputData(cloud)
     delaunay.SetTolerance(0)
     delaunay.Update()
-    cells = numpy_support.vtk_to_numpy(delaunay.GetOutput().GetCells().GetConnectivityArray()).reshape(-1, 4)
+    cells = vtk_to_numpy(delaunay.GetOutput().GetCells().GetConnectivityArray()).reshape(-1, 4)
     edges = positions[cells[:, 1:]] - positions[cells[:, :1]]
     volumes = np.linalg.det(edges)
     cells = np.where((volumes > 0)[:, None], cells, cells[:, [0, 2, 1, 3]])[np.abs(volumes) > 1e-9]
     used, numbers = np.unique(cells, return_inverse=True)
-    points.SetData(numpy_support.numpy_to_vtk(positions[used], deep=True))
-    grid = vtk.vtkUnstructuredGrid()
-    grid.SetPoints(points)
-    for cell in numbers.reshape(-1, 4):
-        grid.InsertNextCell(vtk.VTK_TETRA, 4, [int(vertex) for vertex in cell])
-    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer = vtkXMLUnstructuredGridWriter()
     writer.SetFileName(str(path))
-    writer.SetInputData(grid)
+    writer.SetInputData(tetrahedra_grid(positions[used], numbers.reshape(-1, 4)))
     writer.Write()
 
 
-def solve(options, folder, case, most_seconds):
-    """Unknowns, iterations, seconds of assembly, set-up of the solver and solve, MB; None if it takes too long."""
-    (folder / "case.prm").write_text(case, encoding="utf-8")
-    launcher = ["mpirun", "--bind-to", "none", "-np", str(options.ranks)] if options.ranks > 1 else []
-    command = [*launcher, os.path.abspath(options.program), "case.prm", "--output", "results", "--quiet"]
-    try:
-        done = subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
-                              timeout=most_seconds)
-    except subprocess.TimeoutExpired:
-        return None
-    if done.returncode != 0:
-        if "the linear solver stopped" not in done.stderr:
-            raise RuntimeError(f"{done.stderr}\n{case}")
-        return None
-    summary = json.loads((folder / "results" / "summary.json").read_text(encoding="utf-8"))
-    times = summary["wall_time"]
-    return summary["dofs"], summary["final"]["linear_iterations"], times["assembly"] + times["solve"], summary["peak_memory_bytes"] / 1e6
+@functools.cache
+def has_solver(program, name):
+    """Whether this program has it: `amg` needs an optional part of the build."""
+    parameters = subprocess.run([program, "--print-parameters", "markdown"], capture_output=True, text=True, check=True).stdout
+    allowed = re.search(r"## Linear solver\n.*?\| Type \| [^|]* \| one of ([^|]*) \|", parameters, re.DOTALL).group(1)
+    return name in allowed.split(", ")
 
 
 def measure(options, folder, mesh, degree, poisson):
@@ -164,11 +151,11 @@ def measure(options, folder, mesh, degree, poisson):
     found = {}
     too_large = False
     for name, (solver, entries, most, most_seconds, n_runs) in SOLVERS.items():
-        if too_large and solver in ("direct", "amg"):
+        if too_large and solver in ("direct", "amg") or not has_solver(options.program, solver):
             found[name] = None
             continue
         case = CASE.format(mesh=mesh, degree=degree, poisson=poisson, solver=solver, options=entries, most=most)
-        runs = [solve(options, folder, case, most_seconds) for _ in range(min(n_runs, options.repetitions))]
+        runs = [solve(options.program, folder, case, options.ranks, most_seconds) for _ in range(min(n_runs, options.repetitions))]
         found[name] = None if None in runs else min(runs, key=lambda run: run[2])
         too_large = found["points"][0] > MOST_OF_MATRICES
     return found
@@ -215,8 +202,7 @@ def main():
         subprocess.run(["gmsh", "-3", "beam.geo", "-o", "beam.msh", "-v", "1"], cwd=folder, check=True)
         lines = table(options, folder)
     if options.document:
-        before, rest = PAGE.read_text(encoding="utf-8").split(MARKS[0])
-        PAGE.write_text(before + MARKS[0] + "\n".join(lines) + MARKS[1] + rest.split(MARKS[1])[1], encoding="utf-8")
+        document(PAGE, "solvers", lines)
     return 0
 
 

@@ -11,12 +11,13 @@ Programs take turns, so that one can be compared with an older one; of each the 
 """
 
 import argparse
-import json
-import os
 import pathlib
-import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+
+from program_runs import document, solve  # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "algorithms.md"
@@ -65,29 +66,12 @@ end
 """
 
 
-def solve(program, folder, case, ranks):
-    """Unknowns, iterations, seconds of assembly, set-up of the solver and solve, MB."""
-    (folder / "case.prm").write_text(case, encoding="utf-8")
-    launcher = ["mpirun", "--bind-to", "none", "-np", str(ranks)] if ranks > 1 else []
-    subprocess.run([*launcher, program, "case.prm", "--output", "results", "--quiet"], cwd=folder, check=True)
-    summary = json.loads((folder / "results" / "summary.json").read_text(encoding="utf-8"))
-    times = summary["wall_time"]
-    return summary["dofs"], summary["final"]["linear_iterations"], times["assembly"] + times["solve"], summary["peak_memory_bytes"] / 1e6
-
-
-def document(mark, lines):
-    """Puts the lines between the marks of that name in the page."""
-    begin, end = f"<!-- {mark} -->\n", f"\n<!-- end of {mark} -->"
-    before, rest = PAGE.read_text(encoding="utf-8").split(begin)
-    PAGE.write_text(before + begin + "\n".join(lines) + end + rest.split(end.strip())[1], encoding="utf-8")
-
-
 def measure(options, folder, case):
     """The fastest run of each program."""
     runs = {program: [] for program in options.programs}
     for _ in range(options.repetitions):
         for program in options.programs:
-            runs[program].append(solve(os.path.abspath(program), folder, case, options.ranks))
+            runs[program].append(solve(program, folder, case, options.ranks))
     return {program: min(found, key=lambda run: run[2]) for program, found in runs.items()}
 
 
@@ -118,7 +102,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         lines = aggregation(options, pathlib.Path(temporary))
     if options.document:
-        document("aggregation", lines)
+        document(PAGE, "aggregation", lines)
     return 0
 
 

@@ -24,9 +24,6 @@ import time
 
 import h5py
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructuredGrid
 from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
@@ -35,9 +32,10 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "meshes"))
 
 from make_surfaces import write_stl  # pylint: disable=wrong-import-position
+from program_runs import document  # pylint: disable=wrong-import-position
+from vtk_grids import tetrahedra_grid  # pylint: disable=wrong-import-position
 
 PAGE = ROOT / "doc" / "meshes.md"
-MARKS = ("<!-- readers -->\n", "\n<!-- end of readers -->")
 ALLOWED_FACTOR, ALLOWED_BYTES = 10, 200e6
 
 # Name, ending, arguments of gmsh.
@@ -152,13 +150,7 @@ def write_med(file, points, tetrahedra):
 
 def write_vtk_files(folder, points, tetrahedra):
     """Files of both formats, as VTK writes them, by name."""
-    grid = vtkUnstructuredGrid()
-    vtk_points = vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(points, deep=True))
-    grid.SetPoints(vtk_points)
-    cells = vtkCellArray()
-    cells.SetData(*(numpy_to_vtkIdTypeArray(array, deep=True) for array in (np.arange(0, tetrahedra.size + 1, 4), tetrahedra.ravel())))
-    grid.SetCells(VTK_TETRA, cells)
+    grid = tetrahedra_grid(points, tetrahedra)
     files = {"VTK legacy, binary": folder / "bytes.vtk", "VTU, raw": folder / "raw.vtu", "VTU, compressed": folder / "compressed.vtu"}
     for name, file in files.items():
         writer = vtkXMLUnstructuredGridWriter() if file.suffix == ".vtu" else vtkUnstructuredGridWriter()
@@ -275,10 +267,8 @@ def main():
             gmsh(folder, PLATES.format(n=round((options.cells / 5000) ** 0.5)), file, "-0")
             results.append(tried(program, with_gmsh, name, file, 0, "--size", "1"))
     if options.document:
-        before, rest = PAGE.read_text(encoding="utf-8").split(MARKS[0])
-        head = "| format | file [MB] | memory [MB] | allowed [MB] | seconds | cut off in its middle |\n|---|---:|---:|---:|---:|---|\n"
-        PAGE.write_text(before + MARKS[0] + head + "\n".join(row for row, _ in results) + MARKS[1] + rest.split(MARKS[1].strip())[1],
-                        encoding="utf-8")
+        head = ["| format | file [MB] | memory [MB] | allowed [MB] | seconds | cut off in its middle |", "|---|---:|---:|---:|---:|---|"]
+        document(PAGE, "readers", [*head, *(row for row, _ in results)])
     return 0 if all(good for _, good in results) else 1
 
 

@@ -25,9 +25,9 @@ sys.path[:0] = [str(ROOT / "meshes"), str(ROOT / "tests" / "program")]
 
 from browser import Browser  # pylint: disable=wrong-import-position
 from make_surfaces import trefoil, write_stl  # pylint: disable=wrong-import-position
+from program_runs import document, launcher  # pylint: disable=wrong-import-position
 
 PAGE = ROOT / "doc" / "report.md"
-MARKS = ("<!-- scan -->\n", "\n<!-- end of scan -->")
 MOST_SECONDS, MOST_BYTES = 180, 15e6
 CASE = """include {root}/parameters/trefoil.prm
 subsection Mesh
@@ -60,9 +60,8 @@ def run_case(program, folder, triangles, ranks):
     corners = trefoil(14 * n_around, n_around, 0.5)
     write_stl(folder / "scan.stl", corners)
     (folder / "scan.prm").write_text(CASE.format(root=ROOT), encoding="utf-8")
-    launcher = ["mpirun", "--bind-to", "none", "-np", str(ranks)] if ranks > 1 else []
     begin = time.monotonic()
-    subprocess.run([*launcher, program, "scan.prm", "--output", "results", "--report", "--quiet"], cwd=folder, check=True)
+    subprocess.run([*launcher(ranks), program, "scan.prm", "--output", "results", "--report", "--quiet"], cwd=folder, check=True)
     return len(corners), time.monotonic() - begin
 
 
@@ -102,8 +101,7 @@ def main():
     lines = ["| from a scan to a page | |", "|---|---:|", *(f"| {name} | {value} |" for name, value in rows)]
     print("\n".join(lines))
     if options.document:
-        before, rest = PAGE.read_text(encoding="utf-8").split(MARKS[0])
-        PAGE.write_text(before + MARKS[0] + "\n".join(lines) + MARKS[1] + rest.split(MARKS[1].strip())[1], encoding="utf-8")
+        document(PAGE, "scan", lines)
     return 0 if seconds < MOST_SECONDS and size < MOST_BYTES else 1
 
 

@@ -25,6 +25,10 @@ import sys
 import tempfile
 import time
 
+sys.dont_write_bytecode = True
+
+from program_runs import document  # pylint: disable=wrong-import-position
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "benchmarks" / "shapes.md"
 FORMATS = ("step", "stl")
@@ -178,14 +182,6 @@ def refusals(results):
             if end["outcome"] != "solved"]
 
 
-def document(lines, others):
-    marks = ("<!-- table -->\n", "\n<!-- end of table -->")
-    text = PAGE.read_text(encoding="utf-8")
-    before, rest = text.split(marks[0])
-    content = "\n".join([*lines, *(["", *others] if others else [])])
-    PAGE.write_text(before + marks[0] + content + marks[1] + rest.split(marks[1].strip())[1], encoding="utf-8")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--shapes", type=int, default=100, metavar="N")
@@ -205,7 +201,7 @@ def main():
     lines, good = table(results)
     print("\n".join([*lines, *others]))
     if options.document:
-        document(lines, others)
+        document(PAGE, "table", [*lines, *(["", *others] if others else [])])
     return 0 if good else 1
 
 

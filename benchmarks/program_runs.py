@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""What the scripts of this folder that run the program share: its start on several ranks, linear solves, and tables in pages."""
+
+import json
+import os
+import subprocess
+
+
+def launcher(ranks):
+    """The words before a program that start it on so many ranks."""
+    return ["mpirun", "--bind-to", "none", "-np", str(ranks)] if ranks > 1 else []
+
+
+def solve(program, folder, case, ranks, most_seconds=None):
+    """Runs the text of a parameter file. Unknowns, iterations, seconds of assembly, set-up of the solver and solve, MB; None if it takes
+    longer, or too many iterations."""
+    (folder / "case.prm").write_text(case, encoding="utf-8")
+    command = [*launcher(ranks), os.path.abspath(program), "case.prm", "--output", "results", "--quiet"]
+    try:
+        done = subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
+                              timeout=most_seconds)
+    except subprocess.TimeoutExpired:
+        return None
+    if done.returncode != 0:
+        if "the linear solver stopped" not in done.stderr:
+            raise RuntimeError(f"{done.stderr}\n{case}")
+        return None
+    summary = json.loads((folder / "results" / "summary.json").read_text(encoding="utf-8"))
+    times = summary["wall_time"]
+    return summary["dofs"], summary["final"]["linear_iterations"], times["assembly"] + times["solve"], summary["peak_memory_bytes"] / 1e6
+
+
+def document(page, mark, lines):
+    """Puts the lines between the marks of that name in the page, a Path."""
+    begin, end = f"<!-- {mark} -->", f"<!-- end of {mark} -->"
+    before, rest = page.read_text(encoding="utf-8").split(begin)
+    page.write_text("\n".join([before + begin, *lines, end + rest.split(end)[1]]), encoding="utf-8")
