@@ -107,9 +107,9 @@ def mean_of_cells(run, values):
 
 
 def round_factor(ratio):
-    """The largest of 1, 2, 5, 10, .. that is not above the ratio."""
+    """The largest of 1, 2, 5, 10, .. that is not above the ratio, but for round-off: a ratio of 9.999999999999998 is 10."""
     power = 10.0 ** np.floor(np.log10(ratio))
-    return power * max(leading for leading in (1, 2, 5) if leading * power <= ratio * (1 + 1e-9))
+    return power * max(leading for leading in (1, 2, 5, 10) if leading * power <= ratio * (1 + 1e-9))
 
 
 def choose_warp(run, states, wanted):

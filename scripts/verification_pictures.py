@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
-from fields import with_prefix
+from fields import round_factor, with_prefix
 from pictures import PICTURES, Results, add_image, cell_edges, image_of, outline, plotter, show_body, surface
 
 FOLDER = PICTURES / "verification"
@@ -150,9 +150,7 @@ def magnification(grids):
     largest = max(np.linalg.norm(grid["displacement"], axis=1).max() for grid in grids)
     if largest == 0 or largest >= MAY_BE_DRAWN_AS_IT_IS * size:
         return 1
-    ratio = 0.1 * size / largest
-    power = 10.0 ** np.floor(np.log10(ratio))
-    return power * max(leading for leading in (1, 2, 5) if leading * power <= ratio)
+    return round_factor(0.1 * size / largest)
 
 
 def norm_of(mesh, quantity):

@@ -13,7 +13,9 @@ import numpy as np
 from PIL import Image
 from vtkmodules import vtkRenderingOpenGL2
 
-from scripts_support import ScriptTest, state_of, times_of
+from scripts_support import ScriptTest, state_of, times_of  # and the scripts' modules
+
+from fields import round_factor
 
 BARE = ("--without", "legend", "time", "axes", "outline")
 SMALL = ("--size", "400", "300")
@@ -140,6 +142,13 @@ class Render(ScriptTest):
         self.start(self.runs / "plate", *SMALL, "--out", "mode.gif")
         with Image.open(self.folder / "mode.gif") as film:
             self.assertEqual(film.n_frames, 24)
+
+    def test_round_factors(self):
+        """Of modes the ratio is a power of ten but for the round-off of their scale, on either side."""
+        for ratio, factor in ((10, 10), (np.nextafter(10, 0), 10), (np.nextafter(10, 20), 10), (9.99, 5), (4.99, 2), (2, 2), (1.9, 1), (0.05, 0.05),
+                              (np.nextafter(1e-3, 0), 1e-3), (np.nextafter(5000, 0), 5000)):
+            with self.subTest(ratio=ratio):
+                np.testing.assert_allclose(round_factor(ratio), factor, rtol=1e-15)
 
     def test_together(self):
         """Three states side by side are as wide as their shifts say."""
