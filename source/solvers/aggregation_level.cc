@@ -27,8 +27,7 @@ namespace corotet
   AggregationLevel<d>::build(const BlockMatrix                         &A,
                              const std::shared_ptr<const BlockPattern> &pattern,
                              std::vector<PointFrame<d>>                 frames,
-                             const double threshold,
-                             const int    most)
+                             const Coarsening &coarsening)
   {
     const bool is_new = points != pattern;
     if (is_new)
@@ -46,11 +45,12 @@ namespace corotet
     copy_matrix(A);
     if (is_new)
       {
-        has_aggregate_blocks = false;
-        if (threshold > 0)
+        const bool has_blocks = coarsening.least_similarity > 0;
+        has_aggregate_blocks  = false;
+        if (has_blocks)
           estimate_largest_eigenvalue();
-        set_up_pattern(threshold, most, frames);
-        has_aggregate_blocks = threshold > 0;
+        set_up_pattern(coarsening, frames);
+        has_aggregate_blocks = has_blocks;
       }
     if (has_aggregate_blocks)
       invert_aggregates(A);
@@ -225,12 +225,10 @@ namespace corotet
   AggregationLevel<3>::build(const BlockMatrix &,
                              const std::shared_ptr<const BlockPattern> &,
                              std::vector<PointFrame<3>>,
-                             const double,
-                             const int);
+                             const Coarsening &);
   template void
   AggregationLevel<6>::build(const BlockMatrix &,
                              const std::shared_ptr<const BlockPattern> &,
                              std::vector<PointFrame<6>>,
-                             const double,
-                             const int);
+                             const Coarsening &);
 } // namespace corotet

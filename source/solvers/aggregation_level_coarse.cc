@@ -87,54 +87,38 @@ namespace corotet
           target[a] += rows[a][k + c] * b[c];
     }
 
-    /// Motions that an aggregate lacks get a 1 on the diagonal. Columns of the
-    /// pattern have global numbers; a row of the matrix has its owned ones
-    /// first.
+    /// Six values of these.
     void
-    copy_blocks(BlockMatrix                             &matrix,
-                const NodeGraph                         &pattern,
-                const std::vector<std::array<Modes, 6>> &blocks,
-                const int                                first)
+    add(double *target, const Modes &values)
     {
-      const int end_of_owned = first + pattern.n_rows();
-      for (int i = 0; i < pattern.n_rows(); ++i)
-        {
-          const auto columns = [&](const int number) {
-            return std::lower_bound(pattern.columns.begin() + pattern.starts[i],
-                                    pattern.columns.begin() +
-                                      pattern.starts[i + 1],
-                                    number) -
-                   pattern.columns.begin();
-          };
-          const int begin   = pattern.starts[i];
-          const int n_below = columns(first) - begin;
-          const int n_owned = columns(end_of_owned) - begin - n_below;
-          const int own     = columns(first + i) - begin - n_below;
-          for (int m = 0; m < 6; ++m)
-            {
-              double *values = matrix.row(2 * i + m / 3, m % 3);
-              for (int k = 0; k < pattern.starts[i + 1] - begin; ++k)
-                {
-                  int place = k;
-                  if (k < n_below)
-                    place = n_owned + k;
-                  else if (k < n_below + n_owned)
-                    place = k - n_below;
-                  for (int l = 0; l < 6; ++l)
-                    values[6 * place + l] = blocks[begin + k][m][l];
-                }
-              double &diagonal = values[6 * own + m];
-              if (diagonal == 0)
-                diagonal = 1;
-            }
-        }
+      for (int m = 0; m < 6; ++m)
+        target[m] += values[m];
     }
   } // namespace
 
+  /// Six values for each unknown of the point.
   template <int d>
   struct AggregationLevel<d>::ProlongationBlock
   {
-    std::array<Modes, d> rows{};
+    std::array<Modes, d>
+    rows() const
+    {
+      std::array<Modes, d> result{};
+      for (int a = 0; a < d; ++a)
+        for (int m = 0; m < 6; ++m)
+          result[a][m] = values[a][m];
+      return result;
+    }
+
+    void
+    set(const std::array<Modes, d> &rows)
+    {
+      for (int a = 0; a < d; ++a)
+        for (int m = 0; m < 6; ++m)
+          values[a][m] = rows[a][m];
+    }
+
+    std::array<std::array<double, 6>, d> values{};
   };
 
   /// The coarse unknowns' motions of the owned points, and of each aggregate as
@@ -163,9 +147,11 @@ namespace corotet
     points->exchange().update(frames.data());
     std::vector<ProlongationBlock> prolongation(
       prolongation_pattern.columns.size());
-    const Motions motions = rigid_motions(frames);
-    multiply_by_motions(prolongation, A, motions, frames);
-    smooth_motions(prolongation, motions);
+    {
+      const Motions motions = rigid_motions(frames);
+      multiply_by_motions(prolongation, A, motions, frames);
+      smooth_motions(prolongation, motions);
+    }
     prolongation_ghosts.update(prolongation.data());
     fill_coarse(A, prolongation);
   }
@@ -238,32 +224,35 @@ namespace corotet
     const std::vector<PointFrame<d>> &frames) const
   {
     const NodeGraph &graph = points->graph();
-    // Of owned aggregates.
-    std::vector<int> place(points_of_aggregates.n_rows());
+    // Of owned aggregates, in the row.
+    std::vector<int>                  place(points_of_aggregates.n_rows());
+    std::vector<std::array<Modes, d>> sums;
     for (int i = 0; i < n_points; ++i)
       {
-        for (int k = prolongation_pattern.starts[i];
-             k < prolongation_pattern.starts[i + 1];
-             ++k)
-          place[prolongation_pattern.columns[k] - first_aggregate] = k;
+        const int first = prolongation_pattern.starts[i];
+        const int n     = prolongation_pattern.starts[i + 1] - first;
+        sums.assign(n, std::array<Modes, d>());
+        for (int k = 0; k < n; ++k)
+          place[prolongation_pattern.columns[first + k] - first_aggregate] = k;
         const Rows<d> rows = A.template rows_of<d>(i);
         for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
           {
             const int  j        = graph.columns[k];
             const bool is_ghost = j >= n_points;
             const int  g = aggregates[is_ghost ? i : j] - first_aggregate;
-            add_product<d>(product[place[g]].rows,
+            add_product<d>(sums[place[g]],
                            rows,
                            d * (k - graph.starts[i]),
                            is_ghost ?
                              motions_at(frames[j], motions.aggregates[g]) :
                              motions.points[j]);
           }
-        for (int k = prolongation_pattern.starts[i];
-             k < prolongation_pattern.starts[i + 1];
-             ++k)
-          for (Modes &row : product[k].rows)
-            row /= the_unit;
+        for (int k = 0; k < n; ++k)
+          {
+            for (Modes &row : sums[k])
+              row /= the_unit;
+            product[first + k].set(sums[k]);
+          }
       }
   }
 
@@ -296,8 +285,8 @@ namespace corotet
     std::vector<ProlongationBlock> &prolongation,
     const Motions                  &motions)
   {
-    const double                   omega = 4. / 3 / largest_eigenvalue;
-    std::vector<ProlongationBlock> products;
+    const double                      omega = 4. / 3 / largest_eigenvalue;
+    std::vector<std::array<Modes, d>> products;
     prolongation_blocks.resize(6 *
                                offset(prolongation_pattern.starts[n_points]));
     // Points of one block have the same columns in the prolongation.
@@ -307,49 +296,82 @@ namespace corotet
         const int   n_columns = starts[own[0] + 1] - starts[own[0]];
         products.clear();
         for (int i = 0; i < n; ++i)
-          products.insert(products.end(),
-                          &prolongation[starts[own[i]]],
-                          &prolongation[starts[own[i]]] + n_columns);
+          for (int k = 0; k < n_columns; ++k)
+            products.push_back(prolongation[starts[own[i]] + k].rows());
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n_columns; ++k)
             {
-              const int          entry = starts[own[i]] + k;
-              ProlongationBlock &block = prolongation[entry];
-              block                    = ProlongationBlock();
+              const int            entry = starts[own[i]] + k;
+              std::array<Modes, d> rows{};
               if (prolongation_pattern.columns[entry] == aggregates[own[i]])
-                block.rows = motions.points[own[i]];
+                rows = motions.points[own[i]];
               for (int j = 0; j < n; ++j)
                 for (int b = 0; b < d; ++b)
                   for (int a = 0; a < d; ++a)
-                    block.rows[a] -= omega *
-                                     inverse[d * n * (d * j + b) + d * i + a] *
-                                     products[n_columns * j + k].rows[b];
+                    rows[a] -= omega *
+                               inverse[d * n * (d * j + b) + d * i + a] *
+                               products[n_columns * j + k][b];
+              prolongation[entry].set(rows);
               for (int a = 0; a < d; ++a)
                 for (int m = 0; m < 6; ++m)
                   prolongation_blocks[6 * (d * static_cast<std::size_t>(entry) +
                                            a) +
-                                      m] = block.rows[a][m];
+                                      m] = rows[a][m];
             }
       });
   }
 
-  /// P^T A P / unit.
+  /// Where the entries of a row of the coarse pattern, which have global
+  /// numbers, are in the matrix: owned ones first.
+  template <int d>
+  struct AggregationLevel<d>::CoarseRow
+  {
+    CoarseRow(const NodeGraph &pattern, const int first, const int i)
+      : begin(pattern.starts[i])
+    {
+      const auto columns = [&](const int number) {
+        const auto start = pattern.columns.begin() + begin;
+        const auto end   = pattern.columns.begin() + pattern.starts[i + 1];
+        return static_cast<int>(std::lower_bound(start, end, number) - start);
+      };
+      n_below = columns(first);
+      n_owned = columns(first + pattern.n_rows()) - n_below;
+      own     = place(begin + columns(first + i));
+    }
+
+    int
+    place(const int entry) const
+    {
+      const int k = entry - begin;
+      if (k < n_below)
+        return n_owned + k;
+      return k < n_below + n_owned ? k - n_below : k;
+    }
+
+    int begin, n_below, n_owned, own;
+  };
+
+  /// P^T A P / unit. Motions that an aggregate lacks get a 1 on the diagonal.
   template <int d>
   void
   AggregationLevel<d>::fill_coarse(
     const BlockMatrix                    &A,
     const std::vector<ProlongationBlock> &prolongation)
   {
-    const NodeGraph                  &graph = points->graph();
-    std::vector<std::array<Modes, 6>> matrix(coarse_pattern.columns.size());
+    const NodeGraph                  &graph  = points->graph();
+    BlockMatrix                      &coarse = *problem.matrix;
     std::vector<int>                  place(n_all_aggregates);
-    std::vector<ProlongationBlock>    row_blocks;
+    std::vector<std::array<Modes, d>> row_blocks;
+    std::vector<CoarseRow>            coarse_rows;
+    coarse.set_zero();
+    for (int I = 0; I < coarse_pattern.n_rows(); ++I)
+      coarse_rows.emplace_back(coarse_pattern, first_aggregate, I);
     for (int i = 0; i < n_points; ++i)
       {
         const int *columns =
           &product_pattern.columns[product_pattern.starts[i]];
         const int n = product_pattern.starts[i + 1] - product_pattern.starts[i];
-        row_blocks.assign(n, ProlongationBlock());
+        row_blocks.assign(n, std::array<Modes, d>());
         for (int k = 0; k < n; ++k)
           place[columns[k]] = k;
         const Rows<d> rows = A.template rows_of<d>(i);
@@ -359,11 +381,10 @@ namespace corotet
             for (int l = prolongation_pattern.starts[j];
                  l < prolongation_pattern.starts[j + 1];
                  ++l)
-              add_product<d>(
-                row_blocks[place[prolongation_pattern.columns[l]]].rows,
-                rows,
-                d * (k - graph.starts[i]),
-                prolongation[l].rows);
+              add_product<d>(row_blocks[place[prolongation_pattern.columns[l]]],
+                             rows,
+                             d * (k - graph.starts[i]),
+                             prolongation[l].rows());
           }
         for (int l = prolongation_pattern.starts[i];
              l < prolongation_pattern.starts[i + 1];
@@ -372,21 +393,32 @@ namespace corotet
             const int I = prolongation_pattern.columns[l] - first_aggregate;
             const int last =
               coarse_pattern.columns[coarse_pattern.starts[I + 1] - 1];
-            int               entry = coarse_pattern.starts[I];
-            ProlongationBlock p     = prolongation[l];
-            for (Modes &row : p.rows)
+            const auto target = coarse.template rows_of<6>(I);
+            int        entry  = coarse_pattern.starts[I];
+            auto       p      = prolongation[l].rows();
+            for (Modes &row : p)
               row /= the_unit;
             for (int k = 0; k < n && columns[k] <= last; ++k)
               {
                 while (coarse_pattern.columns[entry] != columns[k])
                   ++entry;
+                const int column = 6 * coarse_rows[I].place(entry);
                 for (int m = 0; m < 6; ++m)
-                  for (int a = 0; a < d; ++a)
-                    matrix[entry][m] += p.rows[a][m] * row_blocks[k].rows[a];
+                  {
+                    Modes sum = p[0][m] * row_blocks[k][0];
+                    for (int a = 1; a < d; ++a)
+                      sum += p[a][m] * row_blocks[k][a];
+                    add(target[m] + column, sum);
+                  }
               }
           }
       }
-    copy_blocks(*problem.matrix, coarse_pattern, matrix, first_aggregate);
+    for (int I = 0; I < coarse_pattern.n_rows(); ++I)
+      for (int m = 0; m < 6; ++m)
+        if (double &diagonal =
+              coarse.template rows_of<6>(I)[m][6 * coarse_rows[I].own + m];
+            diagonal == 0)
+          diagonal = 1;
   }
 
   template void

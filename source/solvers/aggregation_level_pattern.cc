@@ -120,10 +120,11 @@ namespace corotet
   template <int d>
   void
   AggregationLevel<d>::aggregate_points(
-    const double                      threshold,
+    const Coarsening                 &coarsening,
     const std::vector<PointFrame<d>> &frames)
   {
-    const NodeGraph           &graph = points->graph();
+    const double               threshold = coarsening.least_similarity;
+    const NodeGraph           &graph     = points->graph();
     std::vector<unsigned char> is_joined(graph.columns.size());
     for (std::size_t k = 0; k < is_joined.size(); ++k)
       is_joined[k] = graph.columns[k] < n_points ? 1 : 0;
@@ -145,7 +146,14 @@ namespace corotet
       }
     aggregates = aggregate(graph, [&](const int k) { return is_joined[k]; });
     if (threshold == 0)
-      return;
+      {
+        if (coarsening.n_joined > 1 &&
+            dealii::Utilities::MPI::sum(number_of(aggregates),
+                                        points->communicator()) >
+              coarsening.most_aggregates)
+          aggregates = join(graph, aggregates, coarsening.n_joined);
+        return;
+      }
     // Lines of points make aggregates of three, and so hardly fewer of them:
     // these are aggregated once more.
     constexpr int   few = 12, most_passes = 2;
@@ -169,18 +177,17 @@ namespace corotet
 
   template <int d>
   void
-  AggregationLevel<d>::set_up_pattern(const double threshold,
-                                      const int    most,
+  AggregationLevel<d>::set_up_pattern(const Coarsening &coarsening,
                                       const std::vector<PointFrame<d>> &frames)
   {
-    aggregate_points(threshold, frames);
+    aggregate_points(coarsening, frames);
     const int n_own      = number_of(aggregates);
     const int n_ghosts   = points->exchange().n_items() - n_points;
     NodeGraph tentative  = one_entry_each(aggregates);
     points_of_aggregates = transpose(tentative, n_own);
     tentative.starts.insert(tentative.starts.end(), n_ghosts, n_points);
     prolongation_pattern = corotet::product(points->graph(), tentative, n_own);
-    if (threshold > 0)
+    if (coarsening.least_similarity > 0)
       {
         // D couples all points of an aggregate.
         const NodeGraph of_aggregates =
@@ -206,7 +213,8 @@ namespace corotet
     problem        = AggregateProblem();
     // Points without neighbours, as those of many small bodies, stay as many.
     constexpr double almost_all = 0.8;
-    if (n_all > most && n_all < almost_all * points->n_global())
+    if (n_all > coarsening.most_aggregates &&
+        n_all < almost_all * points->n_global())
       problem.aggregates =
         std::make_shared<const BlockPattern>(coarse_pattern,
                                              points->communicator());
@@ -220,11 +228,9 @@ namespace corotet
   }
 
   template void
-  AggregationLevel<3>::set_up_pattern(const double,
-                                      const int,
+  AggregationLevel<3>::set_up_pattern(const Coarsening &,
                                       const std::vector<PointFrame<3>> &);
   template void
-  AggregationLevel<6>::set_up_pattern(const double,
-                                      const int,
+  AggregationLevel<6>::set_up_pattern(const Coarsening &,
                                       const std::vector<PointFrame<6>> &);
 } // namespace corotet

@@ -93,4 +93,56 @@ namespace corotet
         }
     return aggregates;
   }
+
+  std::vector<int>
+  join(const NodeGraph        &graph,
+       const std::vector<int> &aggregates,
+       const unsigned int      most)
+  {
+    const int        n_rows = graph.n_rows();
+    const int        n      = n_rows == 0 ?
+                                0 :
+                                *std::max_element(aggregates.begin(), aggregates.end()) + 1;
+    std::vector<int> joined(n, -1), n_entries(n, 0), beside;
+    // The rows of each aggregate.
+    NodeGraph of_rows;
+    of_rows.columns = aggregates;
+    for (int row = 0; row < n_rows; ++row)
+      of_rows.starts.push_back(row + 1);
+    const NodeGraph rows     = transpose(of_rows, n);
+    int             n_joined = 0;
+    for (int first = 0; first < n; ++first)
+      {
+        if (joined[first] >= 0)
+          continue;
+        beside.clear();
+        int next = first;
+        for (unsigned int size = 1; next >= 0; ++size)
+          {
+            joined[next] = n_joined;
+            if (size == most)
+              break;
+            for (int r = rows.starts[next]; r < rows.starts[next + 1]; ++r)
+              for (int k = graph.starts[rows.columns[r]];
+                   k < graph.starts[rows.columns[r] + 1];
+                   ++k)
+                if (const int column = graph.columns[k];
+                    column < n_rows && joined[aggregates[column]] < 0)
+                  if (n_entries[aggregates[column]]++ == 0)
+                    beside.push_back(aggregates[column]);
+            next = -1;
+            for (const int candidate : beside)
+              if (joined[candidate] < 0 &&
+                  (next < 0 || n_entries[candidate] > n_entries[next]))
+                next = candidate;
+          }
+        for (const int candidate : beside)
+          n_entries[candidate] = 0;
+        ++n_joined;
+      }
+    std::vector<int> result(n_rows);
+    for (int row = 0; row < n_rows; ++row)
+      result[row] = joined[aggregates[row]];
+    return result;
+  }
 } // namespace corotet

@@ -22,8 +22,7 @@ namespace corotet
     for (int i = 0; i < n_nodes; ++i)
       for (int a = 0; a < 3; ++a)
         frames[i].centre[a] = positions[3 * i + a];
-    finest.build(
-      A, A.pattern(), std::move(frames), least_similarity, most_aggregates);
+    finest.build(A, A.pattern(), std::move(frames), coarsening);
     build_coarser(&finest.coarse());
   }
 
@@ -39,7 +38,9 @@ namespace corotet
   void
   SmoothedAggregation::build_coarser(const AggregateProblem *problem)
   {
-    unsigned int n_above = 0;
+    unsigned int n_above    = 0;
+    Coarsening   of_coarser = coarsening;
+    of_coarser.n_joined     = 1;
     for (; problem->aggregates != nullptr; ++n_above)
       {
         if (n_above == coarser.size())
@@ -47,8 +48,7 @@ namespace corotet
         coarser[n_above]->build(*problem->matrix,
                                 problem->aggregates,
                                 problem->frames,
-                                least_similarity,
-                                most_aggregates);
+                                of_coarser);
         problem = &coarser[n_above]->coarse();
       }
     coarser.resize(n_above);
@@ -65,7 +65,7 @@ namespace corotet
     // A second cycle of the levels below costs little and keeps iterations
     // from growing with their number. Not on flat and stretched cells: in
     // single precision it adds to the errors there.
-    const int n_cycles = least_similarity > 0 ? 1 : 2;
+    const int n_cycles = coarsening.least_similarity > 0 ? 1 : 2;
     level.smooth(x_is_zero);
     if (n_above < coarser.size())
       {

@@ -49,6 +49,33 @@ namespace corotet
     }
   } // namespace
 
+  Coarsening
+  VertexLevel::coarsening_for(const CellProportions &cells) const
+  {
+    Coarsening result;
+    if (!cells.are_poor())
+      {
+        // Larger aggregates take a third more iterations of half the work and
+        // memory: for elements of degree 1 only, as on others iterations cost
+        // more.
+        if (quadratic == nullptr)
+          result.n_joined = 3;
+        return result;
+      }
+    // What bends on flat cells takes a large last level: with more levels
+    // iterations double.
+    result.most_aggregates = 4000;
+    // Aggregates end where a rank does. Partitions cut through lines of flat
+    // cells, whose nodes are coupled strongly: aggregates of what is left of
+    // these are worse than those of all neighbours. Stretched cells are cut in
+    // few places only.
+    const bool is_alone =
+      dealii::Utilities::MPI::n_mpi_processes(vertices.communicator()) == 1;
+    if (is_alone || cells.share_stretched > CellProportions::few)
+      result.least_similarity = 0.3;
+    return result;
+  }
+
   bool
   VertexLevel::wants_rotations(const CellProportions &cells) const
   {
@@ -78,15 +105,7 @@ namespace corotet
                                     A.discretization())
     , finest_nodes(std::move(finest_nodes))
   {
-    // Aggregates end where a rank does. Partitions cut through lines of flat
-    // cells, whose nodes are coupled strongly: aggregates of what is left of
-    // these are worse than those of all neighbours. Stretched cells are cut in
-    // few places only.
-    const bool is_alone =
-      dealii::Utilities::MPI::n_mpi_processes(vertices.communicator()) == 1;
-    if (proportions.share_stretched > CellProportions::few ||
-        (is_alone && proportions.share_flat > CellProportions::few))
-      aggregation.set_least_similarity(0.3);
+    aggregation.set_coarsening(coarsening_for(proportions));
     vertices.initialize_vector(x);
     vertices.initialize_vector(b);
     if (quadratic == nullptr)

@@ -34,7 +34,7 @@ namespace
   iterations_of_aggregation(const ClampedBody &body, const double threshold)
   {
     Cycle cycle;
-    cycle.aggregation.set_least_similarity(threshold);
+    cycle.aggregation.set_coarsening({.least_similarity = threshold});
     cycle.aggregation.build(body.A.matrix(), body.positions().begin());
     return iterations(body, cycle);
   }

@@ -164,6 +164,16 @@ namespace corotet
       return result;
     }
 
+    template <int d>
+    std::array<double *, d>
+    rows_of(const int point)
+    {
+      std::array<double *, d> result;
+      for (int a = 0; a < d; ++a)
+        result[a] = row(d / 3 * point + a / 3, a % 3);
+      return result;
+    }
+
     /// The diagonal entry of an owned row, a local number.
     double &
     diagonal(const int row);

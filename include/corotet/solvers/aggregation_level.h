@@ -50,6 +50,20 @@ namespace corotet
     std::vector<PointFrame<6>> frames;
   };
 
+  /// How the points of a level are aggregated.
+  struct Coarsening
+  {
+    /// Aggregates join neighbours that move alike: their similarity, see
+    /// AggregationLevel::similarities(), is at least this one times the largest
+    /// of one of them [-]; with 0, all.
+    double least_similarity = 0;
+    /// More aggregates make a level with a next one, unless these are almost as
+    /// many as the points.
+    int most_aggregates = 330;
+    /// More aggregates than these, of all neighbours, are joined by this many.
+    unsigned int n_joined = 1;
+  };
+
   /**
    * One level of smoothed aggregation: a matrix A whose points have d unknowns
    * each, 3 or 6, in single precision, its smoother, and the way to the level
@@ -66,18 +80,13 @@ namespace corotet
 
     /**
      * @p A has the blocks of @p pattern, in pieces of 3 x 3; @p frames are
-     * those of the owned points. Aggregates join neighbours that move alike:
-     * their similarity, see similarities(), is at least @p threshold times the
-     * largest of one of them [-]; with 0, all. More than @p most aggregates
-     * make a level with a next one, unless these are almost as many as the
-     * points.
+     * those of the owned points.
      */
     void
     build(const BlockMatrix                         &A,
           const std::shared_ptr<const BlockPattern> &pattern,
           std::vector<PointFrame<d>>                 frames,
-          const double                               threshold,
-          const int                                  most);
+          const Coarsening                          &coarsening);
 
     /// Since the last build(). Not collective.
     const AggregateProblem &
@@ -116,7 +125,7 @@ namespace corotet
     }
 
     /// A Chebyshev polynomial of D^-1 A. D has the blocks of points, or, with a
-    /// threshold, those of aggregates.
+    /// least similarity, those of aggregates.
     void
     smooth(const bool x_is_zero) const;
 
@@ -130,6 +139,7 @@ namespace corotet
 
   private:
     struct ProlongationBlock;
+    struct CoarseRow;
     struct Motions;
 
     /// Where the unknowns of point @p i begin, or those of a number of points
@@ -158,11 +168,10 @@ namespace corotet
     std::vector<double>
     similarities(const std::vector<PointFrame<d>> &frames);
     void
-    aggregate_points(const double                      threshold,
+    aggregate_points(const Coarsening                 &coarsening,
                      const std::vector<PointFrame<d>> &frames);
     void
-    set_up_pattern(const double                      threshold,
-                   const int                         most,
+    set_up_pattern(const Coarsening                 &coarsening,
                    const std::vector<PointFrame<d>> &frames);
     void
     build_coarse(const BlockMatrix &A, std::vector<PointFrame<d>> frames);

@@ -27,6 +27,17 @@ namespace corotet
    */
   std::vector<int>
   aggregate(const NodeGraph &graph, const std::function<bool(int)> &is_strong);
+
+  /**
+   * Larger aggregates: in the order of their numbers, each that is free takes
+   * the free one that most entries of the graph join it with, until @p most
+   * are together or none is left. @p aggregates: of each row; columns beyond
+   * the rows do not count. Returns the new aggregate of each row.
+   */
+  std::vector<int>
+  join(const NodeGraph        &graph,
+       const std::vector<int> &aggregates,
+       const unsigned int      most);
 } // namespace corotet
 
 #endif

@@ -39,24 +39,15 @@ namespace corotet
       , finest(degree)
     {}
 
-    /// From the next pattern on, an aggregate joins only what moves alike, see
-    /// AggregationLevel::build() for @p threshold [-]. D then has the diagonal
-    /// blocks of aggregates. With 0, which it is without this call, all
-    /// neighbours are joined, and D has those of points. Flat and stretched
-    /// cells need about 0.3: an aggregate across their weak couplings takes
-    /// for smooth what is not.
+    /// From the next pattern on. Of aggregates with a least similarity, see
+    /// Coarsening, D has the diagonal blocks, otherwise those of points. Flat
+    /// and stretched cells need about 0.3: an aggregate across their weak
+    /// couplings takes for smooth what is not. Only the finest level joins
+    /// aggregates.
     void
-    set_least_similarity(const double threshold)
+    set_coarsening(const Coarsening &wanted)
     {
-      least_similarity = threshold;
-    }
-
-    /// From the next pattern on, the last level has at most @p n aggregates, or
-    /// almost as many as the one above.
-    void
-    set_most_aggregates(const int n)
-    {
-      most_aggregates = n;
+      coarsening = wanted;
     }
 
     /// @p positions: three coordinates per owned node [m]. Throws
@@ -90,8 +81,7 @@ namespace corotet
           const bool         x_is_zero) const;
 
     const unsigned int degree;
-    double             least_similarity = 0;
-    int                most_aggregates  = 4000;
+    Coarsening         coarsening;
 
     /// Unused where the matrix is one of aggregates.
     AggregationLevel<3>                               finest;

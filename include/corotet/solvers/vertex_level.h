@@ -87,6 +87,8 @@ namespace corotet
     }
 
   private:
+    Coarsening
+    coarsening_for(const CellProportions &cells) const;
     bool
     wants_rotations(const CellProportions &cells) const;
     /// Whether factors of A, the matrix of this level, are small enough.
