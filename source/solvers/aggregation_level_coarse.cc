@@ -11,9 +11,6 @@ namespace corotet
 {
   namespace
   {
-    /// Values of six motions, side by side.
-    using Modes [[gnu::vector_size(64)]] = double;
-
     template <int d>
     using Rows = std::array<const double *, d>;
 
@@ -96,31 +93,6 @@ namespace corotet
     }
   } // namespace
 
-  /// Six values for each unknown of the point.
-  template <int d>
-  struct AggregationLevel<d>::ProlongationBlock
-  {
-    std::array<Modes, d>
-    rows() const
-    {
-      std::array<Modes, d> result{};
-      for (int a = 0; a < d; ++a)
-        for (int m = 0; m < 6; ++m)
-          result[a][m] = values[a][m];
-      return result;
-    }
-
-    void
-    set(const std::array<Modes, d> &rows)
-    {
-      for (int a = 0; a < d; ++a)
-        for (int m = 0; m < 6; ++m)
-          values[a][m] = rows[a][m];
-    }
-
-    std::array<std::array<double, 6>, d> values{};
-  };
-
   /// The coarse unknowns' motions of the owned points, and of each aggregate as
   /// if it filled all space.
   template <int d>
@@ -145,15 +117,13 @@ namespace corotet
   {
     frames.resize(points->exchange().n_items());
     points->exchange().update(frames.data());
-    std::vector<ProlongationBlock> prolongation(
-      prolongation_pattern.columns.size());
-    {
-      const Motions motions = rigid_motions(frames);
-      multiply_by_motions(prolongation, A, motions, frames);
-      smooth_motions(prolongation, motions);
-    }
-    prolongation_ghosts.update(prolongation.data());
-    fill_coarse(A, prolongation);
+    // Room for one at a time.
+    prolongation     = {};
+    const auto exact = smoothed_motions(A, rigid_motions(frames), frames);
+    fill_coarse(A, exact);
+    prolongation.resize(prolongation_pattern.starts[n_points]);
+    for (std::size_t k = 0; k < prolongation.size(); ++k)
+      std::copy_n(&exact[k].values[0][0], 6 * d, &prolongation[k].values[0][0]);
   }
 
   /// Those of each aggregate, orthonormal; zero where A has a prescribed
@@ -214,46 +184,42 @@ namespace corotet
     return motions;
   }
 
-  /// A / unit times the motions. Ghosts move with the aggregate of the row.
+  /// Row @p i of A / unit times the motions, for each column of the row of the
+  /// prolongation. Ghosts move with the aggregate of the row. @p place: for
+  /// each owned aggregate, overwritten.
   template <int d>
   void
   AggregationLevel<d>::multiply_by_motions(
-    std::vector<ProlongationBlock>   &product,
+    std::array<Modes, d>             *product,
+    const int                         i,
     const BlockMatrix                &A,
     const Motions                    &motions,
-    const std::vector<PointFrame<d>> &frames) const
+    const std::vector<PointFrame<d>> &frames,
+    std::vector<int>                 &place) const
   {
     const NodeGraph &graph = points->graph();
-    // Of owned aggregates, in the row.
-    std::vector<int>                  place(points_of_aggregates.n_rows());
-    std::vector<std::array<Modes, d>> sums;
-    for (int i = 0; i < n_points; ++i)
+    const int        first = prolongation_pattern.starts[i];
+    const int        n     = prolongation_pattern.starts[i + 1] - first;
+    for (int k = 0; k < n; ++k)
       {
-        const int first = prolongation_pattern.starts[i];
-        const int n     = prolongation_pattern.starts[i + 1] - first;
-        sums.assign(n, std::array<Modes, d>());
-        for (int k = 0; k < n; ++k)
-          place[prolongation_pattern.columns[first + k] - first_aggregate] = k;
-        const Rows<d> rows = A.template rows_of<d>(i);
-        for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
-          {
-            const int  j        = graph.columns[k];
-            const bool is_ghost = j >= n_points;
-            const int  g = aggregates[is_ghost ? i : j] - first_aggregate;
-            add_product<d>(sums[place[g]],
-                           rows,
-                           d * (k - graph.starts[i]),
-                           is_ghost ?
-                             motions_at(frames[j], motions.aggregates[g]) :
-                             motions.points[j]);
-          }
-        for (int k = 0; k < n; ++k)
-          {
-            for (Modes &row : sums[k])
-              row /= the_unit;
-            product[first + k].set(sums[k]);
-          }
+        place[prolongation_pattern.columns[first + k] - first_aggregate] = k;
+        product[k] = std::array<Modes, d>();
       }
+    const Rows<d> rows = A.template rows_of<d>(i);
+    for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
+      {
+        const int  j        = graph.columns[k];
+        const bool is_ghost = j >= n_points;
+        const int  g        = aggregates[is_ghost ? i : j] - first_aggregate;
+        add_product<d>(product[place[g]],
+                       rows,
+                       d * (k - graph.starts[i]),
+                       is_ghost ? motions_at(frames[j], motions.aggregates[g]) :
+                                  motions.points[j]);
+      }
+    for (int k = 0; k < n; ++k)
+      for (Modes &row : product[k])
+        row /= the_unit;
   }
 
   /// Calls action(points, their number, inverse) for each diagonal block of D,
@@ -276,49 +242,54 @@ namespace corotet
         action(&i, 1, &inverse_diagonal[d * offset(i)]);
   }
 
-  /// From the product of A / unit and the motions to the product of
+  /// The prolongation, with rows of ghosts: the product of
   /// I - omega D^-1 A / unit and the motions, omega = 4/3 over the largest
   /// eigenvalue.
   template <int d>
-  void
-  AggregationLevel<d>::smooth_motions(
-    std::vector<ProlongationBlock> &prolongation,
-    const Motions                  &motions)
+  std::vector<typename AggregationLevel<d>::template ProlongationBlock<double>>
+  AggregationLevel<d>::smoothed_motions(
+    const BlockMatrix                &A,
+    const Motions                    &motions,
+    const std::vector<PointFrame<d>> &frames)
   {
+    std::vector<ProlongationBlock<double>> result(
+      prolongation_pattern.columns.size());
     const double                      omega = 4. / 3 / largest_eigenvalue;
     std::vector<std::array<Modes, d>> products;
-    prolongation_blocks.resize(6 *
-                               offset(prolongation_pattern.starts[n_points]));
+    std::vector<int>                  place(points_of_aggregates.n_rows());
     // Points of one block have the same columns in the prolongation.
-    for_each_diagonal_block(
-      [&](const int *own, const int n, const float *inverse) {
-        const auto &starts    = prolongation_pattern.starts;
-        const int   n_columns = starts[own[0] + 1] - starts[own[0]];
-        products.clear();
-        for (int i = 0; i < n; ++i)
-          for (int k = 0; k < n_columns; ++k)
-            products.push_back(prolongation[starts[own[i]] + k].rows());
-        for (int i = 0; i < n; ++i)
-          for (int k = 0; k < n_columns; ++k)
-            {
-              const int            entry = starts[own[i]] + k;
-              std::array<Modes, d> rows{};
-              if (prolongation_pattern.columns[entry] == aggregates[own[i]])
-                rows = motions.points[own[i]];
-              for (int j = 0; j < n; ++j)
-                for (int b = 0; b < d; ++b)
-                  for (int a = 0; a < d; ++a)
-                    rows[a] -= omega *
-                               inverse[d * n * (d * j + b) + d * i + a] *
-                               products[n_columns * j + k][b];
-              prolongation[entry].set(rows);
-              for (int a = 0; a < d; ++a)
-                for (int m = 0; m < 6; ++m)
-                  prolongation_blocks[6 * (d * static_cast<std::size_t>(entry) +
-                                           a) +
-                                      m] = rows[a][m];
-            }
-      });
+    for_each_diagonal_block([&](const int   *own,
+                                const int    n,
+                                const float *inverse) {
+      const auto &starts    = prolongation_pattern.starts;
+      const int   n_columns = starts[own[0] + 1] - starts[own[0]];
+      products.resize(static_cast<std::size_t>(n) * n_columns);
+      for (int i = 0; i < n; ++i)
+        multiply_by_motions(&products[static_cast<std::size_t>(i) * n_columns],
+                            own[i],
+                            A,
+                            motions,
+                            frames,
+                            place);
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n_columns; ++k)
+          {
+            const int            entry = starts[own[i]] + k;
+            std::array<Modes, d> rows{};
+            if (prolongation_pattern.columns[entry] == aggregates[own[i]])
+              rows = motions.points[own[i]];
+            for (int j = 0; j < n; ++j)
+              for (int b = 0; b < d; ++b)
+                for (int a = 0; a < d; ++a)
+                  rows[a] -= omega * inverse[d * n * (d * j + b) + d * i + a] *
+                             products[n_columns * j + k][b];
+            for (int a = 0; a < d; ++a)
+              for (int m = 0; m < 6; ++m)
+                result[entry].values[a][m] = rows[a][m];
+          }
+    });
+    prolongation_ghosts.update(result.data());
+    return result;
   }
 
   /// Where the entries of a row of the coarse pattern, which have global
@@ -355,9 +326,16 @@ namespace corotet
   template <int d>
   void
   AggregationLevel<d>::fill_coarse(
-    const BlockMatrix                    &A,
-    const std::vector<ProlongationBlock> &prolongation)
+    const BlockMatrix                            &A,
+    const std::vector<ProlongationBlock<double>> &exact)
   {
+    const auto prolongation_rows = [&](const int entry) {
+      std::array<Modes, d> rows{};
+      for (int a = 0; a < d; ++a)
+        for (int m = 0; m < 6; ++m)
+          rows[a][m] = exact[entry].values[a][m];
+      return rows;
+    };
     const NodeGraph                  &graph  = points->graph();
     BlockMatrix                      &coarse = *problem.matrix;
     std::vector<int>                  place(n_all_aggregates);
@@ -384,7 +362,7 @@ namespace corotet
               add_product<d>(row_blocks[place[prolongation_pattern.columns[l]]],
                              rows,
                              d * (k - graph.starts[i]),
-                             prolongation[l].rows());
+                             prolongation_rows(l));
           }
         for (int l = prolongation_pattern.starts[i];
              l < prolongation_pattern.starts[i + 1];
@@ -395,7 +373,7 @@ namespace corotet
               coarse_pattern.columns[coarse_pattern.starts[I + 1] - 1];
             const auto target = coarse.template rows_of<6>(I);
             int        entry  = coarse_pattern.starts[I];
-            auto       p      = prolongation[l].rows();
+            auto       p      = prolongation_rows(l);
             for (Modes &row : p)
               row /= the_unit;
             for (int k = 0; k < n && columns[k] <= last; ++k)

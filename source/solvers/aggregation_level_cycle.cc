@@ -158,7 +158,7 @@ namespace corotet
            k < prolongation_pattern.starts[i + 1];
            ++k)
         action(d * i,
-               &prolongation_blocks[6 * offset(k)],
+               &prolongation[k].values[0][0],
                6 * (prolongation_pattern.columns[k] - first_aggregate));
   }
 

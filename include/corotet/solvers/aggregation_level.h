@@ -35,6 +35,9 @@ namespace corotet
     std::array<std::array<double, 6>, 6> motions{};
   };
 
+  /// Values of six motions, side by side.
+  using Modes [[gnu::vector_size(64)]] = double;
+
   /**
    * What a level of aggregation leaves to the next one: six unknowns for each
    * aggregate.
@@ -138,7 +141,12 @@ namespace corotet
     prolongate_add(const float *coarse) const;
 
   private:
-    struct ProlongationBlock;
+    /// Six values for each unknown of a point.
+    template <typename Number>
+    struct ProlongationBlock
+    {
+      Number values[d][6];
+    };
     struct CoarseRow;
     struct Motions;
 
@@ -178,16 +186,19 @@ namespace corotet
     Motions
     rigid_motions(const std::vector<PointFrame<d>> &frames);
     void
-    multiply_by_motions(std::vector<ProlongationBlock>   &product,
+    multiply_by_motions(std::array<Modes, d>             *product,
+                        const int                         i,
                         const BlockMatrix                &A,
                         const Motions                    &motions,
-                        const std::vector<PointFrame<d>> &frames) const;
+                        const std::vector<PointFrame<d>> &frames,
+                        std::vector<int>                 &place) const;
+    std::vector<ProlongationBlock<double>>
+    smoothed_motions(const BlockMatrix                &A,
+                     const Motions                    &motions,
+                     const std::vector<PointFrame<d>> &frames);
     void
-    smooth_motions(std::vector<ProlongationBlock> &prolongation,
-                   const Motions                  &motions);
-    void
-    fill_coarse(const BlockMatrix                    &A,
-                const std::vector<ProlongationBlock> &prolongation);
+    fill_coarse(const BlockMatrix                            &A,
+                const std::vector<ProlongationBlock<double>> &exact);
     void
     apply(float *y, float *x) const;
     void
@@ -229,8 +240,8 @@ namespace corotet
     std::vector<float>       inverse_aggregates;
     std::vector<std::size_t> starts_of_inverses;
     double                   largest_eigenvalue = 0;
-    /// d x 6, by rows.
-    std::vector<float> prolongation_blocks;
+    /// Rows of owned points.
+    std::vector<ProlongationBlock<float>> prolongation;
 
     /// The first two with entries of ghosts.
     mutable std::vector<float> x, direction, rhs, residual, product, scaled;
