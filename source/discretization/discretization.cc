@@ -134,11 +134,31 @@ namespace corotet
       std::make_shared<const dealii::Utilities::MPI::Partitioner>(
         owned, ghosts, mesh.communicator);
 
+    std::vector<unsigned int> local_numbers(numbers.size());
+    for (unsigned int node = 0; node < numbers.size(); ++node)
+      local_numbers[node] =
+        vector_partitioner->global_to_local(3 * numbers[node]) / 3;
+    nodes_of_cells.reserve(std::size_t(n_cell_nodes) * local_mesh_cells.size());
     for (const unsigned int cell : local_mesh_cells)
       for (unsigned int i = 0; i < n_cell_nodes; ++i)
-        nodes_of_cells.push_back(vector_partitioner->global_to_local(
-                                   3 * numbers[nodes.node(cell, i)]) /
-                                 3);
+        nodes_of_cells.push_back(local_numbers[nodes.node(cell, i)]);
+  }
+
+
+
+  CellGeometry
+  Discretization::geometry(const unsigned int cell) const
+  {
+    if (is_curved(cell))
+      return curved_geometries[cell];
+    const LocalMesh        &mesh     = mesh_pointer->local();
+    const SerialMesh::Cell &straight = mesh.cells[local_mesh_cells[cell]];
+    const dealii::Point<3> &origin   = mesh.vertices[straight.vertices[0]];
+    dealii::Tensor<2, 3>    jacobian;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int a = 0; a < 3; ++a)
+        jacobian[a][k] = mesh.vertices[straight.vertices[k + 1]][a] - origin[a];
+    return {invert(jacobian), determinant(jacobian) / 6, straight.region};
   }
 
 
@@ -157,7 +177,6 @@ namespace corotet
                                                           unnamed_boundary}});
     for (const auto &[cell, face, boundary] : mesh.faces)
       boundaries[cell][face] = boundary;
-    geometries.reserve(mesh.cells.size());
     for (unsigned int c = 0; c < local_mesh_cells.size(); ++c)
       {
         const unsigned int      in_mesh = local_mesh_cells[c];
@@ -179,8 +198,6 @@ namespace corotet
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int a = 0; a < 3; ++a)
             jacobian[a][k] = mesh.vertices[cell.vertices[k + 1]][a] - origin[a];
-        geometries.push_back(
-          {invert(jacobian), determinant(jacobian) / 6, cell.region});
 
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
           {

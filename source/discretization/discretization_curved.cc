@@ -54,16 +54,17 @@ namespace corotet
     const MapAtPoints at_nodes(r, fe.base_element(0).get_unit_support_points());
     std::vector<Point<3>> nodes(at_r.n_points());
     curved_cells.resize(n_local_cells());
+    curved_geometries.resize(n_local_cells());
     for (unsigned int c = 0; c < n_local_cells(); ++c)
       {
         const auto curve = mesh_pointer->curved_nodes(local_mesh_cells[c]);
         if (curve.empty())
           continue;
-        curved_cells[c] = 1;
         for (unsigned int v = 0; v < 4; ++v)
           Assert(curve[v].distance(node_position(cell_nodes(c)[v])) <=
-                   1e-10 * std::cbrt(std::abs(geometries[c].volume)),
+                   1e-10 * std::cbrt(std::abs(geometry(c).volume)),
                  dealii::ExcInternalError());
+        curved_cells[c] = 1;
         for (unsigned int i = 0; i < nodes.size(); ++i)
           nodes[i] = at_r.position(curve.data(), i);
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
@@ -109,8 +110,7 @@ namespace corotet
                             node_position(cell_nodes(c)[0])[2],
                             smallest / (6 * std::abs(volume)),
                             degree()));
-            geometries[c].inverse_jacobian = invert(J_centre);
-            geometries[c].volume           = volume;
+            curved_geometries[c] = {invert(J_centre), volume, region(c)};
             for (unsigned int q = 0; q < J.size(); ++q)
               curved->set(cell_batches->place(c),
                           q,

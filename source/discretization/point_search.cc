@@ -180,8 +180,8 @@ namespace corotet
     const double distance = tolerance * longest_edge(vertices);
     if (!discretization->is_curved(cell))
       {
-        const Tensor<2, 3> &G = discretization->geometry(cell).inverse_jacobian;
-        const Point<3>      xi(G * (x - vertices[0]));
+        const Tensor<2, 3> G = discretization->geometry(cell).inverse_jacobian;
+        const Point<3>     xi(G * (x - vertices[0]));
         if (!is_inside(xi, G, distance))
           return {};
         return xi;

@@ -34,7 +34,7 @@ namespace corotet
       }
     material_of_cell.resize(discretization.n_local_cells());
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
-      material_of_cell[c] = index.at(discretization.geometry(c).region);
+      material_of_cell[c] = index.at(discretization.region(c));
     set_up_cells();
   }
 

@@ -56,7 +56,7 @@ namespace corotet
       {
         const auto               nodes = discretization.cell_nodes(c);
         const IsotropicMaterial &material =
-          materials.at(discretization.geometry(c).region);
+          materials.at(discretization.region(c));
         for (unsigned int q = 0; q < rule.weights.size(); ++q)
           {
             Tensor<1, 3> value;

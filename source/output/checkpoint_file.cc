@@ -127,8 +127,7 @@ namespace corotet
           const auto          nodes = discretization.cell_nodes(c);
           const std::uint64_t first =
             std::uint64_t(13) * discretization.mesh_cell(c);
-          sum += checkpoint_checksum::of_word(discretization.geometry(c).region,
-                                              first);
+          sum += checkpoint_checksum::of_word(discretization.region(c), first);
           for (unsigned int v = 0; v < 4; ++v)
             for (unsigned int a = 0; a < 3; ++a)
               {

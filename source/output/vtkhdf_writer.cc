@@ -129,7 +129,7 @@ namespace corotet
     file.write("Types", types.data(), rows);
     std::vector<std::int32_t> regions(n_cells);
     for (unsigned int cell = 0; cell < n_cells; ++cell)
-      regions[cell] = discretization.geometry(cell).region;
+      regions[cell] = discretization.region(cell);
     cells->write(file, "region", regions.data());
     const std::vector<std::int32_t> ranks(n_cells, this_mpi_process(comm));
     cells->write(file, "rank", ranks.data());

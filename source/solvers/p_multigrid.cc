@@ -113,6 +113,8 @@ namespace corotet
       last != nullptr ? &last->coarser : nullptr,
       last != nullptr ? last->is_prescribed : is_prescribed,
       std::move(finest_nodes));
+    if (levels.empty())
+      return;
     const CellBatches &batches = A.discretization().batches();
     coefficients.resize(batches.n_owned_batches() / floats_per_batch);
     masses.resize(coefficients.size());
@@ -145,13 +147,15 @@ namespace corotet
     };
     stiffness_unit = power(stiffness, 2);
     mass_unit      = power(mass, 1);
+    if (levels.empty())
+      return;
 
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       for (unsigned int lane = 0; lane < batch_size; ++lane)
         masses[batch / floats_per_batch]
           .mass[batch % floats_per_batch * batch_size + lane] =
           A.mass().cell_masses()[batch].mass[lane] / mass_unit;
-    if (!levels.empty() && A.mass().is_lumped())
+    if (A.mass().is_lumped())
       copy_scaled(levels[0]->lumped_mass, A.mass().diagonal(), 1 / mass_unit);
   }
 

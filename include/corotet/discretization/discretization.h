@@ -78,10 +78,15 @@ namespace corotet
       return mesh_pointer->local().n_global_cells;
     }
 
-    const CellGeometry &
-    geometry(const unsigned int cell) const
+    /// Computed at each call, but for curved cells.
+    CellGeometry
+    geometry(const unsigned int cell) const;
+
+    /// As the mesh numbers it.
+    unsigned int
+    region(const unsigned int cell) const
     {
-      return geometries[cell];
+      return mesh_pointer->local().cells[local_mesh_cells[cell]].region;
     }
 
     bool
@@ -204,7 +209,8 @@ namespace corotet
     dealii::MappingFE<3> linear_mapping;
 
     std::vector<unsigned int> local_mesh_cells;
-    std::vector<CellGeometry> geometries;
+    /// Empty, or of all local cells, of which curved ones have theirs.
+    std::vector<CellGeometry> curved_geometries;
     std::vector<BoundaryFace> surface;
     std::vector<BoundaryFace> surface_of_ghosts;
     Vector                    positions;

@@ -46,7 +46,7 @@ namespace corotet
     unsigned int
     material_index(const unsigned int cell) const
     {
-      return material_of_region.at(discretization.geometry(cell).region);
+      return material_of_region.at(discretization.region(cell));
     }
 
     const IsotropicMaterial &
