@@ -8,8 +8,11 @@ import subprocess
 
 
 def launcher(ranks):
-    """The words before a program that start it on so many ranks."""
-    return ["mpirun", "--bind-to", "none", "-np", str(ranks)] if ranks > 1 else []
+    """The words before a program that start it on so many ranks: if these are more than there are cores, they let others go first."""
+    if ranks == 1:
+        return []
+    sharing = ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"] if ranks > os.cpu_count() else []
+    return ["mpirun", "--bind-to", "none", *sharing, "-np", str(ranks)]
 
 
 def solve(program, folder, case, ranks, most_seconds=None):

@@ -3,9 +3,8 @@
 
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/edges.h>
+#include <corotet/mesh/hilbert_curve.h>
 #include <corotet/mesh/triangulation.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -59,24 +58,20 @@ namespace corotet
 
       // The same unit of length in all directions: stretching a slender body
       // to a cube would make far cells neighbours on the curve.
-      constexpr int n_bits = 21;
-      const double  unit   = extent > 0 ? ((1 << n_bits) - 1) / extent : 0;
-      std::vector<std::array<std::uint64_t, 3>> coordinates(centres.size());
+      const double unit = extent > 0 ? ((1 << hilbert_bits) - 1) / extent : 0;
+      std::vector<std::array<std::uint32_t, 3>> coordinates(centres.size());
       for (unsigned int c = 0; c < centres.size(); ++c)
         for (unsigned int d = 0; d < 3; ++d)
-          coordinates[c][d] = static_cast<std::uint64_t>(
+          coordinates[c][d] = static_cast<std::uint32_t>(
             unit * (centres[c][d] - box.lower_bound(d)));
-      const auto place =
-        dealii::Utilities::inverse_Hilbert_space_filling_curve<3>(coordinates,
-                                                                  n_bits);
+      const std::vector<std::uint64_t> on_curve =
+        places_on_hilbert_curve(coordinates);
 
       // Cells at the same place keep their order.
       std::vector<std::pair<std::uint64_t, unsigned int>> places;
       places.reserve(centres.size());
       for (unsigned int c = 0; c < centres.size(); ++c)
-        places.emplace_back(dealii::Utilities::pack_integers<3>(place[c],
-                                                                n_bits),
-                            c);
+        places.emplace_back(on_curve[c], c);
       std::sort(places.begin(), places.end());
       std::vector<unsigned int> order;
       order.reserve(centres.size());

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Weak scaling, as far as this machine goes, and a model of it for more ranks. Run it inside of scripts/toolchain:
+
+    benchmarks/scaling.py [--program PROGRAM] [--most-ranks 16] [--cells 4] [--document]
+
+Linear statics of beams of --cells^3 times four cuboids for each rank, degrees 1 to 3, on 1, 2, 4, .. ranks; more than there are cores share
+these, so of them only iterations and memory count. The model takes the times of one rank and of two and computes those of
+up to 1,024 ranks for 1e9 unknowns; what it assumes is in doc/scaling.md, into which --document writes the tables.
+
+The status is 1 if iterations differ by more than two between 2 and the most ranks, if one rank has more than 1.3 times the memory of the
+mean, or if the model is wrong by more than a third for two ranks.
+"""
+
+import argparse
+import dataclasses
+import math
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+
+from end_to_end import MOST_OVER_MEAN, ROOT, run  # pylint: disable=wrong-import-position
+from program_runs import document  # pylint: disable=wrong-import-position
+
+PAGE = ROOT / "doc" / "scaling.md"
+MOST_MORE_ITERATIONS = 2
+MOST_ERROR = 1 / 3
+# Of the network between machines, for each rank: seconds for a message, bytes for a second.
+LATENCY, BANDWIDTH = 2e-6, 1e9
+# Pieces of a curve that fills space touch about so many others.
+NEIGHBOURS = 14
+# By degree, from doc/algorithms.md ("Between ranks"): messages of an iteration to each neighbour, sums over all ranks; layers of nodes on
+# the border between two pieces that go with a message, in terms of those of degree 1.
+MESSAGES, SUMS = {1: 2, 2: 20, 3: 38}, {1: 3, 2: 4, 3: 4}
+# Unknowns for each cell of a large body of tetrahedra.
+UNKNOWNS_OF_CELL = {1: 0.53, 2: 4.2, 3: 13.9}
+LARGE = 1e9
+CASE = """subsection Mesh
+  set Type = box
+  subsection box
+    set Size  = {length}, 1, 1
+    set Cells = {cells}
+  end
+end
+subsection Discretization
+  set Degree = {degree}
+end
+subsection Material
+  set Type = linear
+end
+subsection Boundary conditions
+  set Fixed = x-min
+end
+subsection Loads
+  set Gravity = 0; 0; -1
+end
+subsection Time integration
+  set Type = static
+end
+subsection Linear solver
+  set Type = p-multigrid
+  subsection p-multigrid
+    set Coarse solver = aggregation
+  end
+end
+subsection Output
+  set Overwrite = true
+end
+"""
+
+
+@dataclasses.dataclass
+class Rates:
+    """Of one degree, measured: seconds for each unknown of an iteration, and for each cell of set-up, on rank 0 alone and on all."""
+    iteration: float
+    cell_on_root: float
+    cell_on_all: float
+
+
+def cuboids(ranks, n):
+    """Of a body of 4 : 1 : 1 for each rank, doubled in turn along the shortest direction."""
+    cells = [4 * n, n, n]
+    for _ in range(int(math.log2(ranks))):
+        shortest = cells.index(min(cells))
+        cells[shortest] *= 2
+    return cells
+
+
+def measure(options, folder, degree, ranks, n):
+    cells = cuboids(ranks, n)
+    text = CASE.format(degree=degree, cells=", ".join(map(str, cells)), length=cells[0] / cells[1])
+    (folder / "case.prm").write_text(text, encoding="utf-8")
+    return run(options.program, folder, ranks)[2:]
+
+
+def weak_scaling(options, folder):
+    """Lines of the table, and what is not as it should be."""
+    lines = ["| degree | ranks | unknowns | iterations | MB of the mean rank | largest over mean |", "|---:|" + "---:|" * 5]
+    mistakes = []
+    for degree in (1, 2, 3):
+        iterations = {}
+        ranks = 1
+        while ranks <= options.most_ranks:
+            summary, memory = measure(options, folder, degree, ranks, {1: 4, 2: 2, 3: 1}[degree] * options.cells)
+            iterations[ranks] = summary["final"]["linear_iterations"]
+            mean = sum(memory) / len(memory)
+            lines.append(f"| {degree} | {ranks} | {summary['dofs']} | {iterations[ranks]} | {mean / 1e6:.0f} | {max(memory) / mean:.2f} |")
+            print(lines[-1], flush=True)
+            if max(memory) > MOST_OVER_MEAN * mean:
+                mistakes.append(f"degree {degree}, {ranks} ranks: one has {max(memory) / mean:.2f} times the mean memory")
+            ranks *= 2
+        if iterations[ranks // 2] > iterations[2] + MOST_MORE_ITERATIONS:
+            mistakes.append(f"degree {degree}: {iterations[2]} iterations on 2 ranks, {iterations[ranks // 2]} on {ranks // 2}")
+    return lines, mistakes
+
+
+def rates(degree, summary):
+    """From a run on one rank."""
+    times, n = summary["wall_time"], summary["cells"]
+    return Rates(times["solve"] / summary["final"]["linear_iterations"] / summary["dofs"], times["partition"] / n,
+                 (times["setup"] - times["read"] - times["partition"] + times["assembly"]) / n)
+
+
+def predicted(degree, rate, unknowns, ranks):
+    """Seconds of an iteration: computing, messages, sums; and of set-up: rank 0, all."""
+    own = unknowns / ranks
+    # The surface of a cube, shared with the neighbours; displacements of 4 bytes.
+    border = 6 * (own / 3) ** (2 / 3) * 3 * 4
+    messages = 0 if ranks == 1 else MESSAGES[degree] * (min(NEIGHBOURS, ranks - 1) * LATENCY + border / BANDWIDTH)
+    sums = SUMS[degree] * 2 * math.ceil(math.log2(ranks)) * LATENCY
+    cells = unknowns / UNKNOWNS_OF_CELL[degree]
+    return own * rate.iteration, messages, sums, rate.cell_on_root * cells, rate.cell_on_all * cells / ranks
+
+
+def model(options, folder):
+    """Lines of the table, and what is not as it should be."""
+    lines = ["| degree | ranks | unknowns on each | iteration: computing | messages | sums | efficiency | set-up: rank 0 alone | all |",
+             "|---:|" + "---:|" * 8]
+    mistakes = []
+    for degree in (1, 2, 3):
+        n = {1: 12, 2: 6, 3: 4}[degree] * options.cells
+        alone, both = (min((measure(options, folder, degree, ranks, n)[0] for _ in range(3)), key=lambda one: one["wall_time"]["solve"])
+                       for ranks in (1, 2))
+        rate = rates(degree, alone)
+        expected = sum(predicted(degree, rate, both["dofs"], 2)[:3])
+        found = both["wall_time"]["solve"] / both["final"]["linear_iterations"]
+        print(f"degree {degree}, 2 ranks, {both['dofs']} unknowns: an iteration takes {found:.3g} s, the model says {expected:.3g}", flush=True)
+        if abs(expected / found - 1) > MOST_ERROR:
+            mistakes.append(f"degree {degree}: an iteration on two ranks takes {found:.3g} s, the model says {expected:.3g}")
+        for ranks in (64, 256, 1024):
+            computing, messages, sums, root, everywhere = predicted(degree, rate, LARGE, ranks)
+            lines.append(f"| {degree} | {ranks} | {LARGE / ranks:.2g} | {computing:.2g} | {messages:.2g} | {sums:.2g} | "
+                         f"{100 * computing / (computing + messages + sums):.0f} % | {root:.0f} | {everywhere:.2g} |")
+            print(lines[-1], flush=True)
+    return lines, mistakes
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default=str(ROOT / "build" / "release" / "corotet"))
+    parser.add_argument("--most-ranks", type=int, default=16)
+    parser.add_argument("--cells", type=int, default=4)
+    parser.add_argument("--document", action="store_true")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        weak, mistakes = weak_scaling(options, folder)
+        large, more = model(options, folder)
+    if options.document:
+        document(PAGE, "weak scaling", weak)
+        document(PAGE, "model", large)
+    for mistake in mistakes + more:
+        print(mistake)
+    return 1 if mistakes + more else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
