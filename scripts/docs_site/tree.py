@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PARTS = {
     "First steps": ["doc/installation.md", "doc/tutorial.md", "gallery.md"],
     "Use": ["doc/command_line.md", "doc/parameter_files.md", "doc/parameters.md", "doc/meshes.md", "meshes/README.md", "doc/results.md",
-            "doc/report.md", "doc/pictures.md", "doc/modes.md", "doc/studies.md", "doc/limits.md"],
+            "doc/report.md", "doc/pictures.md", "doc/modes.md", "doc/studies.md", "doc/scaling.md", "doc/limits.md"],
     "Theory": ["doc/physics.md", "doc/rotations.md", "doc/curved.md", "doc/algorithms.md", "doc/references.md"],
     "Evidence": ["doc/verification.md", "doc/measurements.md", "doc/degrees.md", "doc/dynamics.md", "doc/stress.md", "doc/reliability.md",
                  "benchmarks/shapes.md"],
