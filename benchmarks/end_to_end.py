@@ -102,10 +102,10 @@ def row(degree, ranks, fastest):
     wall, processor, summary, memory = fastest
     times, unknowns = summary["wall_time"], summary["dofs"]
     setup = times["setup"] - times["read"]
-    cells = [degree, ranks, summary["cells"], unknowns, summary["final"]["linear_iterations"], f"{times['read']:.2g}", f"{setup:.2g}",
-             f"{1e6 * setup / summary['cells']:.2g}", f"{times['assembly']:.2g}", f"{times['solve']:.2g}", f"{times['output']:.2g}",
-             f"{wall:.2g}", f"{processor:.2g}", f"{sum(memory) / 1e6:.0f}", f"{sum(memory) / unknowns:.0f}",
-             f"{max(memory) * len(memory) / sum(memory):.2f}"]
+    seconds = [times["read"], setup, 1e6 * setup / summary["cells"], times["assembly"], times["solve"], times["output"], wall, processor]
+    cells = [degree, ranks, summary["cells"], unknowns, summary["final"]["linear_iterations"],
+             *(f"{value:.0f}" if value > 10 else f"{value:.2g}" for value in seconds),
+             f"{sum(memory) / 1e6:.0f}", f"{sum(memory) / unknowns:.0f}", f"{max(memory) * len(memory) / sum(memory):.2f}"]
     return "| " + " | ".join(map(str, cells)) + " |"
 
 

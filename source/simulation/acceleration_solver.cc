@@ -12,8 +12,17 @@ namespace corotet
   AccelerationSolver::AccelerationSolver(EquationOfMotion &equation)
     : equation(equation)
     , body(equation.body)
-    , mass_solver(body.discretization, body.mass, body.motion)
   {}
+
+  const MassSolver &
+  AccelerationSolver::mass_solver()
+  {
+    if (!the_mass_solver)
+      the_mass_solver = std::make_unique<const MassSolver>(body.discretization,
+                                                           body.mass,
+                                                           body.motion);
+    return *the_mass_solver;
+  }
 
   void
   AccelerationSolver::solve_lumped(State       &state,
@@ -81,10 +90,10 @@ namespace corotet
     const SurfaceOperator<double> *C =
       has_surface_damping ? &surface_damping(time, velocity_factor) : nullptr;
     if (C != nullptr)
-      report.linear_iterations = mass_solver.solve(a, r, 1 + c, *C);
+      report.linear_iterations = mass_solver().solve(a, r, 1 + c, *C);
     else
       {
-        report.linear_iterations = mass_solver.solve(a, r);
+        report.linear_iterations = mass_solver().solve(a, r);
         a *= 1 / (1 + c);
       }
     state.a += a;
@@ -144,7 +153,7 @@ namespace corotet
       body.elasticity.explicit_step(state.u,
                                     state.v,
                                     equation.last_forces().external,
-                                    mass_solver.inverse_diagonal_vector(),
+                                    mass_solver().inverse_diagonal_vector(),
                                     dt);
     return true;
   }
@@ -175,8 +184,8 @@ namespace corotet
           surface_stiffness.add(f, ghosted);
         body.motion.set_zero(f);
       },
-      [&](Vector &f, const Vector &v) { mass_solver.vmult(f, v); },
-      [&](Vector &v, const Vector &f) { mass_solver.solve(v, f); }};
+      [&](Vector &f, const Vector &v) { mass_solver().vmult(f, v); },
+      [&](Vector &v, const Vector &f) { mass_solver().solve(v, f); }};
     // A start without pattern, the same on any number of ranks.
     Vector       start(state.u);
     const double length = discretization.node_positions().linfty_norm();

@@ -43,6 +43,8 @@ namespace corotet
     largest_frequency(const State &state, const double time = 0);
 
   private:
+    const MassSolver &
+    mass_solver();
     /// With a lumped mass, without damping on the surface; @p c is the part of
     /// damping by mass that is in the velocity to come.
     void
@@ -56,7 +58,8 @@ namespace corotet
 
     EquationOfMotion &equation;
     Body             &body;
-    const MassSolver  mass_solver;
+    /// Made when it is first needed: not by statics.
+    std::unique_ptr<const MassSolver> the_mass_solver;
 
     std::unique_ptr<SurfaceMatrix>           surface;
     std::unique_ptr<SurfaceOperator<double>> damping_operator;
