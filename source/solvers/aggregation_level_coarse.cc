@@ -336,12 +336,12 @@ namespace corotet
           rows[a][m] = exact[entry].values[a][m];
       return rows;
     };
+    problem.matrix = std::make_unique<BlockMatrix>(coarse_matrix_pattern);
     const NodeGraph                  &graph  = points->graph();
     BlockMatrix                      &coarse = *problem.matrix;
     std::vector<int>                  place(n_all_aggregates);
     std::vector<std::array<Modes, d>> row_blocks;
     std::vector<CoarseRow>            coarse_rows;
-    coarse.set_zero();
     for (int I = 0; I < coarse_pattern.n_rows(); ++I)
       coarse_rows.emplace_back(coarse_pattern, first_aggregate, I);
     for (int i = 0; i < n_points; ++i)

@@ -222,9 +222,9 @@ namespace corotet
       coarse_pattern = part_of(coarse_pattern, [&](const int i, const int k) {
         return coarse_pattern.columns[k] <= first_aggregate + i;
       });
-    problem.matrix = std::make_unique<BlockMatrix>(
+    coarse_matrix_pattern =
       std::make_shared<const BlockPattern>(split_in_two(coarse_pattern),
-                                           points->communicator()));
+                                           points->communicator());
   }
 
   template void

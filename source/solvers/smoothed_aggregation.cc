@@ -41,6 +41,13 @@ namespace corotet
     unsigned int n_above    = 0;
     Coarsening   of_coarser = coarsening;
     of_coarser.n_joined     = 1;
+    // Of a matrix below that of a level, what is needed from it is copied.
+    const auto release_matrix = [&](const unsigned int n_levels_above) {
+      if (n_levels_above > 0)
+        coarser[n_levels_above - 1]->release_coarse_matrix();
+      else if (!is_of_aggregates)
+        finest.release_coarse_matrix();
+    };
     for (; problem->aggregates != nullptr; ++n_above)
       {
         if (n_above == coarser.size())
@@ -49,11 +56,13 @@ namespace corotet
                                 problem->aggregates,
                                 problem->frames,
                                 of_coarser);
+        release_matrix(n_above);
         problem = &coarser[n_above]->coarse();
       }
     coarser.resize(n_above);
     last_unknowns.resize(6 * problem->frames.size());
     last_factor.factorize(*problem->matrix);
+    release_matrix(n_above);
   }
 
   template <typename Level>

@@ -98,6 +98,14 @@ namespace corotet
       return problem;
     }
 
+    /// Gives back the memory of the coarse matrix until the next build(). Not
+    /// collective.
+    void
+    release_coarse_matrix()
+    {
+      problem.matrix.reset();
+    }
+
     /// Of all ranks. Not collective.
     int
     n_aggregates() const
@@ -226,8 +234,10 @@ namespace corotet
     GhostExchange prolongation_ghosts;
     NodeGraph     product_pattern;
     /// Its lower triangle only, if this is the last level.
-    NodeGraph        coarse_pattern;
-    AggregateProblem problem;
+    NodeGraph coarse_pattern;
+    /// The same for matrices whose nodes come in twos.
+    std::shared_ptr<const BlockPattern> coarse_matrix_pattern;
+    AggregateProblem                    problem;
 
     double the_unit = 1;
     /// Blocks of A / unit and inverses of its diagonal blocks, by columns.
