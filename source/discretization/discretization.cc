@@ -18,6 +18,24 @@ namespace corotet
   using dealii::numbers::invalid_dof_index;
   using dealii::types::global_dof_index;
 
+  namespace
+  {
+    // dx / dxi of a cell without its curves.
+    dealii::Tensor<2, 3>
+    straight_jacobian(const LocalMesh &mesh, const unsigned int cell)
+    {
+      const auto             &vertices = mesh.cells[cell].vertices;
+      const dealii::Point<3> &origin   = mesh.vertices[vertices[0]];
+      dealii::Tensor<2, 3>    jacobian;
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int a = 0; a < 3; ++a)
+          jacobian[a][k] = mesh.vertices[vertices[k + 1]][a] - origin[a];
+      return jacobian;
+    }
+  } // namespace
+
+
+
   Discretization::Discretization(const Mesh &mesh, const Element element)
     : Nodes(element)
     , mesh_pointer(&mesh)
@@ -151,14 +169,9 @@ namespace corotet
   {
     if (is_curved(cell))
       return curved_geometries[cell];
-    const LocalMesh        &mesh     = mesh_pointer->local();
-    const SerialMesh::Cell &straight = mesh.cells[local_mesh_cells[cell]];
-    const dealii::Point<3> &origin   = mesh.vertices[straight.vertices[0]];
-    dealii::Tensor<2, 3>    jacobian;
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int a = 0; a < 3; ++a)
-        jacobian[a][k] = mesh.vertices[straight.vertices[k + 1]][a] - origin[a];
-    return {invert(jacobian), determinant(jacobian) / 6, straight.region};
+    const dealii::Tensor<2, 3> J =
+      straight_jacobian(mesh_pointer->local(), local_mesh_cells[cell]);
+    return {invert(J), determinant(J) / 6, region(cell)};
   }
 
 
@@ -179,8 +192,7 @@ namespace corotet
       boundaries[cell][face] = boundary;
     for (unsigned int c = 0; c < local_mesh_cells.size(); ++c)
       {
-        const unsigned int      in_mesh = local_mesh_cells[c];
-        const SerialMesh::Cell &cell    = mesh.cells[in_mesh];
+        const unsigned int in_mesh = local_mesh_cells[c];
         for (unsigned int f = 0; f < 4; ++f)
           if (mesh.neighbors[in_mesh][f] == LocalMesh::no_cell)
             {
@@ -193,15 +205,12 @@ namespace corotet
                 surface_of_ghosts.push_back(face);
             }
 
-        const dealii::Point<3> &origin = mesh.vertices[cell.vertices[0]];
-        dealii::Tensor<2, 3>    jacobian;
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int a = 0; a < 3; ++a)
-            jacobian[a][k] = mesh.vertices[cell.vertices[k + 1]][a] - origin[a];
-
+        const dealii::Point<3> &origin =
+          mesh.vertices[mesh.cells[in_mesh].vertices[0]];
+        const dealii::Tensor<2, 3> J = straight_jacobian(mesh, in_mesh);
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
           {
-            const dealii::Tensor<1, 3> x = origin + jacobian * unit_points[i];
+            const dealii::Tensor<1, 3> x = origin + J * unit_points[i];
             for (unsigned int a = 0; a < 3; ++a)
               positions.local_element(3 * cell_nodes(c)[i] + a) = x[a];
           }

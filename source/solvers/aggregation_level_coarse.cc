@@ -84,7 +84,7 @@ namespace corotet
           target[a] += rows[a][k + c] * b[c];
     }
 
-    /// Six values of these.
+    /// Adds the six values to those at @p target.
     void
     add(double *target, const Modes &values)
     {

@@ -95,8 +95,9 @@ TEST(SmoothedAggregation, MoreLevels)
     }
 }
 
-// Three aggregates in one: nearly a third as many, for half as many iterations
-// more (15 and 9), where there are more than the last level has.
+// Three aggregates in one: nearly a third as many, for some more iterations (15
+// and 9; one more or less is round-off), where there are more than the last
+// level has.
 TEST(SmoothedAggregation, JoinedAggregates)
 {
   const SpringBox     box({{60, 15, 15}}, true);
@@ -107,7 +108,7 @@ TEST(SmoothedAggregation, JoinedAggregates)
   // Some find no free neighbour.
   EXPECT_LT(2.5 * with_fewer.n_aggregates().front(),
             preconditioner.n_aggregates().front());
-  EXPECT_LE(iterations(box, with_fewer), 1.7 * iterations(box, preconditioner));
+  EXPECT_LE(iterations(box, with_fewer), iterations(box, preconditioner) + 8);
   const SpringBox     small({{20, 5, 5}}, true);
   SmoothedAggregation of_small, joined_of_small;
   of_small.build(*small.matrix, small.positions().data());
