@@ -83,14 +83,6 @@ namespace corotet
         for (int c = 0; c < d; ++c)
           target[a] += rows[a][k + c] * b[c];
     }
-
-    /// Adds the six values to those at @p target.
-    void
-    add(double *target, const Modes &values)
-    {
-      for (int m = 0; m < 6; ++m)
-        target[m] += values[m];
-    }
   } // namespace
 
   /// The coarse unknowns' motions of the owned points, and of each aggregate as
@@ -329,13 +321,6 @@ namespace corotet
     const BlockMatrix                            &A,
     const std::vector<ProlongationBlock<double>> &exact)
   {
-    const auto prolongation_rows = [&](const int entry) {
-      std::array<Modes, d> rows{};
-      for (int a = 0; a < d; ++a)
-        for (int m = 0; m < 6; ++m)
-          rows[a][m] = exact[entry].values[a][m];
-      return rows;
-    };
     problem.matrix = std::make_unique<BlockMatrix>(coarse_matrix_pattern);
     const NodeGraph                  &graph  = points->graph();
     BlockMatrix                      &coarse = *problem.matrix;
@@ -362,7 +347,7 @@ namespace corotet
               add_product<d>(row_blocks[place[prolongation_pattern.columns[l]]],
                              rows,
                              d * (k - graph.starts[i]),
-                             prolongation_rows(l));
+                             exact[l].rows());
           }
         for (int l = prolongation_pattern.starts[i];
              l < prolongation_pattern.starts[i + 1];
@@ -373,7 +358,7 @@ namespace corotet
               coarse_pattern.columns[coarse_pattern.starts[I + 1] - 1];
             const auto target = coarse.template rows_of<6>(I);
             int        entry  = coarse_pattern.starts[I];
-            auto       p      = prolongation_rows(l);
+            auto       p      = exact[l].rows();
             for (Modes &row : p)
               row /= the_unit;
             for (int k = 0; k < n && columns[k] <= last; ++k)
@@ -386,7 +371,8 @@ namespace corotet
                     Modes sum = p[0][m] * row_blocks[k][0];
                     for (int a = 1; a < d; ++a)
                       sum += p[a][m] * row_blocks[k][a];
-                    add(target[m] + column, sum);
+                    for (int b = 0; b < 6; ++b)
+                      target[m][column + b] += sum[b];
                   }
               }
           }

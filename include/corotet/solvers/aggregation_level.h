@@ -153,6 +153,16 @@ namespace corotet
     template <typename Number>
     struct ProlongationBlock
     {
+      std::array<Modes, d>
+      rows() const
+      {
+        std::array<Modes, d> result{};
+        for (int a = 0; a < d; ++a)
+          for (int m = 0; m < 6; ++m)
+            result[a][m] = values[a][m];
+        return result;
+      }
+
       Number values[d][6];
     };
     struct CoarseRow;
