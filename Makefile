@@ -7,7 +7,7 @@ PRM ?= parameters/cantilever.prm
 ARGUMENTS ?=
 # The CMake presets that `make test` builds and tests.
 PRESETS ?= release debug
-# Not empty: `make bench` takes nine minutes instead of three quarters of an hour, and only small cases.
+# Not empty: `make bench` takes eight minutes instead of half an hour, and only small cases.
 QUICK ?=
 # no: `make docs` leaves out the gallery, whose cases take most of its time.
 GALLERY ?= yes
