@@ -53,7 +53,7 @@ namespace corotet
   VertexLevel::coarsening_for(const CellProportions &cells) const
   {
     Coarsening result;
-    if (!cells.are_poor())
+    if (!cells.are_poor() && !is_thin_body)
       {
         // Larger aggregates take a third more iterations of half the work and
         // memory: for elements of degree 1 only, as on others iterations cost
@@ -62,9 +62,11 @@ namespace corotet
           result.n_joined = 3;
         return result;
       }
-    // What bends on flat cells takes a large last level: with more levels
-    // iterations double.
+    // What bends, as flat cells and thin bodies do, takes a large last level:
+    // with more levels iterations double, or worse.
     result.most_aggregates = 4000;
+    if (!cells.are_poor())
+      return result;
     // Aggregates end where a rank does. Partitions cut through lines of flat
     // cells, whose nodes are coupled strongly: aggregates of what is left of
     // these are worse than those of all neighbours. Stretched cells are cut in
@@ -105,12 +107,12 @@ namespace corotet
                                     A.discretization())
     , finest_nodes(std::move(finest_nodes))
   {
+    is_thin_body = is_thin(A.discretization());
     aggregation.set_coarsening(coarsening_for(proportions));
     vertices.initialize_vector(x);
     vertices.initialize_vector(b);
     if (quadratic == nullptr)
       return;
-    is_thin_body                           = is_thin(A.discretization());
     const std::vector<unsigned char> marks = coarser->marks(is_prescribed);
     prescribed                             = marked_unknowns(marks);
     vertices.initialize_vector(float_x);
