@@ -29,21 +29,11 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 sys.dont_write_bytecode = True
 
-from program_runs import document, solve  # pylint: disable=wrong-import-position
+from program_runs import bent_body, box, document, file, solve  # pylint: disable=wrong-import-position
 from vtk_grids import tetrahedra_grid, vtk_points  # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "algorithms.md"
-
-
-def box(size, cells):
-    return f"  set Type = box\n  subsection box\n    set Size  = {size}\n    set Cells = {cells}\n  end\n"
-
-
-def file(name):
-    return f"  set Type = file\n  subsection file\n    set File = {name}\n  end\n"
-
-
 BEAM = box("4, 1, 1", "28, 7, 7")
 # Unknowns above which whole matrices take gigabytes.
 MOST_OF_MATRICES = 150000
@@ -65,34 +55,16 @@ BODIES = [
     ("slivers: Delaunay cells of random points", file("slivers.vtu"), 0.3),
     ("beam of gmsh's cells, not optimised", file("beam.msh"), 0.3),
 ]
-CASE = """subsection Mesh
-{mesh}end
-subsection Selections
+MORE = """subsection Selections
   set Boundaries = held: box -1e-6 -1 -1 1e-6 2 2
 end
-subsection Discretization
-  set Degree = {degree}
-end
 subsection Material
-  set Type            = linear
   set Poisson's ratio = {poisson}
-end
-subsection Boundary conditions
-  set Fixed = held
-end
-subsection Loads
-  set Gravity = 0; 0; -1
-end
-subsection Time integration
-  set Type = static
 end
 subsection Linear solver
   set Type               = {solver}
   set Maximum iterations = {most}
 {options}end
-subsection Output
-  set Overwrite = true
-end
 """
 POINTS = "  subsection p-multigrid\n    set Vertex rotations = false\n  end\n"
 # Name: Type, further entries, most iterations, most seconds, runs at most.
@@ -154,7 +126,7 @@ def measure(options, folder, mesh, degree, poisson):
         if too_large and solver in ("direct", "amg") or not has_solver(options.program, solver):
             found[name] = None
             continue
-        case = CASE.format(mesh=mesh, degree=degree, poisson=poisson, solver=solver, options=entries, most=most)
+        case = bent_body(mesh, degree, "held", MORE.format(poisson=poisson, solver=solver, options=entries, most=most))
         runs = [solve(options.program, folder, case, options.ranks, most_seconds) for _ in range(min(n_runs, options.repetitions))]
         found[name] = None if None in runs else min(runs, key=lambda run: run[2])
         too_large = found["points"][0] > MOST_OF_MATRICES

@@ -1,10 +1,55 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What the scripts of this folder that run the program share: its start on several ranks, linear solves, and tables in pages."""
+"""What the scripts of this folder that run the program share: a case, its start on several ranks, linear solves, and tables in pages."""
 
 import json
 import os
 import subprocess
+
+BENT_BODY = """subsection Mesh
+{mesh}end
+subsection Discretization
+  set Degree = {degree}
+end
+subsection Material
+  set Type = linear
+end
+subsection Boundary conditions
+  set Fixed = {held}
+end
+subsection Loads
+  set Gravity = 0; 0; -1
+end
+subsection Time integration
+  set Type = static
+end
+subsection Output
+  set Overwrite = true
+end
+{more}"""
+# More of a case: degree 1 as on large bodies.
+BY_AGGREGATION = """subsection Linear solver
+  set Type = p-multigrid
+  subsection p-multigrid
+    set Coarse solver = aggregation
+  end
+end
+"""
+
+
+def box(size, cells):
+    """Entries of a mesh: three numbers each, as text."""
+    return f"  set Type = box\n  subsection box\n    set Size  = {size}\n    set Cells = {cells}\n  end\n"
+
+
+def file(name):
+    """Entries of a mesh."""
+    return f"  set Type = file\n  subsection file\n    set File = {name}\n  end\n"
+
+
+def bent_body(mesh, degree, held, more=""):
+    """A parameter file: linear statics of a body that is held at one place and bent by its weight; `more` sections of it."""
+    return BENT_BODY.format(mesh=mesh, degree=degree, held=held, more=more)
 
 
 def launcher(ranks):

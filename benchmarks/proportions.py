@@ -17,7 +17,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 
-from program_runs import document, solve  # pylint: disable=wrong-import-position
+from program_runs import BY_AGGREGATION, bent_body, box, document, solve  # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "algorithms.md"
@@ -32,38 +32,6 @@ BODIES = {
     "plate of two layers": [("1, 1, 0.01", "80, 80, 2")],
 }
 QUICK = 60000
-CASE = """subsection Mesh
-  set Type = box
-  subsection box
-    set Size  = {size}
-    set Cells = {cells}
-  end
-end
-subsection Discretization
-  set Degree = 1
-end
-subsection Material
-  set Type = linear
-end
-subsection Boundary conditions
-  set Fixed = x-min
-end
-subsection Loads
-  set Gravity = 0; 0; -1
-end
-subsection Time integration
-  set Type = static
-end
-subsection Linear solver
-  set Type = p-multigrid
-  subsection p-multigrid
-    set Coarse solver = aggregation
-  end
-end
-subsection Output
-  set Overwrite = true
-end
-"""
 
 
 def measure(options, folder, case):
@@ -82,7 +50,7 @@ def aggregation(options, folder):
             counts = [int(n) + 1 for n in cells.split(",")]
             if options.quick and 3 * counts[0] * counts[1] * counts[2] > QUICK:
                 continue
-            case = CASE.format(size=size, cells=cells)
+            case = bent_body(box(size, cells), 1, "x-min", BY_AGGREGATION)
             for program, (unknowns, iterations, seconds, memory) in measure(options, folder, case).items():
                 line = f"| {name} | {unknowns} | {iterations} | {seconds:.2g} | {memory:.0f} |"
                 print(line + ("" if len(options.programs) == 1 else f" {program}"), flush=True)

@@ -23,7 +23,7 @@ import tempfile
 sys.dont_write_bytecode = True
 
 from end_to_end import MOST_OVER_MEAN, ROOT, run  # pylint: disable=wrong-import-position
-from program_runs import document  # pylint: disable=wrong-import-position
+from program_runs import BY_AGGREGATION, bent_body, box, document  # pylint: disable=wrong-import-position
 
 PAGE = ROOT / "doc" / "scaling.md"
 MOST_MORE_ITERATIONS = 2
@@ -38,38 +38,6 @@ MESSAGES, SUMS = {1: 2, 2: 20, 3: 38}, {1: 3, 2: 4, 3: 4}
 # Unknowns for each cell of a large body of tetrahedra.
 UNKNOWNS_OF_CELL = {1: 0.53, 2: 4.2, 3: 13.9}
 LARGE = 1e9
-CASE = """subsection Mesh
-  set Type = box
-  subsection box
-    set Size  = {length}, 1, 1
-    set Cells = {cells}
-  end
-end
-subsection Discretization
-  set Degree = {degree}
-end
-subsection Material
-  set Type = linear
-end
-subsection Boundary conditions
-  set Fixed = x-min
-end
-subsection Loads
-  set Gravity = 0; 0; -1
-end
-subsection Time integration
-  set Type = static
-end
-subsection Linear solver
-  set Type = p-multigrid
-  subsection p-multigrid
-    set Coarse solver = aggregation
-  end
-end
-subsection Output
-  set Overwrite = true
-end
-"""
 
 
 @dataclasses.dataclass
@@ -91,8 +59,8 @@ def cuboids(ranks, n):
 
 def measure(options, folder, degree, ranks, n):
     cells = cuboids(ranks, n)
-    text = CASE.format(degree=degree, cells=", ".join(map(str, cells)), length=cells[0] / cells[1])
-    (folder / "case.prm").write_text(text, encoding="utf-8")
+    mesh = box(f"{cells[0] / cells[1]}, 1, 1", ", ".join(map(str, cells)))
+    (folder / "case.prm").write_text(bent_body(mesh, degree, "x-min", BY_AGGREGATION), encoding="utf-8")
     return run(options.program, folder, ranks)[2:]
 
 
