@@ -91,7 +91,7 @@ namespace corotet
                 action(c, neighbor);
       };
       for_each_neighbor([&](const unsigned int c, const unsigned int neighbor) {
-        if (mesh.is_owned(neighbor))
+        if (neighbor > c && mesh.is_owned(neighbor))
           sets.unite(c, neighbor);
       });
       auto [labels, n_own] = sets.numbers();
@@ -103,9 +103,13 @@ namespace corotet
 
       const std::vector<unsigned int> &of_cells = labels;
       Pairs                            pairs;
+      unsigned int                     last = invalid_unsigned_int;
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        if (mesh.is_owned(c))
-          pairs.insert({of_cells[c], of_cells[c]});
+        if (mesh.is_owned(c) && of_cells[c] != last)
+          {
+            last = of_cells[c];
+            pairs.insert({last, last});
+          }
       for_each_neighbor([&](const unsigned int c, const unsigned int neighbor) {
         if (!mesh.is_owned(neighbor))
           pairs.insert({of_cells[c], of_cells[neighbor]});
@@ -132,12 +136,17 @@ namespace corotet
     for (const auto &[a, b] : pairs)
       if (parts[numbers[a]] == invalid_unsigned_int)
         parts[numbers[a]] = n_parts++;
-    Pairs part_regions;
+    Pairs                                 part_regions;
+    std::pair<unsigned int, unsigned int> last(invalid_unsigned_int, 0);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         labels[c] = parts[numbers[labels[c]]];
-        if (mesh.is_owned(c))
-          part_regions.insert({labels[c], mesh.cells[c].region});
+        const std::pair<unsigned int, unsigned int> pair(labels[c],
+                                                         mesh.cells[c].region);
+        if (!mesh.is_owned(c) || pair == last)
+          continue;
+        part_regions.insert(pair);
+        last = pair;
       }
     regions.resize(n_parts);
     for (const auto &[part, region] : of_all_ranks(part_regions, comm))

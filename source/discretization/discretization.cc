@@ -5,7 +5,6 @@
 #include <corotet/discretization/finite_element.h>
 #include <corotet/discretization/local_nodes.h>
 #include <corotet/mesh/ghost_cells.h>
-#include <corotet/mesh/triangulation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_simplex_p.h>

@@ -32,7 +32,15 @@ namespace corotet
   void
   DeadLoad::add_force(Vector &f, const Motion &motion) const
   {
-    if (varies_in_space || !varies_in_time)
+    if (!varies_in_space && !varies_in_time)
+      {
+        const Tensor<1, 3> constant = value({}, {}, motion.time);
+        integrate(f, [&](const Point<3> &, const Tensor<1, 3> &) {
+          return constant;
+        });
+        return;
+      }
+    if (varies_in_space)
       {
         integrate(f, [&](const Point<3> &x, const Tensor<1, 3> &normal) {
           return value(x, normal, motion.time);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/mpi.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh_quality.h>
@@ -96,17 +97,17 @@ namespace corotet
     // What the checks of the maps of one degree have found.
     struct Folds
     {
-      std::size_t             n_cells = 0;
-      double                  worst   = std::numeric_limits<double>::infinity();
-      unsigned int            worst_point = 0;
-      const SerialMesh::Cell *worst_cell  = nullptr;
+      std::size_t            n_cells = 0;
+      double                 worst   = std::numeric_limits<double>::infinity();
+      unsigned int           worst_point = 0;
+      const MeshCells::Cell *worst_cell  = nullptr;
     };
 
 
 
     // Smallest determinants of the maps, interpolated with @p degree.
     Folds
-    find_folds(const SerialMesh &mesh, const unsigned int degree)
+    find_folds(const MeshCells &mesh, const unsigned int degree)
     {
       const auto            rule = determinant_rule();
       const MapAtPoints     on_lattice(degree, lattice(6));
@@ -114,8 +115,8 @@ namespace corotet
       const MapAtPoints     full(mesh.geometry_degree, map_points(degree));
       std::vector<Point<3>> nodes(full.n_points());
       Folds                 folds;
-      for (const SerialMesh::Cell &cell : mesh.cells)
-        if (cell.curve != SerialMesh::straight)
+      for (const MeshCells::Cell &cell : mesh.cells)
+        if (cell.curve != MeshCells::straight)
           {
             for (unsigned int i = 0; i < nodes.size(); ++i)
               nodes[i] = full.position(curved_nodes(mesh, cell), i);
@@ -192,26 +193,25 @@ namespace corotet
 
 
   const Point<3> *
-  curved_nodes(const SerialMesh &mesh, const SerialMesh::Cell &cell)
+  curved_nodes(const MeshCells &mesh, const MeshCells::Cell &cell)
   {
-    const std::size_t q = mesh.geometry_degree;
-    return &mesh.curved_nodes[(q + 1) * (q + 2) * (q + 3) / 6 * cell.curve];
+    return &mesh.curved_nodes[std::size_t(mesh.n_map_nodes()) * cell.curve];
   }
 
 
 
   void
-  remove_straight_maps(SerialMesh &mesh)
+  remove_straight_maps(MeshCells &mesh)
   {
     if (mesh.geometry_degree == 1)
       return;
     const std::vector<Point<3>> points = map_points(mesh.geometry_degree);
     std::vector<Point<3>>       kept;
-    for (SerialMesh::Cell &cell : mesh.cells)
-      if (cell.curve != SerialMesh::straight)
+    for (MeshCells::Cell &cell : mesh.cells)
+      if (cell.curve != MeshCells::straight)
         {
           const Point<3> *nodes = curved_nodes(mesh, cell);
-          cell.curve            = SerialMesh::straight;
+          cell.curve            = MeshCells::straight;
           if (is_straight(nodes, points))
             continue;
           cell.curve = kept.size() / points.size();
@@ -225,32 +225,44 @@ namespace corotet
 
 
   double
-  check_curved_cells(const SerialMesh &mesh, const unsigned int element_degree)
+  check_curved_cells(const MeshCells   &mesh,
+                     const std::string &origin,
+                     const unsigned int element_degree,
+                     const MPI_Comm     comm)
   {
-    double worst = std::numeric_limits<double>::infinity();
+    namespace MPI = dealii::Utilities::MPI;
+    double worst  = std::numeric_limits<double>::infinity();
     for (unsigned int degree = std::min(mesh.geometry_degree, element_degree);
          degree > 1;
          --degree)
       {
-        const Folds folds = find_folds(mesh, degree);
-        if (folds.n_cells > 0)
+        const Folds       folds    = find_folds(mesh, degree);
+        const std::size_t n_folded = MPI::sum(folds.n_cells, comm);
+        const double      lowest   = MPI::min(folds.worst, comm);
+        worst                      = std::min(worst, lowest);
+        if (n_folded == 0)
+          continue;
+        const std::size_t n_curved =
+          MPI::sum(mesh.curved_nodes.size() / mesh.n_map_nodes(), comm);
+        on_all_ranks(comm, [&] {
+          if (folds.worst_cell == nullptr || folds.worst > lowest)
+            return;
           refuse_mesh(
-            mesh,
+            origin,
             fmt::format(
-              "{} of {} curved cells {} folded: found a Jacobian determinant "
-              "of {:.3g} times its mean at {}; it must be positive everywhere, "
-              "so make the mesh finer there, let gmsh optimise its "
-              "high-order nodes, or take Discretization/Degree = 1, whose "
-              "cells are straight",
-              folds.n_cells,
-              mesh.curved_nodes.size() /
-                map_points(mesh.geometry_degree).size(),
-              folds.n_cells == 1 ? "is" : "are",
+              "{} of {} curved cells {} folded: found a Jacobian determinant of "
+              "{:.3g} times its mean at {}; it must be positive everywhere, so "
+              "make the mesh finer there, let gmsh optimise its high-order "
+              "nodes, or take Discretization/Degree = 1, whose cells are "
+              "straight",
+              n_folded,
+              n_curved,
+              n_folded == 1 ? "is" : "are",
               folds.worst,
               position(MapAtPoints(mesh.geometry_degree, lattice(6))
                          .position(curved_nodes(mesh, *folds.worst_cell),
                                    folds.worst_point))));
-        worst = std::min(worst, folds.worst);
+        });
       }
     return worst;
   }
@@ -258,78 +270,19 @@ namespace corotet
 
 
   double
-  volume_by_curvature(const SerialMesh &mesh)
+  volume_by_curvature(const MeshCells &mesh)
   {
     if (mesh.geometry_degree == 1)
       return 0;
     const auto        rule = determinant_rule();
     const MapAtPoints map(mesh.geometry_degree, rule.get_points());
     double            sum = 0;
-    for (const SerialMesh::Cell &cell : mesh.cells)
-      if (cell.curve != SerialMesh::straight)
+    for (const MeshCells::Cell &cell : mesh.cells)
+      if (cell.curve != MeshCells::straight)
         sum +=
           mean_determinant(map, rule.get_weights(), curved_nodes(mesh, cell)) /
             6 -
           signed_volume(cell_vertices(mesh, cell));
     return sum;
-  }
-
-
-
-  void
-  inherit_curves(const SerialMesh               &coarse,
-                 const dealii::Triangulation<3> &tria,
-                 SerialMesh                     &refined)
-  {
-    const unsigned int          q      = coarse.geometry_degree;
-    const std::vector<Point<3>> points = map_points(q);
-    refined.geometry_degree            = q;
-    unsigned int n_cells               = 0;
-    // Parts of the same shape and place are many.
-    std::map<std::array<double, 12>, MapAtPoints> maps;
-    for (const auto &active : tria.active_cell_iterators())
-      {
-        SerialMesh::Cell                       &cell = refined.cells[n_cells++];
-        dealii::Triangulation<3>::cell_iterator top(active);
-        while (top->level() > 0)
-          top = top->parent();
-        const SerialMesh::Cell &parent = coarse.cells[top->index()];
-        if (parent.curve == SerialMesh::straight)
-          continue;
-
-        // The vertices in the reference coordinates of that cell: multiples of
-        // a power of two.
-        const double unit = std::pow(0.5, tria.n_levels() - 1);
-        Tensor<2, 3> J;
-        const auto   corners = cell_vertices(coarse, parent);
-        Point<3>     vertices[4];
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int a = 0; a < 3; ++a)
-            J[a][k] = corners[k + 1][a] - corners[0][a];
-        for (unsigned int v = 0; v < 4; ++v)
-          {
-            const Tensor<1, 3> xi =
-              invert(J) * (active->vertex(v) - corners[0]);
-            for (unsigned int k = 0; k < 3; ++k)
-              vertices[v][k] = unit * std::round(xi[k] / unit);
-          }
-        std::vector<Point<3>> places(points.size(), vertices[0]);
-        for (unsigned int i = 0; i < points.size(); ++i)
-          for (unsigned int k = 0; k < 3; ++k)
-            places[i] += points[i][k] * (vertices[k + 1] - vertices[0]);
-
-        std::array<double, 12> key;
-        for (unsigned int i = 0; i < 12; ++i)
-          key[i] = vertices[i / 3][i % 3];
-        const MapAtPoints &map = maps.try_emplace(key, q, places).first->second;
-        cell.curve             = refined.curved_nodes.size() / points.size();
-        for (unsigned int i = 0; i < points.size(); ++i)
-          refined.curved_nodes.push_back(
-            map.position(curved_nodes(coarse, parent), i));
-        for (unsigned int v = 0; v < 4; ++v)
-          refined.vertices[cell.vertices[v]] =
-            *(refined.curved_nodes.end() - points.size() + v);
-      }
-    remove_straight_maps(refined);
   }
 } // namespace corotet

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/mesh/distributed_triangulation.h>
-#include <corotet/mesh/triangulation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/tria_description.h>
@@ -20,7 +19,7 @@ namespace corotet
 
   DistributedTriangulation::DistributedTriangulation(const LocalMesh &mesh)
     : Base(mesh.communicator)
-    , numbers(mesh.numbers)
+    , numbers(mesh.numbers.begin(), mesh.numbers.end())
     , owners(mesh.owners)
   {
     // Without the descriptions of single cells, which say nothing that is not

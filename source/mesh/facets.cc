@@ -2,6 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/text.h>
+#include <corotet/mesh/edges.h>
+#include <corotet/mesh/face_neighbors.h>
 #include <corotet/mesh/facets.h>
 
 #include <deal.II/base/numbers.h>
@@ -48,31 +50,35 @@ namespace corotet
       std::map<Corners, unsigned int> boundaries;
       for (const SerialMesh::Face &face : mesh.faces)
         boundaries.emplace(sorted(face.vertices), face.boundary);
-      std::map<Corners, std::pair<OuterTriangle, unsigned int>> found;
-      for (const SerialMesh::Cell &cell : mesh.cells)
-        for (unsigned int k = 0; k < 4; ++k)
+      // Cells that overlap are found elsewhere.
+      constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+      const auto             neighbors =
+        find_neighbors(mesh, none, mesh.origin, [](const unsigned int) {
+          return false;
+        });
+      std::vector<OuterTriangle> result;
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        for (unsigned int f = 0; f < 4; ++f)
           {
-            const auto &v = cell.vertices;
-            Corners corners{{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]}};
-            auto &[triangle, n_cells] = found[sorted(corners)];
-            if (++n_cells > 1)
+            if (neighbors[c][f] != none)
               continue;
-            const auto            &x      = mesh.vertices;
+            const auto &v = mesh.cells[c].vertices;
+            const auto &x = mesh.vertices;
+            Corners     corners;
+            for (unsigned int i = 0; i < 3; ++i)
+              corners[i] = v[corners_of_faces[f][i]];
             const dealii::Point<3> origin = x[corners[0]];
             auto                   normal =
               cross_product_3d(x[corners[1]] - origin, x[corners[2]] - origin);
-            if (normal * (x[v[k]] - origin) > 0)
+            // The corner that the face does not have is inside.
+            if (normal * (x[v[3 - f]] - origin) > 0)
               normal *= -1.;
             const auto boundary = boundaries.find(sorted(corners));
-            triangle            = {corners,
-                        boundary == boundaries.end() ? no_boundary :
-                                                                  boundary->second,
-                                   normal / normal.norm()};
+            result.push_back(
+              {corners,
+               boundary == boundaries.end() ? no_boundary : boundary->second,
+               normal / normal.norm()});
           }
-      std::vector<OuterTriangle> result;
-      for (const auto &[corners, entry] : found)
-        if (entry.second == 1)
-          result.push_back(entry.first);
       return result;
     }
 

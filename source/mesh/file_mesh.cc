@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
 #include <corotet/mesh/abaqus_file.h>
 #include <corotet/mesh/check_gmsh_file.h>
@@ -9,7 +10,8 @@
 #include <corotet/mesh/file_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
-#include <corotet/mesh/mesh_format.h>
+#include <corotet/mesh/hdf5_mesh.h>
+#include <corotet/mesh/spread_mesh.h>
 #include <corotet/mesh/surface_mesh.h>
 #include <corotet/mesh/vtk_file.h>
 
@@ -106,7 +108,7 @@ namespace corotet
       "A mesh or a geometry, relative to the folder of this file: of gmsh "
       "(.msh, version 2.2 to 4.1, ASCII or binary; .geo), Abaqus or CalculiX "
       "(.inp), Nastran (.bdf), UNV, VTK (.vtk, .vtu), Medit, MED or CGNS, or "
-      "STEP, IGES and BREP of CAD programs, or a closed surface of triangles "
+      "what corotet mesh has written (.h5); or STEP, IGES and BREP of CAD programs, or a closed surface of triangles "
       "(STL, PLY, OBJ, OFF). The format is known by the content.",
       dealii::Patterns::FileName());
     prm.add_parameter("Element size",
@@ -138,9 +140,8 @@ namespace corotet
 
 
 
-  SerialMesh
-  FileMesh::create(const std::string &folder,
-                   const unsigned int n_refinements) const
+  std::pair<std::string, const MeshFormatDescription &>
+  FileMesh::checked_file(const std::string &folder) const
   {
     const std::string entry = section + "File";
     if (file.empty())
@@ -151,12 +152,6 @@ namespace corotet
       (std::filesystem::path(folder) / file).lexically_normal().string();
     check_existence(path, entry);
     const MeshFormatDescription &format = mesh_format(path, entry);
-    if (format.format == MeshFormat::msh)
-      check_msh(path);
-    else if (format.format == MeshFormat::geo)
-      check_geo(path);
-    else
-      check_end(path, format.format);
     check_use(format.is_geometry,
               section + "Element size",
               path,
@@ -175,6 +170,38 @@ namespace corotet
               geometry_degree,
               1,
               "cells inside of a surface of triangles are straight");
+    return {path, format};
+  }
+
+
+
+  std::shared_ptr<SpreadMesh>
+  FileMesh::create_spread(const std::string &folder, const MPI_Comm comm) const
+  {
+    const std::string path = from_root(comm, [&] {
+      const auto [path, format] = checked_file(folder);
+      return format.format == MeshFormat::corotet ? path : "";
+    });
+    if (path.empty())
+      return nullptr;
+    return std::make_shared<SpreadMesh>(read_hdf5_mesh(path, comm));
+  }
+
+
+
+  SerialMesh
+  FileMesh::create(const std::string &folder,
+                   const unsigned int n_refinements) const
+  {
+    const auto [path, format] = checked_file(folder);
+    if (format.format == MeshFormat::msh)
+      check_msh(path);
+    else if (format.format == MeshFormat::geo)
+      check_geo(path);
+    else
+      check_end(path, format.format);
+    if (format.format == MeshFormat::corotet)
+      return read_hdf5_mesh(path);
     if (format.format == MeshFormat::abaqus)
       return serial_mesh(read_abaqus_file(path));
 

@@ -6,13 +6,16 @@
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
 #include <corotet/base/timing.h>
+#include <corotet/mesh/cell_order.h>
 #include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/check_names.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/distributed_triangulation.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 #include <corotet/mesh/mesh_sources.h>
-#include <corotet/mesh/triangulation.h>
+#include <corotet/mesh/refinement.h>
+#include <corotet/mesh/spread_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace corotet
 {
@@ -46,13 +50,14 @@ namespace corotet
 
 
     void
-    check_size(const SerialMesh  &mesh,
-               const unsigned int n_refinements,
-               const unsigned int element_degree,
-               const unsigned int n_ranks)
+    check_size(const std::string  &origin,
+               const std::uint64_t n_coarse_cells,
+               const unsigned int  n_refinements,
+               const unsigned int  element_degree,
+               const unsigned int  n_ranks)
     {
-      check_number_of_cells(mesh.cells.size(), n_refinements);
-      const double n_cells = mesh.cells.size() * std::pow(8., n_refinements);
+      check_number_of_cells(n_coarse_cells, n_refinements);
+      const double n_cells = n_coarse_cells * std::pow(8., n_refinements);
       // Half of what was measured for a body at rest, solvers not included
       // [byte]. Several ranks may be on several machines.
       constexpr double bytes_per_cell[] = {350, 600, 1500};
@@ -64,54 +69,11 @@ namespace corotet
                      "fewer cells, a lower Discretization/Degree or ranks on "
                      "more machines need less");
       if (n_cells < n_ranks)
-        refuse_mesh(mesh,
+        refuse_mesh(origin,
                     fmt::format("too few cells: found {} for {} ranks; each "
                                 "needs at least one",
                                 n_cells,
                                 n_ranks));
-    }
-
-
-
-    NamedSets
-    regions_of(const SerialMesh &mesh)
-    {
-      std::vector<unsigned int> ids;
-      ids.reserve(mesh.cells.size());
-      for (const SerialMesh::Cell &cell : mesh.cells)
-        ids.push_back(cell.region);
-      NamedSets regions = mesh.regions;
-      regions.restrict_to(ids);
-      return regions;
-    }
-
-
-
-    NamedSets
-    boundaries_of(const SerialMesh &mesh)
-    {
-      std::vector<unsigned int> ids;
-      ids.reserve(mesh.faces.size());
-      for (const SerialMesh::Face &face : mesh.faces)
-        ids.push_back(face.boundary);
-      NamedSets boundaries = mesh.boundaries;
-      boundaries.restrict_to(ids);
-      return boundaries;
-    }
-
-
-
-    // Of edges or of corners.
-    template <typename Part>
-    NamedSets
-    used_names(NamedSets named, const std::vector<Part> &parts)
-    {
-      std::vector<unsigned int> ids;
-      ids.reserve(parts.size());
-      for (const Part &part : parts)
-        ids.push_back(part.id);
-      named.restrict_to(ids);
-      return named;
     }
 
 
@@ -125,38 +87,152 @@ namespace corotet
 
 
 
-    void
-    log_quality(const SerialMesh  &mesh,
-                const unsigned int element_degree,
-                Log               &log)
+    // What is said of the mesh that ranks have parts of, but the number of its
+    // vertices.
+    struct Statistics
     {
-      const MeshQuality quality = mesh_quality(mesh);
-      log.line(fmt::format("Mesh: {} cells, {} vertices, volume {:.6g} m^3",
-                           mesh.cells.size(),
-                           mesh.vertices.size(),
-                           quality.volume));
-      log.line(fmt::format("  smallest dihedral angle {:.2f} degrees, worst "
-                           "aspect ratio {:.2f} (longest edge over 2 sqrt(6) "
-                           "inradius; regular tetrahedron: 70.53 and 1)",
-                           quality.smallest_dihedral_angle,
-                           quality.worst_aspect_ratio));
-      if (mesh.geometry_degree > 1)
+      Statistics(const MeshCells   &part,
+                 const std::string &origin,
+                 const unsigned int element_degree,
+                 const MPI_Comm     comm)
+        : quality(mesh_quality(part, comm))
+        , n_cells(dealii::Utilities::MPI::sum(part.cells.size(), comm))
+        , geometry_degree(part.geometry_degree)
+        , element_degree(element_degree)
+      {
+        if (geometry_degree == 1)
+          return;
+        least_determinant =
+          check_curved_cells(part, origin, element_degree, comm);
+        n_curved = dealii::Utilities::MPI::sum(part.curved_nodes.size() /
+                                                 part.n_map_nodes(),
+                                               comm);
+      }
+
+      void
+      log_lines(const std::uint64_t n_vertices, Log &log) const
+      {
+        log.line(fmt::format("Mesh: {} cells, {} vertices, volume {:.6g} m^3",
+                             n_cells,
+                             n_vertices,
+                             quality.volume));
         log.line(fmt::format(
-          "  {} curved cells of degree {}, {}",
-          std::count_if(mesh.cells.begin(),
-                        mesh.cells.end(),
-                        [](const SerialMesh::Cell &cell) {
-                          return cell.curve != SerialMesh::straight;
-                        }),
-          mesh.geometry_degree,
-          element_degree == 1 ?
-            "taken as straight ones by elements of degree 1" :
-            fmt::format("smallest Jacobian determinant {:.3g} times its mean "
-                        "in the cell",
-                        check_curved_cells(mesh, element_degree))));
-      if (quality.smallest_dihedral_angle < 2)
-        log.warning("the mesh has almost flat cells; solvers will need many "
-                    "iterations");
+          "  smallest dihedral angle {:.2f} degrees, worst aspect ratio {:.2f} "
+          "(longest edge over 2 sqrt(6) inradius; regular tetrahedron: 70.53 "
+          "and 1)",
+          quality.smallest_dihedral_angle,
+          quality.worst_aspect_ratio));
+        if (geometry_degree > 1)
+          log.line(fmt::format(
+            "  {} curved cells of degree {}, {}",
+            n_curved,
+            geometry_degree,
+            element_degree == 1 ?
+              "taken as straight ones by elements of degree 1" :
+              fmt::format("smallest Jacobian determinant {:.3g} times its mean "
+                          "in the cell",
+                          least_determinant)));
+        if (quality.smallest_dihedral_angle < 2)
+          log.warning("the mesh has almost flat cells; solvers will need many "
+                      "iterations");
+      }
+
+      MeshQuality  quality;
+      std::size_t  n_cells, n_curved = 0;
+      unsigned int geometry_degree, element_degree;
+      double       least_determinant = 1;
+    };
+
+
+
+    std::uint64_t
+    number_of_vertices(const LocalMesh &mesh)
+    {
+      // Each belongs to the rank of the first cell that has it.
+      std::uint64_t first = mesh.n_global_cells, end = 0;
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        if (mesh.is_owned(c))
+          {
+            first = std::min(first, mesh.numbers[c]);
+            end   = mesh.numbers[c] + 1;
+          }
+      const auto n =
+        std::count_if(mesh.vertex_numbers.begin(),
+                      mesh.vertex_numbers.end(),
+                      [&](const std::uint64_t number) {
+                        return number / 4 >= first && number / 4 < end;
+                      });
+      return dealii::Utilities::MPI::sum(std::uint64_t(n), mesh.communicator);
+    }
+
+
+
+    void
+    multiply(MeshCells &mesh, const double scale)
+    {
+      for (auto *points : {&mesh.vertices, &mesh.curved_nodes})
+        for (dealii::Point<3> &point : *points)
+          point *= scale;
+    }
+
+
+
+    void
+    log_names(const MeshNames &regions, const PlaceNames &places, Log &log)
+    {
+      std::string names = "  regions: " + list(regions) +
+                          "; boundaries: " + list(places.boundaries);
+      if (!places.edges.all().empty())
+        names += "; edges: " + list(places.edges);
+      if (!places.corners.all().empty())
+        names += "; corners: " + list(places.corners);
+      log.line(names);
+    }
+
+
+    // Shares out a mesh that rank 0 has. @p n_refinements becomes what is left
+    // to be done.
+    SpreadMesh
+    scattered(SerialMesh                 mesh,
+              unsigned int              &n_refinements,
+              const double               scale,
+              const MPI_Comm             comm,
+              Log                       &log,
+              const unsigned int         element_degree,
+              const SelectionParameters &selections)
+    {
+      namespace MPI = dealii::Utilities::MPI;
+      SpreadMesh result;
+      NamedParts named;
+      on_root(comm, [&] {
+        n_refinements -= mesh.n_refinements;
+        check_vertices(mesh);
+        check_size(mesh.origin,
+                   mesh.cells.size(),
+                   n_refinements,
+                   element_degree,
+                   MPI::n_mpi_processes(comm));
+        if (selections.are_given())
+          {
+            // What is selected is selected in the whole mesh, as it is refined.
+            check_mesh(mesh, element_degree);
+            refine_uniformly(mesh, std::exchange(n_refinements, 0));
+            multiply(mesh, scale);
+            select(mesh, selections, log);
+            named = named_parts(mesh);
+          }
+        else
+          named = check_names(mesh);
+        result.names = UsedNames(mesh);
+      });
+      n_refinements    = MPI::broadcast(comm, n_refinements, 0);
+      result.origin    = MPI::broadcast(comm, mesh.origin, 0);
+      result.read_time = mesh.read_time;
+      result.remarks   = mesh.remarks;
+      ScopedTimer timer(result.scatter_time);
+      result.names.broadcast(comm);
+      result.part = scatter(whole_part(mesh, std::move(named)), comm);
+      return result;
     }
   } // namespace
 
@@ -191,78 +267,122 @@ namespace corotet
              const MPI_Comm        comm,
              Log                  &log,
              const unsigned int    element_degree)
-    : Mesh(create_on_root(parameters, folder, comm),
-           parameters.n_refinements,
-           parameters.scale,
-           comm,
-           log,
-           element_degree,
-           parameters.selections)
-  {}
-
-
-
-  Mesh::Mesh(SerialMesh                 mesh,
-             const unsigned int         n_refinements,
-             const double               scale,
-             const MPI_Comm             comm,
-             Log                       &log,
-             const unsigned int         element_degree,
-             const SelectionParameters &selections)
     : region_names("region", {})
     , place_names({})
   {
-    NamedSets regions, boundaries, edges, corners;
-    on_root(comm, [&] {
-      check_mesh(mesh, element_degree);
-      const unsigned int n_left = n_refinements - mesh.n_refinements;
-      check_size(mesh,
-                 n_left,
-                 element_degree,
-                 dealii::Utilities::MPI::n_mpi_processes(comm));
-      refine_uniformly(mesh, n_left);
-      if (n_left > 0 && mesh.geometry_degree > 1)
-        // Vertices have moved to where the curves have them.
-        check_cells(mesh, element_degree);
-      for (auto *points : {&mesh.vertices, &mesh.curved_nodes})
-        for (dealii::Point<3> &point : *points)
-          point *= scale;
+    const MeshSource           &source = parameters.source.selected();
+    std::shared_ptr<SpreadMesh> mesh;
+    unsigned int                n_refinements = parameters.n_refinements;
+    // Selections are of the whole mesh.
+    if (!parameters.selections.are_given())
       {
-        ScopedTimer timer(seconds_partition);
-        sort_along_curve(mesh);
+        mesh = source.create_spread(folder, comm);
+        if (mesh)
+          check_size(mesh->origin,
+                     dealii::Utilities::MPI::sum(mesh->part.cells.size(), comm),
+                     n_refinements,
+                     element_degree,
+                     dealii::Utilities::MPI::n_mpi_processes(comm));
       }
+    if (!mesh)
+      mesh = std::make_shared<SpreadMesh>(
+        scattered(create_on_root(parameters, folder, comm),
+                  n_refinements,
+                  parameters.scale,
+                  comm,
+                  log,
+                  element_degree,
+                  parameters.selections));
+    take(std::move(*mesh),
+         n_refinements,
+         parameters.selections.are_given() ? 1. : parameters.scale,
+         comm,
+         log,
+         element_degree);
+  }
 
-      log_quality(mesh, element_degree, log);
-      for (const std::string &remark : mesh.remarks)
-        log.line("  " + remark);
-      select(mesh, selections, log);
-      regions    = regions_of(mesh);
-      boundaries = boundaries_of(mesh);
-      edges      = used_names(mesh.edge_names, mesh.edges);
-      corners    = used_names(mesh.corner_names, mesh.corners);
-    });
 
-    const auto broadcast = [](const MPI_Comm comm, const NamedSets &named) {
-      using dealii::Utilities::MPI::broadcast;
-      return NamedSets{broadcast(comm, named.names, 0),
-                       broadcast(comm, named.sets, 0)};
-    };
-    region_names      = MeshNames("region", broadcast(comm, regions));
-    boundaries        = broadcast(comm, boundaries);
-    edges             = broadcast(comm, edges);
-    corners           = broadcast(comm, corners);
-    place_names       = PlaceNames(boundaries, edges, corners);
-    std::string names = "  regions: " + list(region_names) +
-                        "; boundaries: " + list(place_names.boundaries);
-    if (!edges.names.empty())
-      names += "; edges: " + list(place_names.edges);
-    if (!corners.names.empty())
-      names += "; corners: " + list(place_names.corners);
-    log.line(names);
 
-    seconds_read = mesh.read_time;
+  Mesh::Mesh(SerialMesh         mesh,
+             const unsigned int n_refinements,
+             const double       scale,
+             const MPI_Comm     comm,
+             Log               &log,
+             const unsigned int element_degree)
+    : region_names("region", {})
+    , place_names({})
+  {
+    unsigned int n_left = n_refinements;
+    SpreadMesh   spread =
+      scattered(std::move(mesh), n_left, scale, comm, log, element_degree, {});
+    take(std::move(spread), n_left, scale, comm, log, element_degree);
+  }
+
+
+
+  void
+  Mesh::take(SpreadMesh       &&mesh,
+             const unsigned int n_refinements,
+             const double       scale,
+             const MPI_Comm     comm,
+             Log               &log,
+             const unsigned int element_degree)
+  {
+    seconds_read      = mesh.read_time;
+    seconds_partition = mesh.scatter_time;
+    region_names      = MeshNames("region", mesh.names.regions);
+    place_names =
+      PlaceNames(mesh.names.boundaries, mesh.names.edges, mesh.names.corners);
+
     ScopedTimer timer(seconds_partition);
-    local_mesh = distribute(mesh, comm);
+    MeshPart   &part = mesh.part;
+    check_cells(part, mesh.origin, element_degree, comm);
+    sort_along_curve(part, comm);
+    const auto distribute = [&] {
+      Statistics statistics(part, mesh.origin, element_degree, comm);
+      local_mesh = with_cells_beside(std::move(part), mesh.origin, comm);
+      return statistics;
+    };
+    Statistics statistics = distribute();
+    check_surface(local_mesh, mesh.origin);
+    check_boundaries(mesh.origin);
+    if (n_refinements > 0)
+      {
+        part       = owned_part(local_mesh);
+        local_mesh = {};
+        refine_uniformly(part, n_refinements, comm);
+        // Vertices have moved to where the curves have them.
+        check_cells(part, mesh.origin, element_degree, comm);
+        sort_along_curve(part, comm);
+        statistics = distribute();
+      }
+    multiply(local_mesh, scale);
+    statistics.quality.volume *= scale * scale * scale;
+
+    statistics.log_lines(number_of_vertices(local_mesh), log);
+    for (const std::string &remark : mesh.remarks)
+      log.line("  " + remark);
+    log_names(region_names, place_names, log);
+  }
+
+
+
+  void
+  Mesh::check_boundaries(const std::string &origin) const
+  {
+    on_all_ranks(communicator(), [&] {
+      for (const auto &[cell, face, boundary] : local_mesh.faces)
+        if (local_mesh.is_owned(cell) &&
+            local_mesh.neighbors[cell][face] != LocalMesh::no_cell)
+          refuse_mesh(
+            origin,
+            fmt::format(
+              "the boundary '{}' has a face inside of the "
+              "body, of a cell with a vertex at {}",
+              boundaries().name(boundary),
+              position(
+                local_mesh.vertices[local_mesh.cells[cell].vertices[0]])));
+    });
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/mesh/hdf5_mesh.h>
 #include <corotet/mesh/mesh_format.h>
 
 #include <fmt/format.h>
@@ -25,6 +26,8 @@ namespace corotet
   {
     // What formats begin with is within these bytes.
     constexpr std::size_t n_first_bytes = 4096;
+
+    constexpr const char *hdf5_signature = "\x89HDF\r\n\x1a\n";
 
 
 
@@ -207,7 +210,7 @@ namespace corotet
       if (begins_like_obj(bytes))
         return MeshFormat::obj;
       // A file of HDF5 with MED's groups.
-      if (bytes.starts_with("\x89HDF\r\n\x1a\n") &&
+      if (bytes.starts_with(hdf5_signature) &&
           has("INFOS_GENERALES", n_first_bytes))
         return MeshFormat::med;
       return {};
@@ -274,7 +277,8 @@ namespace corotet
        "med",
        ".med, .rmed",
        "mesh of Salome and code_aster, MED",
-       false}};
+       false},
+      {MeshFormat::corotet, "corotet", ".h5", "mesh of corotet mesh", false}};
     return formats;
   }
 
@@ -292,6 +296,8 @@ namespace corotet
       by_content = MeshFormat::geo;
     else if (has_size_of_stl(path, bytes))
       by_content = MeshFormat::stl;
+    else if (bytes.starts_with(hdf5_signature) && is_hdf5_mesh(path))
+      by_content = MeshFormat::corotet;
     else
       by_content = format_by_content(bytes);
     std::vector<std::string> allowed;

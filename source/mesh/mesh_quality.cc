@@ -4,6 +4,8 @@
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh_quality.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,8 +38,20 @@ namespace corotet
 
 
 
+  double
+  square_of_longest_edge(const std::array<dealii::Point<3>, 4> &p)
+  {
+    double square = 0;
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        square = std::max(square, (p[i] - p[j]).norm_square());
+    return square;
+  }
+
+
+
   std::array<dealii::Point<3>, 4>
-  cell_vertices(const SerialMesh &mesh, const SerialMesh::Cell &cell)
+  cell_vertices(const MeshCells &mesh, const MeshCells::Cell &cell)
   {
     std::array<dealii::Point<3>, 4> p;
     for (unsigned int v = 0; v < 4; ++v)
@@ -50,44 +64,47 @@ namespace corotet
   CellShape
   cell_shape(const std::array<dealii::Point<3>, 4> &p)
   {
-    const auto   areas   = area_vectors(p);
-    CellShape    shape   = {signed_volume(p), {}, 0};
-    double       surface = 0, longest_edge = 0;
-    unsigned int n = 0;
+    const auto            areas = area_vectors(p);
+    CellShape             shape = {signed_volume(p), {}, 0};
+    std::array<double, 4> one_over_area;
+    double                surface = 0;
     for (unsigned int i = 0; i < 4; ++i)
       {
-        surface += areas[i].norm();
-        for (unsigned int j = 0; j < i; ++j)
-          {
-            longest_edge = std::max(longest_edge, p[i].distance(p[j]));
-            shape.dihedral_cosines[n++] =
-              -(areas[i] * areas[j]) / (areas[i].norm() * areas[j].norm());
-          }
+        const double area = std::sqrt(areas[i].norm_square());
+        surface += area;
+        one_over_area[i] = 1 / area;
       }
+    unsigned int n = 0;
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        shape.dihedral_cosines[n++] =
+          -(areas[i] * areas[j]) * one_over_area[i] * one_over_area[j];
     const double inradius = 3 * shape.volume / surface;
-    shape.aspect_ratio    = longest_edge / (2 * std::sqrt(6.) * inradius);
+    shape.aspect_ratio = std::sqrt(square_of_longest_edge(p) / 24) / inradius;
     return shape;
   }
 
 
 
   MeshQuality
-  mesh_quality(const SerialMesh &mesh)
+  mesh_quality(const MeshCells &mesh, const MPI_Comm comm)
   {
-    MeshQuality quality;
-    double      largest_cosine = -1;
-    for (const SerialMesh::Cell &cell : mesh.cells)
+    double volume = 0, largest_cosine = -1, worst_aspect_ratio = 1;
+    for (const MeshCells::Cell &cell : mesh.cells)
       {
         const CellShape shape = cell_shape(cell_vertices(mesh, cell));
-        quality.volume += shape.volume;
+        volume += shape.volume;
         for (const double cosine : shape.dihedral_cosines)
           largest_cosine = std::max(largest_cosine, cosine);
-        quality.worst_aspect_ratio =
-          std::max(quality.worst_aspect_ratio, shape.aspect_ratio);
+        worst_aspect_ratio = std::max(worst_aspect_ratio, shape.aspect_ratio);
       }
-    quality.volume += volume_by_curvature(mesh);
+    namespace MPI = dealii::Utilities::MPI;
+    MeshQuality quality;
+    quality.volume = MPI::sum(volume + volume_by_curvature(mesh), comm);
+    quality.worst_aspect_ratio = MPI::max(worst_aspect_ratio, comm);
     quality.smallest_dihedral_angle =
-      std::acos(std::min(largest_cosine, 1.)) * 180 / std::numbers::pi;
+      std::acos(std::min(MPI::max(largest_cosine, comm), 1.)) * 180 /
+      std::numbers::pi;
     return quality;
   }
 } // namespace corotet

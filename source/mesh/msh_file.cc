@@ -303,37 +303,8 @@ namespace corotet
 
 
   void
-  check_msh_target(const std::string &path, const std::string &origin)
-  {
-    namespace fs = std::filesystem;
-    if (fs::path(path).extension() != ".msh")
-      throw InputError("",
-                       fmt::format("a mesh is written to a .msh file: found "
-                                   "'{}'",
-                                   shortened(path)));
-    std::error_code error;
-    if (fs::equivalent(path, origin, error))
-      throw InputError("",
-                       fmt::format("'{}' is the file that is read; give "
-                                   "another name",
-                                   shortened(path)));
-    if (fs::exists(path, error))
-      {
-        std::string   word;
-        std::ifstream file(path);
-        file >> word;
-        if (!fs::is_regular_file(path, error) || word != "$MeshFormat")
-          throw InputError("",
-                           fmt::format("'{}' is there, and is no mesh of gmsh, "
-                                       "which would be replaced",
-                                       shortened(path)));
-      }
-  }
-
-  void
   write_msh_file(const std::string &path, const SerialMesh &mesh)
   {
-    check_msh_target(path, mesh.origin);
     write_whole_file(path, msh_text(mesh), "the mesh");
   }
 } // namespace corotet

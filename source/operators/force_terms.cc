@@ -265,7 +265,11 @@ namespace corotet
       {
         if (names[i].empty())
           continue;
-        double on_all = 0, on_free = 0;
+        double     on_all = 0, on_free = 0;
+        const auto has_effect = [&] {
+          // Squares of what round-off leaves beside a face.
+          return on_free > 1e-24 * on_all;
+        };
         for (const Motion &motion : motions)
           {
             scratch = 0;
@@ -274,9 +278,10 @@ namespace corotet
             on_all += scratch.norm_sqr();
             supports.set_zero(scratch);
             on_free += scratch.norm_sqr();
+            if (has_effect())
+              break;
           }
-        // Squares of what round-off leaves beside a face.
-        if (on_all > 0 && on_free <= 1e-24 * on_all)
+        if (on_all > 0 && !has_effect())
           result.push_back(names[i]);
       }
     return result;

@@ -162,7 +162,11 @@ namespace corotet
                      "Where a surface of triangles has an edge: between "
                      "normals that differ by more degrees (default: 40)")
         ->check(CLI::Range(1., 180.));
-      command->add_option("--out", mesh.out, "Write the mesh to this .msh file")
+      command
+        ->add_option("--out",
+                     mesh.out,
+                     "Write the mesh to this file: .msh for gmsh, .h5 for runs "
+                     "on many ranks")
         ->type_name("FILE");
       return command;
     }

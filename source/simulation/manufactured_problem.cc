@@ -6,7 +6,6 @@
 #include <corotet/base/text.h>
 #include <corotet/forces/body_force.h>
 #include <corotet/forces/traction.h>
-#include <corotet/mesh/triangulation.h>
 #include <corotet/simulation/manufactured_problem.h>
 
 #include <deal.II/base/utilities.h>

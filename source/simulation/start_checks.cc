@@ -188,8 +188,11 @@ namespace corotet
     const auto   first = u.get_partitioner()->local_range().first;
     const double size  = 1e-6 * size_of(body.discretization);
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
-      u.local_element(i) =
-        size * (1.5 + std::sin(static_cast<double>(first + i)));
+      {
+        // Fractions of multiples of the golden ratio are all over the place.
+        const double multiple = 0.6180339887498949 * double(first + i);
+        u.local_element(i)    = size * (0.5 + multiple - std::floor(multiple));
+      }
     u.update_ghost_values();
     for (const std::string &name :
          equation.terms.names_without_effect({{parameters.start_time, u, u},

@@ -231,4 +231,10 @@ namespace corotet
                              const std::shared_ptr<const BlockPattern> &,
                              std::vector<PointFrame<6>>,
                              const Coarsening &);
+  template void
+  AggregationLevel<3>::fill_without_pattern(std::vector<float> &,
+                                            const unsigned int) const;
+  template void
+  AggregationLevel<6>::fill_without_pattern(std::vector<float> &,
+                                            const unsigned int) const;
 } // namespace corotet

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/operators/tangent_operator.h>
 #include <corotet/solvers/direct.h>
+#include <corotet/solvers/singular_matrix_error.h>
 
 namespace corotet
 {

@@ -4,7 +4,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/mesh/file_mesh.h>
 #include <corotet/mesh/mesh_report.h>
-#include <corotet/mesh/msh_file.h>
+#include <corotet/mesh/mesh_target.h>
 #include <corotet/studies/choices.h>
 #include <corotet/studies/program.h>
 #include <corotet/studies/run_command.h>
@@ -24,7 +24,7 @@ namespace corotet
     {
       // Before it is made, which may take long.
       if (!asked.out.empty())
-        check_msh_target(asked.out, asked.file);
+        check_mesh_target(asked.out, asked.file);
       const SerialMesh mesh = read_mesh_file(asked.file,
                                              asked.element_size,
                                              asked.geometry_degree,
@@ -32,7 +32,7 @@ namespace corotet
       std::cout << mesh_report(mesh);
       if (asked.out.empty())
         return;
-      write_msh_file(asked.out, mesh);
+      write_mesh(asked.out, mesh);
       std::cout << "written: " << asked.out << '\n';
     }
 

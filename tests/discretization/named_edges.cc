@@ -4,8 +4,8 @@
 // Edges and corners that have names are held at all their nodes, and only
 // there, on any number of ranks.
 
+#include <corotet/mesh/refinement.h>
 #include <corotet/mesh/selections.h>
-#include <corotet/mesh/triangulation.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

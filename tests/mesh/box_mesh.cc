@@ -6,7 +6,6 @@
 
 #include <corotet/mesh/box_mesh.h>
 #include <corotet/mesh/check_mesh.h>
-#include <corotet/mesh/triangulation.h>
 
 #include <deal.II/grid/grid_generator.h>
 
@@ -15,6 +14,7 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/dealii_mesh.h"
 #include "mesh/tools.h"
 
 using namespace corotet;

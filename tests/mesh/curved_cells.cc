@@ -6,7 +6,7 @@
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh.h>
-#include <corotet/mesh/triangulation.h>
+#include <corotet/mesh/refinement.h>
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -217,7 +217,7 @@ TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
   EXPECT_NE(refusal([&] { check_mesh(mesh, 3); }).find("folded"),
             std::string::npos);
   EXPECT_EQ(refusal([&] { check_mesh(mesh, 2); }), "nothing was refused");
-  EXPECT_NEAR(check_curved_cells(mesh, 2), 1, 1e-14);
+  EXPECT_NEAR(check_curved_cells(mesh, "", 2, MPI_COMM_SELF), 1, 1e-14);
 }
 
 TEST(CurvedCells, Refusals)

@@ -263,7 +263,7 @@ TEST(FileMesh, Refusals)
     "Mesh/file/File: the kind of mesh file is unknown: found '" + text +
       "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, .stl, "
       ".ply, .obj, .off, "
-      ".inp, .bdf, .nas, .unv, .vtk, .vtu, .mesh, .cgns, .med, .rmed");
+      ".inp, .bdf, .nas, .unv, .vtk, .vtu, .mesh, .cgns, .med, .rmed, .h5");
   // A file of another kind than its name says.
   const std::string step =
     folder.write("part.step", "ISO-10303-21;\nHEADER;\n");

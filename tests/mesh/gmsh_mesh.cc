@@ -187,7 +187,7 @@ TEST(GmshMesh, FileNames)
     "Mesh/gmsh/File: the kind of mesh file is unknown: found '" + file +
       "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, .stl, "
       ".ply, .obj, .off, "
-      ".inp, .bdf, .nas, .unv, .vtk, .vtu, .mesh, .cgns, .med, .rmed");
+      ".inp, .bdf, .nas, .unv, .vtk, .vtu, .mesh, .cgns, .med, .rmed, .h5");
 }
 
 // A mesh has its size; asking for another one must not be ignored silently.

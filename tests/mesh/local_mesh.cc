@@ -6,7 +6,6 @@
 
 #include <corotet/mesh/distributed_triangulation.h>
 #include <corotet/mesh/ghost_cells.h>
-#include <corotet/mesh/triangulation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -22,12 +21,20 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Sorted as that of a run.
+  // With the cells in the order of a run.
   SerialMesh
   sorted_box(const std::string &cells)
   {
-    SerialMesh mesh = box_of_2_by_half_by_1(cells);
-    sort_along_curve(mesh);
+    SerialMesh      mesh           = box_of_2_by_half_by_1(cells);
+    const LocalMesh whole          = distribute(mesh, MPI_COMM_SELF);
+    static_cast<MeshCells &>(mesh) = whole;
+    mesh.faces.clear();
+    for (const auto &[c, f, id] : whole.faces)
+      {
+        const auto &v        = whole.cells[c].vertices;
+        const auto [i, j, k] = corners_of_faces[f];
+        mesh.faces.push_back({{{v[i], v[j], v[k]}}, id});
+      }
     return mesh;
   }
 } // namespace

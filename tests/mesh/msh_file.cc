@@ -2,11 +2,13 @@
 // Copyright (C) 2026 by the corotet authors
 
 // What is written for gmsh, and read again through it, is the same mesh to the
-// last digit: cells, curves, regions, boundaries and their names.
+// last digit: cells, curves, regions, boundaries and their names. So is what is
+// written to a file of HDF5.
 
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
-#include <corotet/mesh/msh_file.h>
+#include <corotet/mesh/hdf5_mesh.h>
+#include <corotet/mesh/mesh_target.h>
 
 #include <gtest/gtest.h>
 
@@ -72,9 +74,14 @@ namespace
     std::map<Coordinates, NameSet> result;
     for (const SerialMesh::Face &face : mesh.faces)
       {
+        // Corners in any order.
+        std::vector<Coordinates> corners(3);
+        for (unsigned int k = 0; k < 3; ++k)
+          append(corners[k], mesh.vertices[face.vertices[k]]);
+        std::sort(corners.begin(), corners.end());
         Coordinates x;
-        for (const unsigned int v : face.vertices)
-          append(x, mesh.vertices[v]);
+        for (const Coordinates &corner : corners)
+          x.insert(x.end(), corner.begin(), corner.end());
         result[x] = names_of("boundary", mesh.boundaries, face.boundary);
       }
     return result;
@@ -104,23 +111,35 @@ namespace
   }
 
   void
-  expect_the_same_again(const SerialMesh &mesh)
+  expect_equal(const SerialMesh &again, const SerialMesh &mesh)
   {
-    const TemporaryFolder folder;
-    const std::string     file = folder / "again.msh";
-    write_msh_file(file, mesh);
-    const SerialMesh again = read_gmsh(file);
     EXPECT_EQ(cells_of(again).size(), mesh.cells.size());
     EXPECT_TRUE(cells_of(again) == cells_of(mesh));
     EXPECT_EQ(faces_of(again).size(), mesh.faces.size());
     EXPECT_TRUE(faces_of(again) == faces_of(mesh));
     EXPECT_EQ(edges_and_corners_of(again), edges_and_corners_of(mesh));
     EXPECT_EQ(again.vertices.size(), mesh.vertices.size());
+  }
+
+  void
+  expect_the_same_again(const SerialMesh &mesh)
+  {
+    const TemporaryFolder folder;
+    write_mesh(folder / "again.msh", mesh);
+    const SerialMesh again = read_gmsh(folder / "again.msh");
+    expect_equal(again, mesh);
     // Straight cells along curved surfaces are remarked on, and no others.
     if (mesh.geometry_degree > 1)
       {
         EXPECT_TRUE(again.remarks.empty());
       }
+    write_mesh(folder / "again.h5", mesh);
+    // There all ids are listed, without names, too.
+    const UsedNames names(mesh);
+    SerialMesh      listed = mesh;
+    listed.regions         = names.regions;
+    listed.boundaries      = names.boundaries;
+    expect_equal(read_hdf5_mesh(folder / "again.h5"), listed);
   }
 
   SerialMesh
@@ -219,23 +238,31 @@ TEST(MshFile, NoNames)
 TEST(MshFile, WhatIsReplaced)
 {
   const TemporaryFolder folder;
-  SerialMesh            mesh = tests::box("1, 1, 1", "1, 1, 1");
-  const std::string     file = folder / "a.msh";
-  std::ofstream(file) << "A letter.\n";
-  const auto refused = [&](const std::string &name) {
-    return refusal([&] { write_msh_file(folder / name, mesh); });
+  const auto            refused = [&](const std::string &name,
+                           const std::string &origin = "") {
+    SerialMesh mesh = tests::box("1, 1, 1", "1, 1, 1");
+    mesh.origin     = origin;
+    return refusal([&] { write_mesh(folder / name, mesh); });
   };
-  EXPECT_EQ(refused("a.msh"),
-            "'" + file +
-              "' is there, and is no mesh of gmsh, which would be replaced");
-  write_msh_file(folder / "b.msh", mesh);
-  write_msh_file(folder / "b.msh", mesh);
-  mesh.origin = folder / "b.msh";
-  EXPECT_EQ(refused("b.msh"),
-            "'" + mesh.origin +
-              "' is the file that is read; give another name");
+  for (const auto &[extension, owner] :
+       {std::pair(".msh", "gmsh"), std::pair(".h5", "corotet")})
+    {
+      const std::string file = std::string("a") + extension;
+      std::ofstream(folder / file) << "A letter.\n";
+      EXPECT_EQ(refused(file),
+                "'" + (folder / file) + "' is there, and is no mesh of " +
+                  owner + ", which would be replaced");
+      const std::string other = std::string("b") + extension;
+      EXPECT_EQ(refused(other), "nothing was refused");
+      EXPECT_EQ(refused(other), "nothing was refused");
+      EXPECT_EQ(refused(other, folder / other),
+                "'" + (folder / other) +
+                  "' is the file that is read; give another name");
+      EXPECT_THROW(write_mesh(folder / ("none/" + other),
+                              tests::box("1, 1, 1", "1, 1, 1")),
+                   MachineError);
+    }
   EXPECT_EQ(refused("b.vtk"),
-            "a mesh is written to a .msh file: found '" + (folder / "b.vtk") +
-              "'");
-  EXPECT_THROW(write_msh_file(folder / "none/b.msh", mesh), MachineError);
+            "a mesh is written to a .msh or an .h5 file: found '" +
+              (folder / "b.vtk") + "'");
 }

@@ -4,7 +4,7 @@
 // Files that all ranks write together: what is in them, and what becomes of
 // them when a rank cannot write.
 
-#include <corotet/output/hdf5_file.h>
+#include <corotet/base/hdf5_file.h>
 
 #include <gtest/gtest.h>
 

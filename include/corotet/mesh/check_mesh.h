@@ -6,6 +6,8 @@
 
 #include <corotet/mesh/serial_mesh.h>
 
+#include <mpi.h>
+
 namespace corotet
 {
   /**
@@ -29,9 +31,17 @@ namespace corotet
   void
   check_mesh(SerialMesh &mesh, const unsigned int element_degree = 3);
 
-  /// The part of check_mesh() that looks at volumes and folds.
+  /// The part of check_mesh() that looks at coordinates and at numbers of
+  /// vertices.
   void
-  check_cells(const SerialMesh &mesh, const unsigned int element_degree);
+  check_vertices(const SerialMesh &mesh);
+
+  /// The part of check_mesh() that looks at volumes and folds. Collective.
+  void
+  check_cells(const MeshCells   &mesh,
+              const std::string &origin,
+              const unsigned int element_degree,
+              const MPI_Comm     comm);
 
   /// How many cells may be refined so often.
   double
@@ -43,20 +53,27 @@ namespace corotet
                         const unsigned int n_refinements);
 
   /**
-   * Throws the InputError that says @p message about @p mesh: blamed on the
-   * file it is from or, if it was generated, on the parameter that chose its
-   * generator.
+   * Throws the InputError that says @p message about a mesh: blamed on the file
+   * @p origin that it is from or, if that is empty and so the mesh generated,
+   * on the parameter that chose its generator.
    */
   [[noreturn]] void
-  refuse_mesh(const SerialMesh &mesh, const std::string &message);
+  refuse_mesh(const std::string &origin, const std::string &message);
 
   /// A point as messages show it.
   std::string
   position(const dealii::Point<3> &p);
 
+  /// Vertices of a triangle.
+  using Triangle = std::array<unsigned int, 3>;
+
   /// The centre of the triangle with these vertices.
   dealii::Point<3>
-  centre(const SerialMesh &mesh, const std::array<unsigned int, 3> &triangle);
+  centre(const MeshCells &mesh, const Triangle &triangle);
+
+  /// A boundary as messages call it.
+  std::string
+  boundary_name(const SerialMesh &mesh, const unsigned int id);
 } // namespace corotet
 
 #endif

@@ -4,24 +4,53 @@
 #ifndef corotet_mesh_check_surface_h
 #define corotet_mesh_check_surface_h
 
-#include <corotet/mesh/serial_mesh.h>
+#include <corotet/mesh/check_mesh.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
 
 namespace corotet
 {
-  /// Vertices of a triangle.
-  using Triangle = std::array<unsigned int, 3>;
+  /// Triangles that only one cell has, and their vertices.
+  struct CellSurface
+  {
+    std::vector<dealii::Point<3>> vertices;
+    /// Of each vertex, what it is known by.
+    std::vector<std::uint64_t> vertex_numbers;
+    std::vector<Triangle>      triangles;
+    /// These are triangles of this rank's cells; those that follow are others'.
+    std::size_t n_own = 0;
+  };
 
   /**
-   * Part of check_mesh(): throws an InputError if the triangles @p surface,
-   * those of only one cell, touch each other elsewhere than in shared vertices
-   * and edges.
+   * The surface of the cells for which @p is_owned is true: faces without a
+   * neighbor, as find_neighbors() gives them. @p number is what a vertex is
+   * known by.
+   */
+  CellSurface
+  cell_surface(
+    const MeshCells                                          &mesh,
+    const std::vector<std::array<unsigned int, 4>>           &neighbors,
+    const unsigned int                                        none,
+    const std::function<bool(const unsigned int c)>          &is_owned,
+    const std::function<std::uint64_t(const unsigned int v)> &number);
+
+  /// Adds what other ranks have where @p surface is. Collective.
+  void
+  add_triangles_nearby(CellSurface &surface, const MPI_Comm comm);
+
+  /**
+   * Part of check_mesh(): throws an InputError if one of the own triangles
+   * touches another elsewhere than in shared vertices and edges.
    *
    * This finds every place where cells do not fit together. There are two
    * layers of surface there, and a vertex of one lies on a triangle of the
    * other or, at crossing diagonals, the centre of a triangle does.
    */
   void
-  check_surface(const SerialMesh &mesh, const std::vector<Triangle> &surface);
+  check_surface(const CellSurface &surface, const std::string &origin);
 } // namespace corotet
 
 #endif

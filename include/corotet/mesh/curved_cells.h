@@ -4,11 +4,11 @@
 #ifndef corotet_mesh_curved_cells_h
 #define corotet_mesh_curved_cells_h
 
+#include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/serial_mesh.h>
 
 #include <deal.II/base/table.h>
 #include <deal.II/fe/fe.h>
-#include <deal.II/grid/tria.h>
 
 namespace corotet
 {
@@ -71,11 +71,11 @@ namespace corotet
 
   /// Nodes of the map of a curved cell of @p mesh.
   const dealii::Point<3> *
-  curved_nodes(const SerialMesh &mesh, const SerialMesh::Cell &cell);
+  curved_nodes(const MeshCells &mesh, const MeshCells::Cell &cell);
 
   /// Forgets the maps of cells that are straight but for round-off.
   void
-  remove_straight_maps(SerialMesh &mesh);
+  remove_straight_maps(MeshCells &mesh);
 
   /**
    * Smallest determinant of the Jacobians of curved cells over its mean in the
@@ -83,25 +83,19 @@ namespace corotet
    * InputError, as check_mesh() does, unless it is positive. Looks at the
    * points with barycentric coordinates of i / 6, of the interpolants of the
    * map (itself among them) with degrees from 2 to @p element_degree: elements
-   * use no others, and those of degree 1 none.
+   * use no others, and those of degree 1 none. Of all ranks' cells.
+   * Collective.
    */
   double
-  check_curved_cells(const SerialMesh &mesh, const unsigned int element_degree);
+  check_curved_cells(const MeshCells   &mesh,
+                     const std::string &origin,
+                     const unsigned int element_degree,
+                     const MPI_Comm     comm);
 
   /// Volumes of curved cells less those of the straight ones with the same
   /// vertices, summed up [m^3]. Exact.
   double
-  volume_by_curvature(const SerialMesh &mesh);
-
-  /**
-   * Gives the cells of @p refined, the active ones of @p tria in their order,
-   * the curves of the cells of @p coarse that they are parts of, which are
-   * those on level 0 of @p tria. Moves vertices there, too.
-   */
-  void
-  inherit_curves(const SerialMesh               &coarse,
-                 const dealii::Triangulation<3> &tria,
-                 SerialMesh                     &refined);
+  volume_by_curvature(const MeshCells &mesh);
 } // namespace corotet
 
 #endif

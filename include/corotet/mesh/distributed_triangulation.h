@@ -20,7 +20,7 @@ namespace corotet
    *
    * All cells are on level 0, with the index, active cell index and coarse cell
    * index that they have in the LocalMesh. Faces on no named boundary have the
-   * id unnamed_boundary (triangulation.h).
+   * id unnamed_boundary (mesh_names.h).
    */
   class DistributedTriangulation
     : public dealii::parallel::fullydistributed::Triangulation<3>

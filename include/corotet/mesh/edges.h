@@ -6,8 +6,6 @@
 
 #include <corotet/mesh/serial_mesh.h>
 
-#include <deal.II/grid/tria.h>
-
 #include <array>
 #include <utility>
 #include <vector>
@@ -31,6 +29,14 @@ namespace corotet
     unsigned int id;
   };
 
+  /// What has a name, in the cells: each list by cells, ascending.
+  struct NamedParts
+  {
+    std::vector<CellPart> faces;
+    std::vector<CellPart> edges;
+    std::vector<CellPart> corners;
+  };
+
   /**
    * Finds the faces on named boundaries, named edges and corners of a mesh,
    * which must outlive this object, in its cells.
@@ -39,6 +45,14 @@ namespace corotet
   {
   public:
     explicit PartsOfCells(const SerialMesh &mesh);
+
+    /// Whether a vertex of the cell is on a part with a name.
+    bool
+    may_have_names(const SerialMesh::Cell &cell) const
+    {
+      const auto [a, b, c, d] = cell.vertices;
+      return (is_on[a] | is_on[b] | is_on[c] | is_on[d]) != 0;
+    }
 
     /// Appends those of the cell, which is called @p name in what is appended.
     void
@@ -69,27 +83,22 @@ namespace corotet
     std::vector<std::pair<Ends, std::size_t>> edges;
     /// Vertex and id of each corner, sorted.
     std::vector<Ends> corners;
-    /// Whether a vertex is on a face, or an end of an edge: most are not.
-    std::vector<bool> is_on_face;
-    std::vector<bool> is_end;
+    /// Whether a vertex is on a face, the end of an edge, or a corner (bits of
+    /// a number): most are not.
+    std::vector<unsigned char> is_on;
   };
 
   /// Ends in ascending order: what an edge is known by.
   std::array<unsigned int, 2>
   ascending_ends(const unsigned int a, const unsigned int b);
 
-  /**
-   * Keeps the named edges that are edges of cells, and the corners that are
-   * vertices of cells, each once for each id; a remark counts the others.
-   */
-  void
-  check_edges_and_corners(SerialMesh &mesh);
+  /// The same of a face.
+  std::array<unsigned int, 3>
+  ascending_vertices(std::array<unsigned int, 3> vertices);
 
-  /// The parts of the named edges of @p coarse, whose cells are those on level
-  /// 0 of @p tria, in its active cells.
-  std::vector<SerialMesh::Edge>
-  parts_of_edges(const SerialMesh               &coarse,
-                 const dealii::Triangulation<3> &tria);
+  /// All that has a name in the cells of a mesh.
+  NamedParts
+  named_parts(const SerialMesh &mesh);
 } // namespace corotet
 
 #endif

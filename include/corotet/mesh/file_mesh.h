@@ -4,7 +4,10 @@
 #ifndef corotet_mesh_file_mesh_h
 #define corotet_mesh_file_mesh_h
 
+#include <corotet/mesh/mesh_format.h>
 #include <corotet/mesh/mesh_source.h>
+
+#include <utility>
 
 namespace corotet
 {
@@ -30,7 +33,17 @@ namespace corotet
     create(const std::string &folder,
            const unsigned int n_refinements = 0) const override;
 
+    /// Of a file that `corotet mesh --out x.h5` has written.
+    std::shared_ptr<SpreadMesh>
+    create_spread(const std::string &folder,
+                  const MPI_Comm     comm) const override;
+
   private:
+    /// The file, and what it is. Throws InputError about either, or about a
+    /// parameter that it has no use for.
+    std::pair<std::string, const MeshFormatDescription &>
+    checked_file(const std::string &folder) const;
+
     std::string  section;
     std::string  file;
     double       element_size    = 0;

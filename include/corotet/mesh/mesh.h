@@ -45,10 +45,11 @@ namespace corotet
   {
   public:
     /**
-     * Makes the mesh on rank 0, checks it, logs its statistics and distributes
-     * it. @p folder is that of the parameter file. Folds of curved cells that
-     * elements of degree @p element_degree do not use are allowed. Throws
-     * InputError. Collective.
+     * Makes the mesh on rank 0 and shares it out, or reads it on all ranks, as
+     * its source can; checks it, refines it and logs its statistics. @p folder
+     * is that of the parameter file. Folds of curved cells that elements of
+     * degree @p element_degree do not use are allowed. Throws InputError.
+     * Collective.
      */
     Mesh(const MeshParameters &parameters,
          const std::string    &folder,
@@ -57,13 +58,12 @@ namespace corotet
          const unsigned int    element_degree = 3);
 
     /// The same for a mesh that is already made (it is read on rank 0 only).
-    Mesh(SerialMesh                 mesh,
-         const unsigned int         n_refinements,
-         const double               scale,
-         const MPI_Comm             comm,
-         Log                       &log,
-         const unsigned int         element_degree = 3,
-         const SelectionParameters &selections     = {});
+    Mesh(SerialMesh         mesh,
+         const unsigned int n_refinements,
+         const double       scale,
+         const MPI_Comm     comm,
+         Log               &log,
+         const unsigned int element_degree = 3);
 
     /// What this rank has of it: its own cells and those beside them.
     const LocalMesh &
@@ -76,7 +76,7 @@ namespace corotet
      * The same for deal.II's tools, with the cells in the same order: made when
      * it is asked for, which takes longer than all else. Cells carry the region
      * as material id and the surface's faces the boundary as boundary id, or
-     * unnamed_boundary (triangulation.h) where they belong to none. The first
+     * unnamed_boundary (mesh_names.h) where they belong to none. The first
      * call is collective.
      */
     const dealii::parallel::fullydistributed::Triangulation<3> &
@@ -116,7 +116,7 @@ namespace corotet
     }
 
     /// Wall times [s] on rank 0: what reading or making the mesh took, and
-    /// sorting and distributing its cells.
+    /// checking, sorting and distributing its cells.
     double
     read_time() const
     {
@@ -152,18 +152,24 @@ namespace corotet
       const unsigned int curve = local_mesh.cells[cell].curve;
       if (curve == SerialMesh::straight)
         return {};
-      const std::size_t n = n_curved_nodes();
+      const std::size_t n = local_mesh.n_map_nodes();
       return {local_mesh.curved_nodes.data() + n * curve, n};
     }
 
   private:
-    /// Of a curved cell.
-    unsigned int
-    n_curved_nodes() const
-    {
-      const unsigned int q = geometry_degree();
-      return (q + 1) * (q + 2) * (q + 3) / 6;
-    }
+    /// What constructors end with: the cells of @p mesh are not yet checked,
+    /// refined, multiplied by the scale, and sorted.
+    void
+    take(SpreadMesh       &&mesh,
+         const unsigned int n_refinements,
+         const double       scale,
+         const MPI_Comm     comm,
+         Log               &log,
+         const unsigned int element_degree);
+
+    /// Named boundaries must be on the surface. Throws InputError. Collective.
+    void
+    check_boundaries(const std::string &origin) const;
 
     double     seconds_read      = 0;
     double     seconds_partition = 0;

@@ -15,6 +15,7 @@ namespace corotet
     abaqus,
     brep,
     cgns,
+    corotet,
     geo,
     iges,
     med,

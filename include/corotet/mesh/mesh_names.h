@@ -4,6 +4,8 @@
 #ifndef corotet_mesh_mesh_names_h
 #define corotet_mesh_mesh_names_h
 
+#include <deal.II/base/types.h>
+
 #include <compare>
 #include <map>
 #include <string>
@@ -11,6 +13,13 @@
 
 namespace corotet
 {
+  /**
+   * The boundary id of faces of the surface that belong to no boundary. No mesh
+   * source uses it and no name selects it.
+   */
+  constexpr dealii::types::boundary_id unnamed_boundary =
+    dealii::numbers::internal_face_boundary_id - 1;
+
   /**
    * What a mesh calls its regions or its boundaries. Each cell has one region
    * and each face of the surface one boundary, which are known by ids. A name

@@ -6,6 +6,8 @@
 
 #include <corotet/mesh/serial_mesh.h>
 
+#include <mpi.h>
+
 namespace corotet
 {
   /**
@@ -41,18 +43,22 @@ namespace corotet
   double
   signed_volume(const std::array<dealii::Point<3>, 4> &p);
 
+  /// In m^2, of the tetrahedron with these vertices.
+  double
+  square_of_longest_edge(const std::array<dealii::Point<3>, 4> &p);
+
   /// Of the tetrahedron with these vertices, whose volume is positive.
   CellShape
   cell_shape(const std::array<dealii::Point<3>, 4> &p);
 
   /// The vertices of a cell of @p mesh.
   std::array<dealii::Point<3>, 4>
-  cell_vertices(const SerialMesh &mesh, const SerialMesh::Cell &cell);
+  cell_vertices(const MeshCells &mesh, const MeshCells::Cell &cell);
 
   /// Volumes must be positive. Angles and aspect ratios are those of the
-  /// straight cells with the same vertices.
+  /// straight cells with the same vertices. Of all ranks' cells. Collective.
   MeshQuality
-  mesh_quality(const SerialMesh &mesh);
+  mesh_quality(const MeshCells &mesh, const MPI_Comm comm = MPI_COMM_SELF);
 } // namespace corotet
 
 #endif

@@ -8,8 +8,14 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <mpi.h>
+
+#include <memory>
+
 namespace corotet
 {
+  struct SpreadMesh;
+
   /**
    * Where a mesh comes from: a generator or a file reader with its parameters.
    */
@@ -32,6 +38,17 @@ namespace corotet
     virtual SerialMesh
     create(const std::string &folder,
            const unsigned int n_refinements = 0) const = 0;
+
+    /**
+     * The same, unrefined, by all ranks together, each a part of it; a null
+     * pointer if only one rank can make the mesh. Throws InputError.
+     * Collective.
+     */
+    virtual std::shared_ptr<SpreadMesh>
+    create_spread(const std::string & /*folder*/, const MPI_Comm /*comm*/) const
+    {
+      return nullptr;
+    }
   };
 } // namespace corotet
 

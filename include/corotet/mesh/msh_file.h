@@ -19,16 +19,8 @@ namespace corotet
   std::string
   msh_text(const SerialMesh &mesh);
 
-  /**
-   * Throws InputError unless a mesh that was read from the file @p origin may
-   * be written to @p path: a file that is there is replaced if it is one of
-   * gmsh, and another one.
-   */
-  void
-  check_msh_target(const std::string &path, const std::string &origin);
-
-  /// Writes it to a file that is complete or absent. Throws what
-  /// check_msh_target() throws, and MachineError if it cannot be written.
+  /// Writes it to a file that is complete or absent. Throws MachineError if it
+  /// cannot be written.
   void
   write_msh_file(const std::string &path, const SerialMesh &mesh);
 } // namespace corotet

@@ -39,6 +39,13 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
+    bool
+    are_given() const
+    {
+      return !(boundaries.empty() && regions.empty() && edges.empty() &&
+               corners.empty());
+    }
+
     std::string boundaries;
     std::string regions;
     std::string edges;

@@ -16,10 +16,9 @@
 namespace corotet
 {
   /**
-   * A tetrahedral mesh as a MeshSource makes it: whole, on one rank, not yet
-   * checked.
+   * Tetrahedra, straight and curved, and their vertices.
    */
-  struct SerialMesh
+  struct MeshCells
   {
     /// Of a cell that is not curved.
     static constexpr unsigned int straight =
@@ -35,6 +34,31 @@ namespace corotet
       unsigned int curve = straight;
     };
 
+    std::vector<dealii::Point<3>> vertices;
+    std::vector<Cell>             cells;
+
+    /// Degree q of the maps that make curved cells of the reference
+    /// tetrahedron: 2 or 3, or 1 if there are none.
+    unsigned int geometry_degree = 1;
+    /// Images of the support points of FE_SimplexP(q), of one curved cell after
+    /// another. The first four are the cell's vertices.
+    std::vector<dealii::Point<3>> curved_nodes;
+
+    /// Nodes of the map of a curved cell.
+    unsigned int
+    n_map_nodes() const
+    {
+      const unsigned int q = geometry_degree;
+      return (q + 1) * (q + 2) * (q + 3) / 6;
+    }
+  };
+
+  /**
+   * A tetrahedral mesh as a MeshSource makes it: whole, on one rank, not yet
+   * checked.
+   */
+  struct SerialMesh : MeshCells
+  {
     /// A triangle of the surface (in any orientation), and the boundary it
     /// belongs to.
     struct Face
@@ -58,8 +82,6 @@ namespace corotet
       unsigned int id;
     };
 
-    std::vector<dealii::Point<3>> vertices;
-    std::vector<Cell>             cells;
     /// Faces on the surface that belong to a named boundary. Others need not be
     /// listed.
     std::vector<Face> faces;
@@ -67,12 +89,6 @@ namespace corotet
     std::vector<Edge>   edges;
     std::vector<Corner> corners;
 
-    /// Degree q of the maps that make curved cells of the reference
-    /// tetrahedron: 2 or 3, or 1 if there are none.
-    unsigned int geometry_degree = 1;
-    /// Images of the support points of FE_SimplexP(q), of one curved cell after
-    /// another. The first four are the cell's vertices.
-    std::vector<dealii::Point<3>> curved_nodes;
     /// How often the source has refined the mesh by itself.
     unsigned int n_refinements = 0;
 

@@ -5,9 +5,9 @@
 #define corotet_output_checkpoint_file_h
 
 #include <corotet/base/archive.h>
+#include <corotet/base/hdf5_file.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/output/file_order.h>
-#include <corotet/output/hdf5_file.h>
 
 #include <nlohmann/json.hpp>
 

@@ -4,8 +4,8 @@
 #ifndef corotet_output_file_order_h
 #define corotet_output_file_order_h
 
+#include <corotet/base/hdf5_file.h>
 #include <corotet/discretization/discretization.h>
-#include <corotet/output/hdf5_file.h>
 
 #include <mpi.h>
 

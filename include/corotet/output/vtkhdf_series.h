@@ -5,7 +5,7 @@
 #define corotet_output_vtkhdf_series_h
 
 #include <corotet/base/archive.h>
-#include <corotet/output/hdf5_file.h>
+#include <corotet/base/hdf5_file.h>
 
 #include <mpi.h>
 

@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/hdf5_file.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/whole_file.h>
-#include <corotet/output/hdf5_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -378,6 +378,10 @@ namespace corotet
   template void
   Hdf5File::write_from_root(const std::string &,
                             const std::vector<std::int64_t> &,
+                            const hsize_t);
+  template void
+  Hdf5File::write_from_root(const std::string &,
+                            const std::vector<std::uint8_t> &,
                             const hsize_t);
   template void
   Hdf5File::write_virtual<double>(const std::string &,

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/hdf5_file.h>
 #include <corotet/base/mpi.h>
-#include <corotet/output/hdf5_file.h>
 
 #include <array>
 #include <fstream>

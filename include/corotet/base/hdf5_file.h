@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_output_hdf5_file_h
-#define corotet_output_hdf5_file_h
+#ifndef corotet_base_hdf5_file_h
+#define corotet_base_hdf5_file_h
 
 #include <hdf5.h>
 #include <mpi.h>

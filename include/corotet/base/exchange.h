@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_exchange_h
+#define corotet_base_exchange_h
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <type_traits>
+#include <vector>
+
+namespace corotet
+{
+  /// Messages by the rank that they go to, or come from.
+  using Messages = std::map<unsigned int, std::vector<std::byte>>;
+
+  /**
+   * Gives each rank what others have for it, of any length, also above 2 GiB.
+   * Nobody need know whom it gets messages from, and only ranks that have some
+   * for each other send any (the nonblocking consensus of Hoefler, Siebert and
+   * Lumsdaine, 2010). What a rank has for itself is moved. Collective.
+   */
+  Messages
+  exchange_messages(Messages &&sent, const MPI_Comm comm);
+
+  /// Appends an array of numbers, or of structures of numbers, to a message.
+  template <typename T>
+  void
+  append_array(std::vector<std::byte> &message, const std::vector<T> &array)
+  {
+    static_assert(std::is_trivially_destructible_v<T>);
+    const std::size_t n_bytes = sizeof(T) * array.size();
+    const std::size_t begin   = message.size();
+    message.resize(begin + sizeof(n_bytes) + n_bytes);
+    std::memcpy(message.data() + begin, &n_bytes, sizeof(n_bytes));
+    if (n_bytes > 0)
+      std::memcpy(message.data() + begin + sizeof(n_bytes),
+                  array.data(),
+                  n_bytes);
+  }
+
+  /// Takes it from @p position on, which becomes what follows it.
+  template <typename T>
+  void
+  take_array(const std::vector<std::byte> &message,
+             std::size_t                  &position,
+             std::vector<T>               &array)
+  {
+    static_assert(std::is_trivially_destructible_v<T>);
+    std::size_t n_bytes = 0;
+    std::memcpy(&n_bytes, message.data() + position, sizeof(n_bytes));
+    position += sizeof(n_bytes);
+    array.resize(n_bytes / sizeof(T));
+    if (n_bytes > 0)
+      // dealii::Point has constructors, but is numbers and nothing else.
+      std::memcpy(static_cast<void *>(array.data()),
+                  message.data() + position,
+                  n_bytes);
+    position += n_bytes;
+  }
+
+  /// The same of single arrays, by the rank that they go to, or come from.
+  template <typename T>
+  std::map<unsigned int, std::vector<T>>
+  exchange_arrays(const std::map<unsigned int, std::vector<T>> &sent,
+                  const MPI_Comm                                comm)
+  {
+    Messages messages;
+    for (const auto &[rank, array] : sent)
+      append_array(messages[rank], array);
+    std::map<unsigned int, std::vector<T>> received;
+    for (const auto &[rank, message] :
+         exchange_messages(std::move(messages), comm))
+      {
+        std::size_t position = 0;
+        take_array(message, position, received[rank]);
+      }
+    return received;
+  }
+} // namespace corotet
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_cell_order_h
+#define corotet_mesh_cell_order_h
+
+#include <corotet/mesh/mesh_part.h>
+
+namespace corotet
+{
+  /**
+   * Sorts the cells of all ranks along a Hilbert curve, so that neighbours are
+   * close in memory, and gives each rank a piece of the sequence, all with
+   * equal work (that of curved cells is larger). Cells at the same place are
+   * sorted by their numbers. Then cells have the numbers of their places in the
+   * sequence, which depend on nothing but the mesh. Vertices of no cell are
+   * dropped. No rank is without a cell if there are as many as ranks.
+   * Collective.
+   */
+  void
+  sort_along_curve(MeshPart &part, const MPI_Comm comm);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_check_names_h
+#define corotet_mesh_check_names_h
+
+#include <corotet/mesh/edges.h>
+
+namespace corotet
+{
+  /**
+   * Part of check_mesh(): listed faces must be faces of cells, and one on the
+   * surface has one boundary. Keeps those on the surface, the named edges that
+   * are edges of cells and the corners that are vertices of cells, each once
+   * for each id; remarks count the others. Returns what is kept, in the cells.
+   */
+  NamedParts
+  check_names(SerialMesh &mesh);
+} // namespace corotet
+
+#endif

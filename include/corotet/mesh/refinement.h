@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_refinement_h
+#define corotet_mesh_refinement_h
+
+#include <corotet/mesh/mesh_part.h>
+
+namespace corotet
+{
+  /**
+   * Cuts every cell of all ranks into eight, @p n_refinements times, as deal.II
+   * does: the octahedron in the middle along its shortest diagonal. The parts
+   * of cell c have the numbers 8 c to 8 c + 7. Parts of curved cells are curved
+   * as these are, and new vertices lie on the curves; parts of faces and edges
+   * have their names. Collective.
+   */
+  void
+  refine_uniformly(MeshPart          &part,
+                   const unsigned int n_refinements,
+                   const MPI_Comm     comm);
+
+  /// The same for a whole mesh. Vertices keep their numbers.
+  void
+  refine_uniformly(SerialMesh &mesh, const unsigned int n_refinements);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exchange.h>
+#include <corotet/mesh/cell_order.h>
+#include <corotet/mesh/hilbert_curve.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/sort/spreadsort/integer_sort.hpp>
+
+#include <algorithm>
+#include <compare>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace corotet
+{
+  namespace
+  {
+    namespace MPI = dealii::Utilities::MPI;
+
+    // Work of a curved cell, if that of a straight one is 1: the matrix-free
+    // product takes about three times as long, that with the exact tangent as
+    // long as on straight cells.
+    constexpr std::uint64_t work_of_curved_cell = 2;
+
+
+
+    // What cells are sorted by: the place on the curve and, for cells at the
+    // same place, their numbers.
+    struct CurvePlace
+    {
+      std::uint64_t on_curve;
+      std::uint64_t number;
+
+      auto
+      operator<=>(const CurvePlace &) const = default;
+    };
+
+
+
+    // A cell of the part, or of one of several, and its place.
+    struct PlacedCell
+    {
+      std::uint64_t on_curve;
+      unsigned int  cell;
+      unsigned int  part = 0;
+    };
+
+
+
+    // Of the cells' centres on all ranks: the lowest coordinates, and the
+    // length of the longest side.
+    std::pair<dealii::Point<3>, double>
+    box_of(const std::vector<dealii::Point<3>> &centres, const MPI_Comm comm)
+    {
+      // Highest coordinates, and lowest ones with the other sign.
+      std::vector<double> bounds(6, -std::numeric_limits<double>::infinity());
+      for (const dealii::Point<3> &x : centres)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            bounds[d]     = std::max(bounds[d], x[d]);
+            bounds[3 + d] = std::max(bounds[3 + d], -x[d]);
+          }
+      MPI::max(bounds, comm, bounds);
+      dealii::Point<3> lowest;
+      double           extent = 0;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          lowest[d] = -bounds[3 + d];
+          extent    = std::max(extent, bounds[d] - lowest[d]);
+        }
+      return {lowest, extent};
+    }
+
+
+
+    // @p number gives that of a cell.
+    template <typename Number>
+    void
+    sort_cells(std::vector<PlacedCell> &cells, const Number &number)
+    {
+      boost::sort::spreadsort::integer_sort(
+        cells.begin(),
+        cells.end(),
+        [](const PlacedCell &a, const unsigned int shift) {
+          return a.on_curve >> shift;
+        },
+        [](const PlacedCell &a, const PlacedCell &b) {
+          return a.on_curve < b.on_curve;
+        });
+      for (auto begin = cells.begin(), end = begin; begin != cells.end();
+           begin = end)
+        {
+          while (end != cells.end() && end->on_curve == begin->on_curve)
+            ++end;
+          if (end - begin > 1)
+            std::sort(begin,
+                      end,
+                      [&](const PlacedCell &a, const PlacedCell &b) {
+                        return number(a) < number(b);
+                      });
+        }
+    }
+
+
+
+    std::vector<PlacedCell>
+    sorted_cells(const MeshPart &part, const MPI_Comm comm)
+    {
+      std::vector<dealii::Point<3>> centres(part.cells.size());
+      for (unsigned int c = 0; c < centres.size(); ++c)
+        for (const unsigned int v : part.cells[c].vertices)
+          centres[c] += part.vertices[v] / 4.;
+      const auto [lowest, extent] = box_of(centres, comm);
+
+      // The same unit of length in all directions: stretching a slender body
+      // to a cube would make far cells neighbours on the curve.
+      const double unit = extent > 0 ? ((1 << hilbert_bits) - 1) / extent : 0;
+      std::vector<std::array<std::uint32_t, 3>> coordinates(centres.size());
+      for (unsigned int c = 0; c < centres.size(); ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+          coordinates[c][d] =
+            static_cast<std::uint32_t>(unit * (centres[c][d] - lowest[d]));
+      const std::vector<std::uint64_t> on_curve =
+        places_on_hilbert_curve(coordinates);
+
+      std::vector<PlacedCell> cells;
+      cells.reserve(centres.size());
+      for (unsigned int c = 0; c < centres.size(); ++c)
+        cells.push_back({on_curve[c], c});
+      sort_cells(cells, [&](const PlacedCell &placed) {
+        return part.numbers[placed.cell];
+      });
+      return cells;
+    }
+
+
+
+    // The sorted cells of a rank, for questions about those of all ranks.
+    class Sequence
+    {
+    public:
+      Sequence(const std::vector<PlacedCell> &cells,
+               const MeshPart                &part,
+               const MPI_Comm                 comm)
+        : cells(cells)
+        , numbers(part.numbers)
+        , comm(comm)
+        , work_before(cells.size() + 1, 0)
+      {
+        for (std::size_t i = 0; i < cells.size(); ++i)
+          work_before[i + 1] =
+            work_before[i] +
+            (part.cells[cells[i].cell].curve == SerialMesh::straight ?
+               1 :
+               work_of_curved_cell);
+      }
+
+      std::uint64_t
+      n_cells() const
+      {
+        return MPI::sum(std::uint64_t(cells.size()), comm);
+      }
+
+      std::uint64_t
+      work() const
+      {
+        return MPI::sum(work_before.back(), comm);
+      }
+
+      // How many cells of all ranks are before each of @p cuts.
+      std::vector<std::uint64_t>
+      n_cells_before(const std::vector<CurvePlace> &cuts) const
+      {
+        std::vector<std::uint64_t> result;
+        for (const CurvePlace &cut : cuts)
+          result.push_back(position(cut));
+        MPI::sum(result, comm, result);
+        return result;
+      }
+
+      /**
+       * The lowest places that have at least so much before them, ascending as
+       * @p amounts: work, or cells.
+       */
+      std::vector<CurvePlace>
+      cuts(const std::vector<std::uint64_t> &amounts, const bool of_work) const
+      {
+        // By bisection: bits of the place on the curve, then of the number.
+        std::vector<CurvePlace> cuts(amounts.size(), CurvePlace{0, 0});
+        for (const auto &[coordinate, n_bits] :
+             {std::pair(&CurvePlace::on_curve, int(3 * hilbert_bits)),
+              std::pair(&CurvePlace::number, 64)})
+          for (int bit = n_bits - 1; bit >= 0; --bit)
+            {
+              std::vector<CurvePlace> trials = cuts;
+              for (CurvePlace &trial : trials)
+                trial.*coordinate |= std::uint64_t(1) << bit;
+              std::vector<std::uint64_t> before;
+              for (const CurvePlace &trial : trials)
+                before.push_back(of_work ? work_before[position(trial)] :
+                                           position(trial));
+              MPI::sum(before, comm, before);
+              for (std::size_t i = 0; i < cuts.size(); ++i)
+                if (before[i] < amounts[i])
+                  cuts[i] = trials[i];
+            }
+        // Those are the highest places with less before them.
+        for (CurvePlace &cut : cuts)
+          ++cut.number;
+        return cuts;
+      }
+
+      // Of the first cell of this rank that is not before @p cut.
+      std::size_t
+      position(const CurvePlace &cut) const
+      {
+        return std::lower_bound(cells.begin(),
+                                cells.end(),
+                                cut,
+                                [&](const PlacedCell &a, const CurvePlace &b) {
+                                  return CurvePlace{a.on_curve,
+                                                    numbers[a.cell]} < b;
+                                }) -
+               cells.begin();
+      }
+
+    private:
+      const std::vector<PlacedCell>    &cells;
+      const std::vector<std::uint64_t> &numbers;
+      const MPI_Comm                    comm;
+      std::vector<std::uint64_t>        work_before;
+    };
+
+
+
+    // Where the piece of each rank but the first begins, with equal work, and
+    // a cell for each rank.
+    std::vector<CurvePlace>
+    beginnings(const Sequence &sequence, const unsigned int n_ranks)
+    {
+      const std::uint64_t        work = sequence.work(), n = sequence.n_cells();
+      std::vector<std::uint64_t> amounts;
+      for (unsigned int rank = 1; rank < n_ranks; ++rank)
+        amounts.push_back(work * rank / n_ranks);
+      std::vector<CurvePlace>    cuts     = sequence.cuts(amounts, true);
+      std::vector<std::uint64_t> first    = sequence.n_cells_before(cuts);
+      bool                       is_moved = false;
+      if (n < n_ranks)
+        return cuts;
+      for (unsigned int rank = 1; rank < n_ranks; ++rank)
+        {
+          const std::uint64_t least = rank == 1 ? 1 : first[rank - 2] + 1;
+          const std::uint64_t wanted =
+            std::max(least, std::min(first[rank - 1], n - (n_ranks - rank)));
+          is_moved        = is_moved || wanted != first[rank - 1];
+          first[rank - 1] = wanted;
+        }
+      return is_moved ? sequence.cuts(first, false) : cuts;
+    }
+
+
+
+    // For each rank, the cells that belong to it and their places on the curve.
+    Messages
+    cells_by_owner(const MeshPart                &part,
+                   const std::vector<PlacedCell> &cells,
+                   const MPI_Comm                 comm)
+    {
+      const unsigned int            n_ranks = MPI::n_mpi_processes(comm);
+      const Sequence                sequence(cells, part, comm);
+      const std::vector<CurvePlace> cuts = beginnings(sequence, n_ranks);
+      PartCutter                    cutter(part);
+      Messages                      messages;
+      std::size_t                   begin = 0;
+      for (unsigned int rank = 0; rank < n_ranks; ++rank)
+        {
+          const std::size_t end =
+            rank + 1 < n_ranks ? sequence.position(cuts[rank]) : cells.size();
+          if (begin == end)
+            continue;
+          std::vector<unsigned int>  moved;
+          std::vector<std::uint64_t> on_curve;
+          for (std::size_t i = begin; i < end; ++i)
+            {
+              moved.push_back(cells[i].cell);
+              on_curve.push_back(cells[i].on_curve);
+            }
+          messages[rank] = packed(cutter.cut(moved));
+          append_array(messages[rank], on_curve);
+          begin = end;
+        }
+      return messages;
+    }
+
+
+
+    // Those that this rank has got, sorted.
+    MeshPart
+    sorted_part(const Messages &messages, const unsigned int geometry_degree)
+    {
+      std::vector<MeshPart>   parts;
+      std::vector<PlacedCell> cells;
+      for (const auto &[rank, message] : messages)
+        {
+          std::size_t                position = 0;
+          std::vector<std::uint64_t> on_curve;
+          parts.push_back(unpacked(message, position));
+          take_array(message, position, on_curve);
+          for (unsigned int c = 0; c < on_curve.size(); ++c)
+            cells.push_back(
+              {on_curve[c], c, static_cast<unsigned int>(parts.size() - 1)});
+        }
+      sort_cells(cells, [&](const PlacedCell &placed) {
+        return parts[placed.part].numbers[placed.cell];
+      });
+      std::vector<std::pair<unsigned int, unsigned int>> order;
+      order.reserve(cells.size());
+      for (const PlacedCell &placed : cells)
+        order.emplace_back(placed.part, placed.cell);
+      MeshPart result        = merged(parts, order);
+      result.geometry_degree = geometry_degree;
+      return result;
+    }
+  } // namespace
+
+
+
+  void
+  sort_along_curve(MeshPart &part, const MPI_Comm comm)
+  {
+    const std::vector<PlacedCell> cells = sorted_cells(part, comm);
+    if (MPI::n_mpi_processes(comm) == 1)
+      {
+        std::vector<unsigned int> order;
+        order.reserve(cells.size());
+        for (const PlacedCell &placed : cells)
+          order.push_back(placed.cell);
+        part = PartCutter(part).cut(order);
+      }
+    else
+      {
+        Messages           messages = cells_by_owner(part, cells, comm);
+        const unsigned int degree   = part.geometry_degree;
+        part                        = {};
+        part =
+          sorted_part(exchange_messages(std::move(messages), comm), degree);
+      }
+
+    const auto [first, n] =
+      MPI::partial_and_total_sum(std::uint64_t(part.cells.size()), comm);
+    std::iota(part.numbers.begin(), part.numbers.end(), first);
+  }
+} // namespace corotet

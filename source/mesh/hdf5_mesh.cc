@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/hdf5_file.h>
+#include <corotet/mesh/hdf5_mesh.h>
+#include <corotet/mesh/local_mesh.h>
+
+#include <nlohmann/json.hpp>
+
+#include "hdf5_mesh_version.h"
+
+namespace corotet
+{
+  namespace
+  {
+    using nlohmann::json;
+
+    // The attribute that says what the file is.
+    constexpr const char *mark_of_mesh = "corotet_mesh";
+
+
+
+    json
+    to_json(const NamedSets &named)
+    {
+      json names = json::array(), sets = json::object();
+      for (const auto &[id, name] : named.names)
+        names.push_back({id, name});
+      for (const auto &[name, ids] : named.sets)
+        sets[name] = ids;
+      return {{"names", names}, {"sets", sets}};
+    }
+  } // namespace
+
+
+
+  SerialMesh
+  read_hdf5_mesh(const std::string &path)
+  {
+    SpreadMesh read   = read_hdf5_mesh(path, MPI_COMM_SELF);
+    SerialMesh mesh   = serial_mesh(std::move(read.part));
+    mesh.regions      = std::move(read.names.regions);
+    mesh.boundaries   = std::move(read.names.boundaries);
+    mesh.edge_names   = std::move(read.names.edges);
+    mesh.corner_names = std::move(read.names.corners);
+    mesh.origin       = path;
+    return mesh;
+  }
+
+
+
+  bool
+  is_hdf5_mesh(const std::string &path)
+  {
+    const Hdf5Silence silence;
+    const Hdf5Id      file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+    return file >= 0 && H5Aexists(file, mark_of_mesh) > 0;
+  }
+
+
+
+  void
+  write_hdf5_mesh(const std::string &path, const SerialMesh &mesh)
+  {
+    const LocalMesh local = distribute(mesh, MPI_COMM_SELF);
+    const auto      table = [&](const std::vector<CellPart> &list) {
+      std::vector<std::int64_t> numbers;
+      for (const auto &[cell, number, id] : list)
+        numbers.insert(numbers.end(), {cell, number, id});
+      return numbers;
+    };
+    const auto coordinates = [](const std::vector<dealii::Point<3>> &points) {
+      std::vector<double> numbers;
+      for (const dealii::Point<3> &x : points)
+        numbers.insert(numbers.end(), {x[0], x[1], x[2]});
+      return numbers;
+    };
+    std::vector<std::int64_t> cells, regions, curves;
+    for (const MeshCells::Cell &cell : local.cells)
+      {
+        cells.insert(cells.end(), cell.vertices.begin(), cell.vertices.end());
+        regions.push_back(cell.region);
+        curves.push_back(cell.curve == MeshCells::straight ?
+                           -1 :
+                           static_cast<std::int64_t>(cell.curve));
+      }
+    const UsedNames   names(mesh);
+    const std::string text = json{{"corotet mesh", hdf5_mesh_version},
+                                  {"geometry degree", local.geometry_degree},
+                                  {"regions", to_json(names.regions)},
+                                  {"boundaries", to_json(names.boundaries)},
+                                  {"edges", to_json(names.edges)},
+                                  {"corners", to_json(names.corners)}}
+                               .dump();
+    Hdf5File file(path, MPI_COMM_SELF);
+    file.write_number_attribute("/", mark_of_mesh, {hdf5_mesh_version});
+    file.write_from_root("description",
+                         std::vector<std::uint8_t>(text.begin(), text.end()));
+    file.write_from_root("vertices", coordinates(local.vertices), 3);
+    file.write_from_root("cells", cells, 4);
+    file.write_from_root("regions", regions);
+    file.write_from_root("curves", curves);
+    file.write_from_root("curved_nodes", coordinates(local.curved_nodes), 3);
+    file.write_from_root("faces", table(local.faces), 3);
+    file.write_from_root("edges", table(local.edges), 3);
+    file.write_from_root("corners", table(local.corners), 3);
+    file.finish(true);
+  }
+} // namespace corotet

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exchange.h>
+#include <corotet/base/mpi.h>
+#include <corotet/base/number_table.h>
+#include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/mesh_part.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace corotet
+{
+  namespace
+  {
+    constexpr unsigned int not_there = dealii::numbers::invalid_unsigned_int;
+
+
+
+    // What a message consists of, in its order.
+    template <typename Part, typename Action>
+    void
+    for_each_array(Part &part, const Action &action)
+    {
+      action(part.vertices);
+      action(part.vertex_numbers);
+      action(part.cells);
+      action(part.numbers);
+      action(part.faces);
+      action(part.edges);
+      action(part.corners);
+      action(part.curved_nodes);
+    }
+
+
+
+    void
+    sort_by_cells(std::vector<CellPart> &list)
+    {
+      std::stable_sort(list.begin(),
+                       list.end(),
+                       [](const CellPart &a, const CellPart &b) {
+                         return a.cell < b.cell;
+                       });
+    }
+
+
+
+    // Of a list by cells, what belongs to those that have a new number; these
+    // are between two cells.
+    std::vector<CellPart>
+    chosen(const std::vector<CellPart>     &list,
+           const unsigned int               first_cell,
+           const unsigned int               last_cell,
+           const std::vector<unsigned int> &new_cells)
+    {
+      std::vector<CellPart> result;
+      for (auto p = std::lower_bound(list.begin(),
+                                     list.end(),
+                                     first_cell,
+                                     [](const CellPart    &part,
+                                        const unsigned int cell) {
+                                       return part.cell < cell;
+                                     });
+           p != list.end() && p->cell <= last_cell;
+           ++p)
+        if (new_cells[p->cell] != not_there)
+          result.push_back({new_cells[p->cell], p->number, p->id});
+      sort_by_cells(result);
+      return result;
+    }
+  } // namespace
+
+
+
+  PartCutter::PartCutter(const MeshPart &part)
+    : part(part)
+    , new_vertices(part.vertices.size(), not_there)
+    , new_cells(part.cells.size(), not_there)
+  {}
+
+
+
+  MeshPart
+  PartCutter::cut(const std::vector<unsigned int> &cells)
+  {
+    MeshPart result;
+    result.geometry_degree = part.geometry_degree;
+    result.cells.reserve(cells.size());
+    result.numbers.reserve(cells.size());
+    std::vector<unsigned int> used;
+    unsigned int              n_curves = 0;
+    for (const unsigned int c : cells)
+      {
+        new_cells[c]           = result.cells.size();
+        SerialMesh::Cell &cell = result.cells.emplace_back(part.cells[c]);
+        result.numbers.push_back(part.numbers[c]);
+        for (unsigned int &v : cell.vertices)
+          {
+            if (new_vertices[v] == not_there)
+              {
+                new_vertices[v] = used.size();
+                used.push_back(v);
+              }
+            v = new_vertices[v];
+          }
+        if (cell.curve != SerialMesh::straight)
+          {
+            const dealii::Point<3> *nodes = curved_nodes(part, cell);
+            result.curved_nodes.insert(result.curved_nodes.end(),
+                                       nodes,
+                                       nodes + part.n_map_nodes());
+            cell.curve = n_curves++;
+          }
+      }
+    result.vertices.reserve(used.size());
+    result.vertex_numbers.reserve(used.size());
+    for (const unsigned int v : used)
+      {
+        result.vertices.push_back(part.vertices[v]);
+        result.vertex_numbers.push_back(part.vertex_numbers[v]);
+        new_vertices[v] = not_there;
+      }
+    if (!cells.empty())
+      {
+        const auto [first, last] =
+          std::minmax_element(cells.begin(), cells.end());
+        result.faces   = chosen(part.faces, *first, *last, new_cells);
+        result.edges   = chosen(part.edges, *first, *last, new_cells);
+        result.corners = chosen(part.corners, *first, *last, new_cells);
+      }
+    for (const unsigned int c : cells)
+      new_cells[c] = not_there;
+    return result;
+  }
+
+
+
+  MeshPart
+  merged(const std::vector<MeshPart>                              &parts,
+         const std::vector<std::pair<unsigned int, unsigned int>> &order)
+  {
+    MeshPart                               result;
+    NumberTable                            vertices;
+    std::vector<std::vector<unsigned int>> new_vertices, new_cells;
+    for (const MeshPart &part : parts)
+      {
+        new_vertices.emplace_back(part.vertices.size(), not_there);
+        new_cells.emplace_back(part.cells.size(), not_there);
+        result.geometry_degree = part.geometry_degree;
+      }
+    result.cells.reserve(order.size());
+    result.numbers.reserve(order.size());
+    unsigned int n_curves = 0;
+    for (const auto &[p, c] : order)
+      {
+        const MeshPart &part = parts[p];
+        new_cells[p][c]      = result.cells.size();
+        result.numbers.push_back(part.numbers[c]);
+        SerialMesh::Cell &cell = result.cells.emplace_back(part.cells[c]);
+        for (unsigned int &v : cell.vertices)
+          {
+            unsigned int &index = new_vertices[p][v];
+            if (index == not_there)
+              {
+                index = vertices.index_of(part.vertex_numbers[v]);
+                if (index == result.vertices.size())
+                  result.vertices.push_back(part.vertices[v]);
+              }
+            v = index;
+          }
+        if (cell.curve != SerialMesh::straight)
+          {
+            const dealii::Point<3> *nodes = curved_nodes(part, cell);
+            result.curved_nodes.insert(result.curved_nodes.end(),
+                                       nodes,
+                                       nodes + part.n_map_nodes());
+            cell.curve = n_curves++;
+          }
+      }
+    result.vertex_numbers = vertices.numbers();
+    for (std::vector<CellPart> MeshPart::*list :
+         {&MeshPart::faces, &MeshPart::edges, &MeshPart::corners})
+      {
+        for (unsigned int p = 0; p < parts.size(); ++p)
+          for (const auto &[c, number, id] : parts[p].*list)
+            (result.*list).push_back({new_cells[p][c], number, id});
+        sort_by_cells(result.*list);
+      }
+    return result;
+  }
+
+
+
+  void
+  append(MeshPart &part, const MeshPart &other)
+  {
+    const unsigned int n_vertices = part.vertices.size();
+    const unsigned int n_cells    = part.cells.size();
+    const unsigned int n_curves = part.curved_nodes.size() / part.n_map_nodes();
+    const auto         add      = [](auto &array, const auto &more) {
+      array.insert(array.end(), more.begin(), more.end());
+    };
+    const auto add_list = [&](std::vector<CellPart>       &list,
+                              const std::vector<CellPart> &more) {
+      list.reserve(list.size() + more.size());
+      for (const auto &[cell, number, id] : more)
+        list.push_back({n_cells + cell, number, id});
+    };
+    add(part.vertices, other.vertices);
+    add(part.vertex_numbers, other.vertex_numbers);
+    add(part.numbers, other.numbers);
+    add(part.curved_nodes, other.curved_nodes);
+    add_list(part.faces, other.faces);
+    add_list(part.edges, other.edges);
+    add_list(part.corners, other.corners);
+    part.cells.reserve(n_cells + other.cells.size());
+    for (SerialMesh::Cell cell : other.cells)
+      {
+        for (unsigned int &v : cell.vertices)
+          v += n_vertices;
+        if (cell.curve != SerialMesh::straight)
+          cell.curve += n_curves;
+        part.cells.push_back(cell);
+      }
+  }
+
+
+
+  void
+  unite_vertices(MeshPart &part)
+  {
+    std::vector<std::pair<std::uint64_t, unsigned int>> order;
+    order.reserve(part.vertices.size());
+    for (unsigned int v = 0; v < part.vertices.size(); ++v)
+      order.emplace_back(part.vertex_numbers[v], v);
+    std::sort(order.begin(), order.end());
+    std::vector<unsigned int>     new_number(order.size());
+    std::vector<dealii::Point<3>> vertices;
+    std::vector<std::uint64_t>    numbers;
+    for (const auto &[number, v] : order)
+      {
+        if (numbers.empty() || numbers.back() != number)
+          {
+            numbers.push_back(number);
+            vertices.push_back(part.vertices[v]);
+          }
+        new_number[v] = numbers.size() - 1;
+      }
+    for (SerialMesh::Cell &cell : part.cells)
+      for (unsigned int &v : cell.vertices)
+        v = new_number[v];
+    part.vertices       = std::move(vertices);
+    part.vertex_numbers = std::move(numbers);
+  }
+
+
+
+  std::vector<std::byte>
+  packed(const MeshPart &part)
+  {
+    std::vector<std::byte> message;
+    append_array(message, std::vector<unsigned int>{part.geometry_degree});
+    for_each_array(part,
+                   [&](const auto &array) { append_array(message, array); });
+    return message;
+  }
+
+
+
+  MeshPart
+  unpacked(const std::vector<std::byte> &message, std::size_t &position)
+  {
+    MeshPart                  part;
+    std::vector<unsigned int> degree;
+    take_array(message, position, degree);
+    part.geometry_degree = degree[0];
+    for_each_array(part,
+                   [&](auto &array) { take_array(message, position, array); });
+    return part;
+  }
+
+
+
+  MeshPart
+  whole_part(SerialMesh &mesh, NamedParts &&named_parts)
+  {
+    MeshPart part;
+    static_cast<MeshCells &>(part) = std::move(static_cast<MeshCells &>(mesh));
+    part.numbers.resize(part.cells.size());
+    std::iota(part.numbers.begin(), part.numbers.end(), 0);
+    part.vertex_numbers.resize(part.vertices.size());
+    std::iota(part.vertex_numbers.begin(), part.vertex_numbers.end(), 0);
+    part.faces   = std::move(named_parts.faces);
+    part.edges   = std::move(named_parts.edges);
+    part.corners = std::move(named_parts.corners);
+    return part;
+  }
+
+
+
+  SerialMesh
+  serial_mesh(MeshPart &&part)
+  {
+    SerialMesh mesh;
+    for (const auto &[c, f, id] : part.faces)
+      {
+        const auto &v        = part.cells[c].vertices;
+        const auto [i, j, k] = corners_of_faces[f];
+        mesh.faces.push_back({{{v[i], v[j], v[k]}}, id});
+      }
+    // Cells that share an edge or a vertex each have its names.
+    using Ends = std::array<unsigned int, 2>;
+    std::set<std::pair<Ends, unsigned int>>         edges;
+    std::set<std::pair<unsigned int, unsigned int>> corners;
+    for (const auto &[c, e, id] : part.edges)
+      {
+        const auto &v      = part.cells[c].vertices;
+        const auto &[a, b] = ends_of_edges[e];
+        edges.emplace(ascending_ends(v[a], v[b]), id);
+      }
+    for (const auto &[c, k, id] : part.corners)
+      corners.emplace(part.cells[c].vertices[k], id);
+    for (const auto &[ends, id] : edges)
+      mesh.edges.push_back({ends, id});
+    for (const auto &[vertex, id] : corners)
+      mesh.corners.push_back({vertex, id});
+    static_cast<MeshCells &>(mesh) = std::move(static_cast<MeshCells &>(part));
+    return mesh;
+  }
+
+
+
+  MeshPart
+  scatter(MeshPart &&whole, const MPI_Comm comm)
+  {
+    namespace MPI              = dealii::Utilities::MPI;
+    const unsigned int my_rank = MPI::this_mpi_process(comm);
+    const unsigned int n_ranks = MPI::n_mpi_processes(comm);
+    if (n_ranks == 1)
+      return std::move(whole);
+
+    const MeshPart              mesh = std::move(whole);
+    std::unique_ptr<PartCutter> cutter;
+    const auto                  piece = [&](const unsigned int rank) {
+      if (!cutter)
+        cutter = std::make_unique<PartCutter>(mesh);
+      const std::size_t         n     = mesh.cells.size();
+      const std::size_t         begin = n * rank / n_ranks;
+      std::vector<unsigned int> cells(n * (rank + 1) / n_ranks - begin);
+      std::iota(cells.begin(), cells.end(), begin);
+      return cutter->cut(cells);
+    };
+    MeshPart result;
+    for (unsigned int rank = 1; rank < n_ranks; ++rank)
+      {
+        std::vector<std::byte> message;
+        on_root(comm, [&] { message = packed(piece(rank)); });
+        if (my_rank == 0)
+          send_array(message, rank, comm);
+        else if (my_rank == rank)
+          {
+            receive_array(message, 0, comm);
+            std::size_t position = 0;
+            result               = unpacked(message, position);
+          }
+      }
+    on_root(comm, [&] { result = piece(0); });
+    return result;
+  }
+} // namespace corotet

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_tetrahedron_cut_h
+#define corotet_mesh_tetrahedron_cut_h
+
+#include <array>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * How a tetrahedron is cut into eight: its vertices have the numbers 0 to 3,
+   * the middles of its edges 4 to 9.
+   */
+  struct TetrahedronCut
+  {
+    /// Along the diagonal with this number, of 6 and 8, 5 and 7, or 4 and 9.
+    explicit TetrahedronCut(const unsigned int diagonal);
+
+    std::array<std::array<unsigned int, 4>, 8> vertices;
+    /// Parts of each face: children, and their faces.
+    std::array<std::vector<std::array<unsigned int, 2>>, 4> faces;
+  };
+
+  /// By their diagonals.
+  const std::array<TetrahedronCut, 3> &
+  tetrahedron_cuts();
+} // namespace corotet
+
+#endif

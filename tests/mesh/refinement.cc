@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Uniform refinement: the cells are those of deal.II, in the same order, and
+// the same on all ranks together as on one.
+
+#include <corotet/mesh/curved_cells.h>
+#include <corotet/mesh/local_mesh.h>
+#include <corotet/mesh/refinement.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "mesh/dealii_mesh.h"
+#include "mesh/tools.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // A box whose vertices are shaken, so that all three diagonals are shortest
+  // somewhere.
+  SerialMesh
+  shaken_box()
+  {
+    SerialMesh   mesh = box_of_2_by_half_by_1("4, 2, 2");
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> shift(-0.05, 0.05);
+    for (dealii::Point<3> &x : mesh.vertices)
+      for (unsigned int d = 0; d < 3; ++d)
+        x[d] += shift(random);
+    return mesh;
+  }
+
+  std::array<std::array<double, 3>, 4>
+  places(const MeshCells &mesh, const MeshCells::Cell &cell)
+  {
+    std::array<std::array<double, 3>, 4> result;
+    for (unsigned int k = 0; k < 4; ++k)
+      for (unsigned int d = 0; d < 3; ++d)
+        result[k][d] = mesh.vertices[cell.vertices[k]][d];
+    return result;
+  }
+
+  using NamedFaces =
+    std::multiset<std::pair<std::set<std::array<double, 3>>, unsigned int>>;
+
+  NamedFaces
+  named_faces_of(const SerialMesh &mesh)
+  {
+    NamedFaces faces;
+    for (const SerialMesh::Face &face : mesh.faces)
+      {
+        std::set<std::array<double, 3>> corners;
+        for (const unsigned int v : face.vertices)
+          corners.insert(
+            {{mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}});
+        faces.emplace(corners, face.boundary);
+      }
+    return faces;
+  }
+} // namespace
+
+TEST(Refinement, IsDealIIs)
+{
+  SerialMesh mesh = shaken_box();
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    mesh.cells[c].region = c % 3;
+  dealii::Triangulation<3> tria;
+  make_triangulation(mesh, tria);
+  tria.refine_global(2);
+  const SerialMesh expected = make_serial_mesh(tria);
+  refine_uniformly(mesh, 2);
+  ASSERT_EQ(mesh.cells.size(), expected.cells.size());
+  EXPECT_EQ(mesh.vertices.size(), expected.vertices.size());
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    {
+      // Middles are the same sums.
+      EXPECT_EQ(places(mesh, mesh.cells[c]),
+                places(expected, expected.cells[c]))
+        << c;
+      EXPECT_EQ(mesh.cells[c].region, expected.cells[c].region);
+    }
+  EXPECT_EQ(named_faces_of(mesh), named_faces_of(expected));
+}
+
+// Each rank refines its own cells: together they have those of the whole mesh,
+// and know the vertices that they share by the same numbers, which no other
+// vertices have.
+TEST(Refinement, OnRanks)
+{
+  const MPI_Comm comm  = MPI_COMM_WORLD;
+  SerialMesh     whole = shaken_box();
+  MeshPart       part  = owned_part(distribute(whole, comm));
+  refine_uniformly(part, 2, comm);
+  // In the same order.
+  MeshPart one = owned_part(distribute(whole, MPI_COMM_SELF));
+  refine_uniformly(one, 2, MPI_COMM_SELF);
+  const std::size_t n = one.cells.size();
+
+  std::vector<double> sums(n, 0);
+  for (unsigned int c = 0; c < part.cells.size(); ++c)
+    {
+      const std::uint64_t number = part.numbers[c];
+      ASSERT_LT(number, n);
+      ++sums[number];
+      EXPECT_EQ(places(part, part.cells[c]), places(one, one.cells[number]));
+    }
+  dealii::Utilities::MPI::sum(sums, comm, sums);
+  EXPECT_EQ(sums, std::vector<double>(n, 1));
+
+  using Known = std::map<std::uint64_t, std::array<double, 3>>;
+  Known known;
+  for (unsigned int v = 0; v < part.vertices.size(); ++v)
+    known[part.vertex_numbers[v]] = {
+      {part.vertices[v][0], part.vertices[v][1], part.vertices[v][2]}};
+  EXPECT_EQ(known.size(), part.vertices.size());
+  Known                           all;
+  std::set<std::array<double, 3>> all_places;
+  for (const Known &of_rank : dealii::Utilities::MPI::all_gather(comm, known))
+    for (const auto &[number, place] : of_rank)
+      {
+        EXPECT_EQ(all.emplace(number, place).first->second, place);
+        all_places.insert(place);
+      }
+  EXPECT_EQ(all.size(), one.vertices.size());
+  EXPECT_EQ(all_places.size(), one.vertices.size());
+}
+
+// A vertex on a curved edge lies on the curve on all ranks, though only one of
+// the cells there is curved (so that the mesh has a gap before).
+TEST(Refinement, RanksAgreeOnCurves)
+{
+  const MPI_Comm comm  = MPI_COMM_WORLD;
+  SerialMesh     whole = box_of_2_by_half_by_1("3, 2, 2");
+  // Of one cell in the middle, the edges bulge.
+  const unsigned int c  = whole.cells.size() / 2;
+  whole.geometry_degree = 2;
+  whole.cells[c].curve  = 0;
+  const auto corners    = cell_vertices(whole, whole.cells[c]);
+  for (const dealii::Point<3> &x : map_points(2))
+    {
+      dealii::Point<3> node = corners[0];
+      for (unsigned int k = 0; k < 3; ++k)
+        node += x[k] * (corners[k + 1] - corners[0]);
+      const bool is_middle =
+        std::abs(x[0] * x[1] + x[0] * x[2] + x[1] * x[2] +
+                 (x[0] + x[1] + x[2]) * (1 - x[0] - x[1] - x[2])) > 0.1;
+      node[2] += is_middle ? 0.01 : 0;
+      whole.curved_nodes.push_back(node);
+    }
+  const auto number_of_moved = [&](const MPI_Comm ranks) {
+    MeshPart part = owned_part(distribute(whole, ranks));
+    refine_uniformly(part, 1, ranks);
+    std::set<std::array<double, 3>> all;
+    std::vector<double>             own;
+    for (const dealii::Point<3> &x : part.vertices)
+      own.insert(own.end(), {x[0], x[1], x[2]});
+    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(ranks, own))
+      for (std::size_t i = 0; i < of_rank.size(); i += 3)
+        all.insert({{of_rank[i], of_rank[i + 1], of_rank[i + 2]}});
+    return all;
+  };
+  EXPECT_EQ(number_of_moved(comm), number_of_moved(MPI_COMM_SELF));
+}
