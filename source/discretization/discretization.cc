@@ -105,6 +105,8 @@ namespace corotet
     first_shared = next - first;
     number_backwards(0, n_owned);
 
+    if (n_owned == mesh.cells.size())
+      return numbers;
     // The owner of a node has a cell with it, which is a ghost to all that have
     // cells with the node: at first the owned cells get the numbers of their
     // nodes, and then they are known to who has them as ghosts.

@@ -78,6 +78,8 @@ namespace corotet
              const std::array<unsigned int, 3> &n_cuboids)
     {
       std::vector<dealii::Point<3>> result;
+      result.reserve((n_cuboids[0] + 1ul) * (n_cuboids[1] + 1ul) *
+                     (n_cuboids[2] + 1ul));
       for (unsigned int k = 0; k <= n_cuboids[2]; ++k)
         for (unsigned int j = 0; j <= n_cuboids[1]; ++j)
           for (unsigned int i = 0; i <= n_cuboids[0]; ++i)
@@ -135,6 +137,7 @@ namespace corotet
                                     {{3, 5, 7, 6}},
                                     {{0, 3, 6, 5}}}};
 
+      mesh.cells.reserve(5ul * n_cuboids[0] * n_cuboids[1] * n_cuboids[2]);
       std::array<unsigned int, 3> cuboid;
       auto &[i, j, k] = cuboid;
       for (k = 0; k < n_cuboids[2]; ++k)

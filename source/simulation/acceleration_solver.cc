@@ -39,7 +39,8 @@ namespace corotet
     const double        *internal      = forces.internal.begin();
     const double        *elastic =
       equation.terms.has_elastic() ? forces.elastic.begin() : nullptr;
-    double            *damping = forces.damping.begin();
+    double *damping =
+      equation.terms.has_damping() ? forces.damping.begin() : nullptr;
     double            *inertia = forces.inertia.begin();
     double            *a       = state.a.begin();
     double            *v       = state.v.begin();
@@ -50,10 +51,12 @@ namespace corotet
       else
         {
           const double e = elastic != nullptr ? elastic[i] : 0.;
-          inertia[i] = (external[i] - internal[i] - damping[i] - e) / (1 + c);
-          a[i]       = inertia[i] / m[i];
+          const double d = damping != nullptr ? damping[i] : 0.;
+          inertia[i]     = (external[i] - internal[i] - d - e) / (1 + c);
+          a[i]           = inertia[i] / m[i];
           v[i] += velocity_factor * a[i];
-          damping[i] += c * inertia[i];
+          if (damping != nullptr)
+            damping[i] += c * inertia[i];
         }
   }
 

@@ -14,6 +14,18 @@ namespace corotet
 {
   using dealii::Tensor;
 
+  namespace
+  {
+    // Of a node.
+    Tensor<1, 3>
+    vector_at(const Vector &vector, const unsigned int n)
+    {
+      return Tensor<1, 3>({vector.local_element(3 * n),
+                           vector.local_element(3 * n + 1),
+                           vector.local_element(3 * n + 2)});
+    }
+  } // namespace
+
   EnergyBudget::EnergyBudget(EquationOfMotion &equation,
                              const State      &initial_state,
                              const double      time,
@@ -35,12 +47,21 @@ namespace corotet
         forces->carried.resize(n_prescribed);
         forces->velocity.resize(n_prescribed);
       }
-    body.discretization.initialize_vector(momentum);
+    if (equation.is_dynamic)
+      body.discretization.initialize_vector(momentum);
     equation.evaluate(initial_state, time, load_factor);
     take_forces(last, initial_state);
     initial_changing_energy = force_terms.changing_energy(
       {time, equation.displacement(), equation.velocity()});
     record(initial, initial_state, time);
+  }
+
+  double
+  EnergyBudget::carried(const unsigned int i) const
+  {
+    const EquationOfMotion::Forces &terms = equation.last_forces();
+    return (equation.is_dynamic ? terms.inertia.local_element(i) : 0.) +
+           (force_terms.has_damping() ? terms.damping.local_element(i) : 0.);
   }
 
   void
@@ -59,8 +80,7 @@ namespace corotet
         forces.external.local_element(i) = terms.internal.local_element(i);
         if (force_terms.has_elastic())
           forces.external.local_element(i) += terms.elastic.local_element(i);
-        forces.carried[k] =
-          terms.inertia.local_element(i) + terms.damping.local_element(i);
+        forces.carried[k]  = carried(i);
         forces.velocity[k] = state.v.local_element(i);
       }
   }
@@ -164,18 +184,12 @@ namespace corotet
     // Where the equation of motion holds.
     record.reaction = Tensor<1, 3>();
     for (const unsigned int i : body.motion.unknowns())
-      record.reaction[i % 3] +=
-        terms.inertia.local_element(i) + terms.damping.local_element(i) +
-        terms.internal.local_element(i) - terms.external.local_element(i);
+      record.reaction[i % 3] += carried(i) + terms.internal.local_element(i) -
+                                terms.external.local_element(i);
     if (force_terms.has_elastic())
       for (const unsigned int i : body.motion.unknowns())
         record.reaction[i % 3] += terms.elastic.local_element(i);
 
-    const auto vector_at = [](const Vector &vector, const unsigned int n) {
-      return Tensor<1, 3>({vector.local_element(3 * n),
-                           vector.local_element(3 * n + 1),
-                           vector.local_element(3 * n + 2)});
-    };
     record.internal_moment = Tensor<1, 3>();
     for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
       record.internal_moment +=
@@ -185,8 +199,12 @@ namespace corotet
 
     // At the end of the step.
     equation.set_state(state);
-    body.mass.apply(momentum, equation.velocity());
-    record.kinetic_energy = 0.5 * local_inner_product(momentum, state.v);
+    record.kinetic_energy = 0;
+    if (equation.is_dynamic)
+      {
+        body.mass.apply(momentum, equation.velocity());
+        record.kinetic_energy = 0.5 * local_inner_product(momentum, state.v);
+      }
     if (is_staggered)
       record.kinetic_energy -=
         0.125 * dt * dt * local_inner_product(terms.inertia, state.a);
@@ -194,12 +212,14 @@ namespace corotet
     double largest_square                     = 0;
     for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
       {
-        const Tensor<1, 3> p = vector_at(momentum, n);
         const Tensor<1, 3> u = vector_at(state.u, n);
+        largest_square       = std::max(largest_square, u.norm_square());
+        if (!equation.is_dynamic)
+          continue;
+        const Tensor<1, 3> p = vector_at(momentum, n);
         record.momentum += p;
         record.angular_momentum +=
           cross_product_3d(body.discretization.node_position(n) + u, p);
-        largest_square = std::max(largest_square, u.norm_square());
       }
     ElasticState elastic = body.elasticity.local_state(equation.displacement());
     record.volume        = local_displaced_volume(body.discretization,

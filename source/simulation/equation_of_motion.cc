@@ -29,18 +29,18 @@ namespace corotet
                                      Log                        &log)
     : body(body)
     , wall_times(wall_times)
+    , is_dynamic(parameters.time_integrator.selected().is_dynamic())
     , terms(make_terms(body, parameters, log))
   {
     body.problem.add_to(
       terms, body.discretization, body.reference, body.materials, body.law);
-    for (Vector *vector : {&forces.external,
-                           &forces.internal,
-                           &forces.damping,
-                           &forces.inertia,
-                           &u,
-                           &v,
-                           &a})
+    for (Vector *vector : {&forces.external, &forces.internal, &u, &v})
       body.discretization.initialize_vector(*vector);
+    if (is_dynamic)
+      for (Vector *vector : {&forces.inertia, &a})
+        body.discretization.initialize_vector(*vector);
+    if (terms.has_damping())
+      body.discretization.initialize_vector(forces.damping);
     if (terms.has_elastic())
       body.discretization.initialize_vector(forces.elastic);
   }
@@ -77,7 +77,6 @@ namespace corotet
     if (terms.has_elastic())
       terms.elastic_force(forces.elastic, last_motion());
 
-    // Without damping it is zero for good.
     if (terms.has_damping())
       terms.damping_force(forces.damping, last_motion());
     return forces;
@@ -90,7 +89,8 @@ namespace corotet
   {
     evaluate_forces(state, time, load_factor);
     ScopedTimer timer(wall_times.assembly);
-    evaluate_inertia(state.a);
+    if (is_dynamic)
+      evaluate_inertia(state.a);
     return forces;
   }
 
@@ -106,8 +106,10 @@ namespace corotet
   {
     r = forces.external;
     r -= forces.internal;
-    r -= forces.damping;
-    r -= forces.inertia;
+    if (terms.has_damping())
+      r -= forces.damping;
+    if (is_dynamic)
+      r -= forces.inertia;
     if (terms.has_elastic())
       r -= forces.elastic;
     body.motion.set_zero(r);

@@ -154,8 +154,8 @@ namespace corotet
       norms<6>({{&r,
                  &forces.external,
                  &forces.internal,
-                 &forces.damping,
-                 &forces.inertia,
+                 equation.terms.has_damping() ? &forces.damping : nullptr,
+                 equation.is_dynamic ? &forces.inertia : nullptr,
                  equation.terms.has_elastic() ? &forces.elastic : nullptr}});
     external_force = sizes[1];
     force_scale    = *std::max_element(sizes.begin() + 1, sizes.end());

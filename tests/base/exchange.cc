@@ -38,7 +38,8 @@ TEST(Exchange, AllToAll)
   for (unsigned int round = 0; round < 50; ++round)
     {
       const auto array = [&](const unsigned int from, const unsigned int to) {
-        return std::vector<std::uint64_t>(round * (to + 5000 * (from % 2)),
+        return std::vector<std::uint64_t>(std::size_t(round) *
+                                            (to + 5000 * (from % 2)),
                                           100 * round + 10 * from + to);
       };
       Arrays sent, expected;

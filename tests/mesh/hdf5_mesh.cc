@@ -39,6 +39,10 @@ namespace
       MPI_Barrier(MPI_COMM_WORLD);
     }
 
+    SharedFolder(const SharedFolder &) = delete;
+    SharedFolder &
+    operator=(const SharedFolder &) = delete;
+
     // Rank 0 makes the file.
     std::string
     write(const std::string &file, const SerialMesh &mesh) const

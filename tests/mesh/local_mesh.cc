@@ -27,7 +27,7 @@ namespace
   {
     SerialMesh      mesh           = box_of_2_by_half_by_1(cells);
     const LocalMesh whole          = distribute(mesh, MPI_COMM_SELF);
-    static_cast<MeshCells &>(mesh) = whole;
+    static_cast<MeshCells &>(mesh) = static_cast<const MeshCells &>(whole);
     mesh.faces.clear();
     for (const auto &[c, f, id] : whole.faces)
       {

@@ -10,7 +10,9 @@
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/partitioner.h>
 
+#include <map>
 #include <memory>
+#include <typeindex>
 #include <utility>
 #include <vector>
 
@@ -151,6 +153,18 @@ namespace corotet
       vector.reinit(vector_partitioner);
     }
 
+    /// Work space for sweeps, which all who ask for one of this type share, one
+    /// at a time; made, of these nodes, at the first call.
+    template <typename Space>
+    std::shared_ptr<Space>
+    work_space() const
+    {
+      std::shared_ptr<void> &space = work_spaces[typeid(Space)];
+      if (!space)
+        space = std::make_shared<Space>(*this);
+      return std::static_pointer_cast<Space>(space);
+    }
+
   protected:
     explicit Nodes(const Element element);
     ~Nodes();
@@ -169,6 +183,9 @@ namespace corotet
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
                                  vector_partitioner;
     std::unique_ptr<CellBatches> cell_batches;
+
+  private:
+    mutable std::map<std::type_index, std::shared_ptr<void>> work_spaces;
   };
 } // namespace corotet
 

@@ -29,13 +29,12 @@ namespace corotet
 
     explicit CellLoop(const Nodes &nodes)
       : nodes(nodes)
-    {
-      sums.resize(4 * static_cast<std::size_t>(nodes.n_local_nodes()));
-      is_distributed =
-        dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1;
-      if (is_distributed)
-        nodes.initialize_vector(exchange);
-    }
+      , is_distributed(
+          dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
+      , space(nodes.work_space<Space>())
+      , sums(space->sums)
+      , exchange(space->exchange)
+    {}
 
     /**
      * Runs over all batches of owned cells.
@@ -116,13 +115,28 @@ namespace corotet
           }
     }
 
-    const Nodes &nodes;
-    bool         is_distributed;
+    /// Loops over the same cells take turns.
+    struct Space
+    {
+      explicit Space(const Nodes &nodes)
+        : sums(4 * static_cast<std::size_t>(nodes.n_local_nodes()))
+      {
+        if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
+          nodes.initialize_vector(exchange);
+      }
 
-    /// Four numbers per local node; all zero between sweeps.
-    mutable dealii::AlignedVector<T> sums;
-    /// Owned entries are zero but between receiving and handing on.
-    mutable VectorType exchange;
+      /// Four numbers per local node; all zero between sweeps.
+      dealii::AlignedVector<T> sums;
+      /// Owned entries are zero but between receiving and handing on. Empty on
+      /// one rank.
+      VectorType exchange;
+    };
+
+    const Nodes                 &nodes;
+    const bool                   is_distributed;
+    const std::shared_ptr<Space> space;
+    dealii::AlignedVector<T>    &sums;
+    VectorType                  &exchange;
   };
 } // namespace corotet
 

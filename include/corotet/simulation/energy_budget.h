@@ -95,6 +95,9 @@ namespace corotet
       std::vector<double> carried, velocity;
     };
 
+    /// Inertia and damping of the last evaluation, of an owned unknown.
+    double
+    carried(const unsigned int i) const;
     void
     take_forces(StepForces &forces, const State &state) const;
     void
@@ -107,8 +110,9 @@ namespace corotet
     /// Of the last step.
     double     dt;
     StepForces last, now;
-    Vector     momentum;
-    double     work = 0;
+    /// Empty in statics.
+    Vector momentum;
+    double work = 0;
     /// Energy of elastic terms that depend on time, at the start [J].
     double     initial_changing_energy = 0;
     double     dissipation             = 0;

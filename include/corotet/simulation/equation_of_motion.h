@@ -31,7 +31,9 @@ namespace corotet
     {
       Vector external;
       Vector internal;
+      /// Empty if no term is of damping.
       Vector damping;
+      /// Empty in statics.
       Vector inertia;
       /// Of the elastic terms that do not depend on time, as a resistance.
       /// Empty if there are none.
@@ -138,6 +140,9 @@ namespace corotet
 
     Body      &body;
     WallTimes &wall_times;
+    /// Whether anything moves in time: not in statics, where velocity and
+    /// acceleration are zero.
+    const bool is_dynamic;
     /// All forces but the internal one.
     ForceTerms terms;
 
