@@ -6,6 +6,7 @@
 #include <corotet/output/vtkhdf_writer.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/vector_memory.h>
 
 #include <array>
 
@@ -198,6 +199,8 @@ namespace corotet
   {
     const MPI_Comm    comm    = state.discretization.communicator();
     const CellResults results = state.cell_results();
+    // What the linear solver keeps for the next time makes room for the rows.
+    dealii::GrowingVectorMemory<Vector>::release_unused_memory();
 
     Hdf5File file(series.result_file(state.record.step), comm);
     VtkhdfSeries::create_groups(file);
