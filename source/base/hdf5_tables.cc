@@ -82,6 +82,9 @@ namespace corotet
              n_columns == 0 ?
                "found more than one dimension" :
                fmt::format("found other than {} columns", n_columns));
+    // More than any machine has; products with numbers of bytes are in range.
+    if (sizes[0] > hsize_t(1) << 40)
+      refuse(name, fmt::format("found {} rows", sizes[0]));
     return sizes[0];
   }
 

@@ -48,7 +48,7 @@ namespace corotet
           const double volume = signed_volume(p);
           const double edge_2 = square_of_longest_edge(p);
           const bool   is_flat =
-            volume * volume <= flat * flat * edge_2 * edge_2 * edge_2;
+            std::abs(volume) <= flat * edge_2 * std::sqrt(edge_2);
           if (volume > 0 && !is_flat)
             continue;
           if (wrong.n_cells++ == 0)

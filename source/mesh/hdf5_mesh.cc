@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/exceptions.h>
 #include <corotet/base/hdf5_file.h>
 #include <corotet/mesh/hdf5_mesh.h>
 #include <corotet/mesh/local_mesh.h>
@@ -84,14 +85,24 @@ namespace corotet
                            -1 :
                            static_cast<std::int64_t>(cell.curve));
       }
-    const UsedNames   names(mesh);
-    const std::string text = json{{"corotet mesh", hdf5_mesh_version},
-                                  {"geometry degree", local.geometry_degree},
-                                  {"regions", to_json(names.regions)},
-                                  {"boundaries", to_json(names.boundaries)},
-                                  {"edges", to_json(names.edges)},
-                                  {"corners", to_json(names.corners)}}
-                               .dump();
+    const UsedNames names(mesh);
+    std::string     text;
+    try
+      {
+        text = json{{"corotet mesh", hdf5_mesh_version},
+                    {"geometry degree", local.geometry_degree},
+                    {"regions", to_json(names.regions)},
+                    {"boundaries", to_json(names.boundaries)},
+                    {"edges", to_json(names.edges)},
+                    {"corners", to_json(names.corners)}}
+                 .dump();
+      }
+    catch (const json::type_error &)
+      {
+        throw InputError("",
+                         path + ": names are written in UTF-8: found a name "
+                                "with other letters; a .msh file keeps it");
+      }
     Hdf5File file(path, MPI_COMM_SELF);
     file.write_number_attribute("/", mark_of_mesh, {hdf5_mesh_version});
     file.write_from_root("description",

@@ -34,8 +34,6 @@ namespace corotet
       throw InputError("", path + ": " + message + ": is the file damaged?");
     }
 
-
-
     // Of all rows, those of this rank if they are shared out evenly.
     Hdf5Rows
     own_rows(const hsize_t n, const hsize_t n_columns, const MPI_Comm comm)
@@ -45,8 +43,6 @@ namespace corotet
       const hsize_t first = n * rank / ranks;
       return {first, n * (rank + 1) / ranks - first, n, n_columns};
     }
-
-
 
     // The rank whose own rows row @p i is among.
     unsigned int
@@ -59,8 +55,6 @@ namespace corotet
       return rank;
     }
 
-
-
     NamedSets
     from_json(const json &text)
     {
@@ -72,8 +66,6 @@ namespace corotet
         named.sets[name] = ids.get<std::vector<unsigned int>>();
       return named;
     }
-
-
 
     // What a rank reads: its rows of all tables, and their sizes.
     struct Tables
@@ -92,11 +84,9 @@ namespace corotet
           refuse(path, "found other numbers of cells, regions and curves");
         if (n_cells == 0)
           refuse(path, "found no cells");
-        // Those of a rank are counted in 32 bits.
-        if (cell_rows.n_rows > max_n_local)
-          refuse(path,
-                 fmt::format("found {} cells, too many for so few ranks",
-                             n_cells));
+        if (n_vertices == 0)
+          refuse(path, "found no vertices");
+        check_number_of_cells(n_cells, 0);
       }
 
       // All numbers of a row must be from @p lowest to below @p end.
@@ -115,7 +105,7 @@ namespace corotet
                                name,
                                i,
                                lowest,
-                               end - 1));
+                               static_cast<std::int64_t>(end) - 1));
         return numbers;
       }
 
@@ -137,7 +127,6 @@ namespace corotet
         return result;
       }
 
-      static constexpr std::uint64_t max_n_local = 4000000000 / 4;
 
       const std::string path;
       const MPI_Comm    comm;
@@ -146,19 +135,23 @@ namespace corotet
       const Hdf5Rows    cell_rows;
     };
 
-
-
     void
-    read_description(SpreadMesh &mesh, const Tables &tables)
+    read_description(SpreadMesh &mesh, const std::string &path)
     {
-      const hsize_t n = tables.file.n_rows("description", 0);
-      const auto    bytes =
-        tables.file.read<std::uint8_t>("description", {0, n, n, 0});
-      int found = 0;
+      const Hdf5Tables file(path);
+      const hsize_t    n = file.n_rows("description", 0);
+      const auto bytes   = file.read<std::uint8_t>("description", {0, n, n, 0});
       try
         {
-          const json text       = json::parse(bytes.begin(), bytes.end());
-          found                 = text.at("corotet mesh").get<int>();
+          const json text  = json::parse(bytes.begin(), bytes.end());
+          const int  found = text.at("corotet mesh").get<int>();
+          if (found != hdf5_mesh_version)
+            throw InputError("",
+                             fmt::format("{}: found version {} of corotet's "
+                                         "mesh files; {} is allowed",
+                                         path,
+                                         found,
+                                         hdf5_mesh_version));
           mesh.names.regions    = from_json(text.at("regions"));
           mesh.names.boundaries = from_json(text.at("boundaries"));
           mesh.names.edges      = from_json(text.at("edges"));
@@ -168,23 +161,13 @@ namespace corotet
         }
       catch (const json::exception &error)
         {
-          refuse(tables.path,
-                 std::string("table 'description': ") + error.what());
+          refuse(path, std::string("table 'description': ") + error.what());
         }
-      if (found != hdf5_mesh_version)
-        throw InputError("",
-                         fmt::format("{}: found version {} of corotet's mesh "
-                                     "files; {} is allowed",
-                                     tables.path,
-                                     found,
-                                     hdf5_mesh_version));
       if (mesh.part.geometry_degree < 1 || mesh.part.geometry_degree > 3)
-        refuse(tables.path,
+        refuse(path,
                fmt::format("found the geometry degree {}; 1 to 3 are allowed",
                            mesh.part.geometry_degree));
     }
-
-
 
     // Vertices have their numbers in the file here.
     std::vector<std::array<std::uint64_t, 4>>
@@ -235,8 +218,6 @@ namespace corotet
       return result;
     }
 
-
-
     // Asks the ranks that have read them for the vertices of the cells.
     void
     fetch_vertices(MeshPart                                        &part,
@@ -274,8 +255,6 @@ namespace corotet
         part.vertices.insert(part.vertices.end(), points.begin(), points.end());
     }
 
-
-
     // What has a name, as it is in the file.
     struct StoredPart
     {
@@ -283,8 +262,6 @@ namespace corotet
       unsigned int  number;
       unsigned int  id;
     };
-
-
 
     std::vector<StoredPart>
     read_names(const std::string &table,
@@ -318,8 +295,6 @@ namespace corotet
       return result;
     }
 
-
-
     // Gives names to the ranks that have their cells.
     std::vector<CellPart>
     share_out(const std::vector<StoredPart> &stored, const Tables &tables)
@@ -338,7 +313,20 @@ namespace corotet
       return result;
     }
 
-
+    // The first nodes of curved cells are their vertices.
+    void
+    check_curves(const MeshPart &part, const std::string &path)
+    {
+      for (const MeshCells::Cell &cell : part.cells)
+        if (cell.curve != MeshCells::straight)
+          for (unsigned int k = 0; k < 4; ++k)
+            if (part.curved_nodes[std::size_t(part.n_map_nodes()) * cell.curve +
+                                  k] != part.vertices[cell.vertices[k]])
+              refuse(
+                path,
+                "found other nodes of a curved cell than its vertices at " +
+                  position(part.vertices[cell.vertices[k]]));
+    }
 
     // Each list must be in the order of the cells; of a face there is one.
     void
@@ -355,8 +343,6 @@ namespace corotet
     }
   } // namespace
 
-
-
   SpreadMesh
   read_hdf5_mesh(const std::string &path, const MPI_Comm comm)
   {
@@ -369,8 +355,9 @@ namespace corotet
       std::vector<StoredPart>                   faces, edges, corners;
       mesh.origin = path;
       on_all_ranks(comm, [&] {
+        // First of all the version, which says what tables there are.
+        read_description(mesh, path);
         tables.emplace(path, comm);
-        read_description(mesh, *tables);
         cells = read_cells(mesh, *tables);
         own_vertices =
           tables->points("vertices", own_rows(tables->n_vertices, 3, comm));
@@ -382,7 +369,10 @@ namespace corotet
       mesh.part.faces   = share_out(faces, *tables);
       mesh.part.edges   = share_out(edges, *tables);
       mesh.part.corners = share_out(corners, *tables);
-      on_all_ranks(comm, [&] { check_order(mesh.part, path); });
+      on_all_ranks(comm, [&] {
+        check_curves(mesh.part, path);
+        check_order(mesh.part, path);
+      });
     }
     return mesh;
   }

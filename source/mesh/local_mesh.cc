@@ -199,8 +199,10 @@ namespace corotet
         for (auto &[rank, message] : received)
           {
             std::size_t position = 0;
-            append(mesh,
-                   rank == mesh.rank ? part : unpacked(message, position));
+            if (rank == mesh.rank)
+              append(mesh, part);
+            else
+              append(mesh, unpacked(message, position));
             mesh.owners.resize(mesh.cells.size(), rank);
             message = {};
           }
@@ -221,7 +223,7 @@ namespace corotet
 
 
   void
-  check_surface(const LocalMesh &mesh, const std::string &origin)
+  check_surface_on_ranks(const LocalMesh &mesh, const std::string &origin)
   {
     CellSurface surface;
     on_all_ranks(mesh.communicator, [&] {

@@ -25,6 +25,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh_statistics.h"
+
 namespace corotet
 {
   namespace
@@ -87,92 +89,21 @@ namespace corotet
 
 
 
-    // What is said of the mesh that ranks have parts of, but the number of its
-    // vertices.
-    struct Statistics
-    {
-      Statistics(const MeshCells   &part,
-                 const std::string &origin,
-                 const unsigned int element_degree,
-                 const MPI_Comm     comm)
-        : quality(mesh_quality(part, comm))
-        , n_cells(dealii::Utilities::MPI::sum(part.cells.size(), comm))
-        , geometry_degree(part.geometry_degree)
-        , element_degree(element_degree)
-      {
-        if (geometry_degree == 1)
-          return;
-        least_determinant =
-          check_curved_cells(part, origin, element_degree, comm);
-        n_curved = dealii::Utilities::MPI::sum(part.curved_nodes.size() /
-                                                 part.n_map_nodes(),
-                                               comm);
-      }
-
-      void
-      log_lines(const std::uint64_t n_vertices, Log &log) const
-      {
-        log.line(fmt::format("Mesh: {} cells, {} vertices, volume {:.6g} m^3",
-                             n_cells,
-                             n_vertices,
-                             quality.volume));
-        log.line(fmt::format(
-          "  smallest dihedral angle {:.2f} degrees, worst aspect ratio {:.2f} "
-          "(longest edge over 2 sqrt(6) inradius; regular tetrahedron: 70.53 "
-          "and 1)",
-          quality.smallest_dihedral_angle,
-          quality.worst_aspect_ratio));
-        if (geometry_degree > 1)
-          log.line(fmt::format(
-            "  {} curved cells of degree {}, {}",
-            n_curved,
-            geometry_degree,
-            element_degree == 1 ?
-              "taken as straight ones by elements of degree 1" :
-              fmt::format("smallest Jacobian determinant {:.3g} times its mean "
-                          "in the cell",
-                          least_determinant)));
-        if (quality.smallest_dihedral_angle < 2)
-          log.warning("the mesh has almost flat cells; solvers will need many "
-                      "iterations");
-      }
-
-      MeshQuality  quality;
-      std::size_t  n_cells, n_curved = 0;
-      unsigned int geometry_degree, element_degree;
-      double       least_determinant = 1;
-    };
-
-
-
-    std::uint64_t
-    number_of_vertices(const LocalMesh &mesh)
-    {
-      // Each belongs to the rank of the first cell that has it.
-      std::uint64_t first = mesh.n_global_cells, end = 0;
-      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        if (mesh.is_owned(c))
-          {
-            first = std::min(first, mesh.numbers[c]);
-            end   = mesh.numbers[c] + 1;
-          }
-      const auto n =
-        std::count_if(mesh.vertex_numbers.begin(),
-                      mesh.vertex_numbers.end(),
-                      [&](const std::uint64_t number) {
-                        return number / 4 >= first && number / 4 < end;
-                      });
-      return dealii::Utilities::MPI::sum(std::uint64_t(n), mesh.communicator);
-    }
-
-
-
     void
     multiply(MeshCells &mesh, const double scale)
     {
       for (auto *points : {&mesh.vertices, &mesh.curved_nodes})
         for (dealii::Point<3> &point : *points)
           point *= scale;
+    }
+
+
+
+    void
+    log_remarks(const std::vector<std::string> &remarks, Log &log)
+    {
+      for (const std::string &remark : remarks)
+        log.line("  " + remark);
     }
 
 
@@ -190,6 +121,30 @@ namespace corotet
     }
 
 
+
+    // Makes the mesh as @p selections need it, which are of the whole mesh,
+    // with its refinements. Of rank 0.
+    void
+    select_in_whole(SerialMesh                &mesh,
+                    const unsigned int         n_refinements,
+                    const double               scale,
+                    const unsigned int         element_degree,
+                    const SelectionParameters &selections,
+                    Log                       &log)
+    {
+      check_mesh(mesh, element_degree);
+      refine_uniformly(mesh, n_refinements);
+      // Vertices have moved to where the curves have them.
+      check_cells(mesh, mesh.origin, element_degree, MPI_COMM_SELF);
+      multiply(mesh, scale);
+      MeshStatistics(mesh, mesh.origin, element_degree, MPI_COMM_SELF)
+        .log_lines(number_of_vertices(mesh), log);
+      log_remarks(mesh.remarks, log);
+      select(mesh, selections, log);
+    }
+
+
+
     // Shares out a mesh that rank 0 has. @p n_refinements becomes what is left
     // to be done.
     SpreadMesh
@@ -203,35 +158,39 @@ namespace corotet
     {
       namespace MPI = dealii::Utilities::MPI;
       SpreadMesh result;
-      NamedParts named;
-      on_root(comm, [&] {
-        n_refinements -= mesh.n_refinements;
-        check_vertices(mesh);
-        check_size(mesh.origin,
-                   mesh.cells.size(),
-                   n_refinements,
-                   element_degree,
-                   MPI::n_mpi_processes(comm));
-        if (selections.are_given())
-          {
-            // What is selected is selected in the whole mesh, as it is refined.
-            check_mesh(mesh, element_degree);
-            refine_uniformly(mesh, std::exchange(n_refinements, 0));
-            multiply(mesh, scale);
-            select(mesh, selections, log);
-            named = named_parts(mesh);
-          }
-        else
-          named = check_names(mesh);
-        result.names = UsedNames(mesh);
-      });
-      n_refinements    = MPI::broadcast(comm, n_refinements, 0);
-      result.origin    = MPI::broadcast(comm, mesh.origin, 0);
-      result.read_time = mesh.read_time;
-      result.remarks   = mesh.remarks;
-      ScopedTimer timer(result.scatter_time);
-      result.names.broadcast(comm);
-      result.part = scatter(whole_part(mesh, std::move(named)), comm);
+      {
+        ScopedTimer timer(result.scatter_time);
+        NamedParts  named;
+        on_root(comm, [&] {
+          n_refinements -= mesh.n_refinements;
+          check_vertices(mesh);
+          check_size(mesh.origin,
+                     mesh.cells.size(),
+                     n_refinements,
+                     element_degree,
+                     MPI::n_mpi_processes(comm));
+          if (selections.are_given())
+            {
+              select_in_whole(mesh,
+                              std::exchange(n_refinements, 0),
+                              scale,
+                              element_degree,
+                              selections,
+                              log);
+              named               = named_parts(mesh);
+              result.is_described = true;
+            }
+          else
+            named = check_names(mesh);
+          result.names = UsedNames(mesh);
+        });
+        n_refinements    = MPI::broadcast(comm, n_refinements, 0);
+        result.origin    = MPI::broadcast(comm, mesh.origin, 0);
+        result.read_time = mesh.read_time;
+        result.remarks   = mesh.remarks;
+        result.names.broadcast(comm);
+        result.part = scatter(whole_part(mesh, std::move(named)), comm);
+      }
       return result;
     }
   } // namespace
@@ -338,13 +297,13 @@ namespace corotet
     MeshPart   &part = mesh.part;
     check_cells(part, mesh.origin, element_degree, comm);
     sort_along_curve(part, comm);
-    const auto distribute = [&] {
-      Statistics statistics(part, mesh.origin, element_degree, comm);
+    const auto spread_out = [&] {
+      MeshStatistics statistics(part, mesh.origin, element_degree, comm);
       local_mesh = with_cells_beside(std::move(part), mesh.origin, comm);
       return statistics;
     };
-    Statistics statistics = distribute();
-    check_surface(local_mesh, mesh.origin);
+    MeshStatistics statistics = spread_out();
+    check_surface_on_ranks(local_mesh, mesh.origin);
     check_boundaries(mesh.origin);
     if (n_refinements > 0)
       {
@@ -354,14 +313,17 @@ namespace corotet
         // Vertices have moved to where the curves have them.
         check_cells(part, mesh.origin, element_degree, comm);
         sort_along_curve(part, comm);
-        statistics = distribute();
+        statistics = spread_out();
       }
     multiply(local_mesh, scale);
     statistics.quality.volume *= scale * scale * scale;
 
-    statistics.log_lines(number_of_vertices(local_mesh), log);
-    for (const std::string &remark : mesh.remarks)
-      log.line("  " + remark);
+    const std::uint64_t n_vertices = number_of_vertices(local_mesh);
+    if (!mesh.is_described)
+      {
+        statistics.log_lines(n_vertices, log);
+        log_remarks(mesh.remarks, log);
+      }
     log_names(region_names, place_names, log);
   }
 

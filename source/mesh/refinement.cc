@@ -249,7 +249,8 @@ namespace corotet
 
 
     // Curved cells get the nodes of their own maps, and the vertices that are
-    // theirs are moved there. Returns which these are.
+    // theirs are moved to where the first of them has them. Returns which these
+    // are.
     std::vector<bool>
     bend(MeshPart &part, const std::vector<CurvedPiece> &pieces)
     {
@@ -278,7 +279,7 @@ namespace corotet
           for (unsigned int i = 0; i < points.size(); ++i)
             {
               curved_nodes.push_back(map.position(nodes, i));
-              if (i < 4)
+              if (i < 4 && !is_moved[cell.vertices[i]])
                 {
                   part.vertices[cell.vertices[i]] = curved_nodes.back();
                   is_moved[cell.vertices[i]]      = true;
@@ -335,6 +336,20 @@ namespace corotet
           part.vertices[placed.vertex] =
             Point<3>(placed.place[0], placed.place[1], placed.place[2]);
     }
+
+
+
+    // The first nodes of curved cells are their vertices, to the last digit.
+    void
+    take_vertices(MeshPart &part)
+    {
+      for (const MeshCells::Cell &cell : part.cells)
+        if (cell.curve != MeshCells::straight)
+          for (unsigned int k = 0; k < 4; ++k)
+            part
+              .curved_nodes[std::size_t(part.n_map_nodes()) * cell.curve + k] =
+              part.vertices[cell.vertices[k]];
+    }
   } // namespace
 
 
@@ -357,6 +372,7 @@ namespace corotet
     if (n_refinements == 0 || part.geometry_degree == 1)
       return;
     agree_on_places(part, bend(part, pieces), comm);
+    take_vertices(part);
     // The degree is that of all ranks.
     const unsigned int degree = part.geometry_degree;
     remove_straight_maps(part);

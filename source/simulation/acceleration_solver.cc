@@ -40,7 +40,7 @@ namespace corotet
     const double        *elastic =
       equation.terms.has_elastic() ? forces.elastic.begin() : nullptr;
     double *damping =
-      equation.terms.has_damping() ? forces.damping.begin() : nullptr;
+      forces.damping.size() > 0 ? forces.damping.begin() : nullptr;
     double            *inertia = forces.inertia.begin();
     double            *a       = state.a.begin();
     double            *v       = state.v.begin();

@@ -61,7 +61,7 @@ namespace corotet
   {
     const EquationOfMotion::Forces &terms = equation.last_forces();
     return (equation.is_dynamic ? terms.inertia.local_element(i) : 0.) +
-           (force_terms.has_damping() ? terms.damping.local_element(i) : 0.);
+           (terms.damping.size() > 0 ? terms.damping.local_element(i) : 0.);
   }
 
   void

@@ -39,7 +39,7 @@ namespace corotet
     if (is_dynamic)
       for (Vector *vector : {&forces.inertia, &a})
         body.discretization.initialize_vector(*vector);
-    if (terms.has_damping())
+    if (terms.has_damping() || terms.damping_shares().mass != 0)
       body.discretization.initialize_vector(forces.damping);
     if (terms.has_elastic())
       body.discretization.initialize_vector(forces.elastic);
@@ -106,7 +106,7 @@ namespace corotet
   {
     r = forces.external;
     r -= forces.internal;
-    if (terms.has_damping())
+    if (forces.damping.size() > 0)
       r -= forces.damping;
     if (is_dynamic)
       r -= forces.inertia;

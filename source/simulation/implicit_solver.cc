@@ -154,7 +154,7 @@ namespace corotet
       norms<6>({{&r,
                  &forces.external,
                  &forces.internal,
-                 equation.terms.has_damping() ? &forces.damping : nullptr,
+                 forces.damping.size() > 0 ? &forces.damping : nullptr,
                  equation.is_dynamic ? &forces.inertia : nullptr,
                  equation.terms.has_elastic() ? &forces.elastic : nullptr}});
     external_force = sizes[1];

@@ -210,8 +210,31 @@ TEST(Hdf5Mesh, DamagedFiles)
   refused(integer("faces", 2, 77), "with the name 77, which is not there");
   refused(integer("edges", 0, 150), "found number");
   refused(integer("faces", 0, 140), "found names in another order than cells");
-  // Two cells that were neighbours have another corner each.
-  refused(integer("cells", 4 * 20, 60), "");
+  refused(
+    [](const std::string &file) {
+      change(file, "curved_nodes", 3, 0.3, H5T_NATIVE_DOUBLE);
+    },
+    "found other nodes of a curved cell than its vertices");
+  refused(
+    [](const std::string &file) {
+      // The text begins with the boundaries; the number of the version follows
+      // the key.
+      std::string text;
+      const hid_t id      = H5Fopen(file.c_str(), H5F_ACC_RDWR, 0);
+      const hid_t dataset = H5Dopen2(id, "description", H5P_DEFAULT);
+      const hid_t space   = H5Dget_space(dataset);
+      std::vector<std::uint8_t> bytes(H5Sget_simple_extent_npoints(space));
+      H5Dread(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, 0, bytes.data());
+      text.assign(bytes.begin(), bytes.end());
+      const std::string key                 = "\"corotet mesh\":";
+      bytes.at(text.find(key) + key.size()) = '2';
+      H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, 0, bytes.data());
+      H5Ldelete(id, "curves", H5P_DEFAULT);
+      H5Sclose(space);
+      H5Dclose(dataset);
+      H5Fclose(id);
+    },
+    "found version 2 of corotet's mesh files; 1 is allowed");
   refused(
     [](const std::string &file) {
       change(file,

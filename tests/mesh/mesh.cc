@@ -109,6 +109,15 @@ TEST(Mesh, RefinementAndScale)
              0.001);
 }
 
+// Ranks may have no cell until all are refined.
+TEST(Mesh, RefinementOfOneCell)
+{
+  SerialMesh mesh = box_of_2_by_half_by_1("1, 1, 1");
+  mesh.cells.resize(1);
+  mesh.faces.clear();
+  EXPECT_NEAR(volume(make_mesh(mesh, 1), 0), 1. / 6, 1e-15);
+}
+
 // A refined mesh is as good as one that was made so fine: it passes the checks
 // that a mesh from elsewhere has to pass.
 TEST(Mesh, RefinedMeshIsConforming)

@@ -2,7 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 // What is wrong with a mesh is found on all ranks together as by one that has
-// it whole, and said in the same words.
+// it whole, and said in the same words; of several places where cells do not
+// fit together, another one may be named.
 
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
@@ -80,7 +81,7 @@ namespace
 TEST(MeshOnRanks, GoodMesh)
 {
   EXPECT_EQ(refusal_on_ranks(box("6, 2, 3")), "nothing was refused");
-  // Two bodies that do not touch, and cells that have one vertex in common.
+  // Two bodies that do not touch.
   EXPECT_EQ(refusal_on_ranks(two_bodies(box("2, 1, 1"),
                                         box("2, 1, 1"),
                                         dealii::Point<3>(2.1, 0, 0))),

@@ -58,8 +58,8 @@ namespace
       {
         std::set<std::array<double, 3>> corners;
         for (const unsigned int v : face.vertices)
-          corners.insert(
-            {{mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}});
+          corners.insert(std::array<double, 3>{
+            {mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}});
         faces.emplace(corners, face.boundary);
       }
     return faces;
@@ -132,39 +132,54 @@ TEST(Refinement, OnRanks)
   EXPECT_EQ(all_places.size(), one.vertices.size());
 }
 
-// A vertex on a curved edge lies on the curve on all ranks, though only one of
-// the cells there is curved (so that the mesh has a gap before).
+// A vertex on a curved edge lies on the curve on all ranks, to the last digit
+// at the same place, though only every other cell is curved, each in its own
+// way (so that the mesh has gaps before).
 TEST(Refinement, RanksAgreeOnCurves)
 {
-  const MPI_Comm comm  = MPI_COMM_WORLD;
-  SerialMesh     whole = box_of_2_by_half_by_1("3, 2, 2");
-  // Of one cell in the middle, the edges bulge.
-  const unsigned int c  = whole.cells.size() / 2;
+  SerialMesh whole      = box_of_2_by_half_by_1("3, 2, 2");
   whole.geometry_degree = 2;
-  whole.cells[c].curve  = 0;
-  const auto corners    = cell_vertices(whole, whole.cells[c]);
-  for (const dealii::Point<3> &x : map_points(2))
+  for (unsigned int c = 0; c < whole.cells.size(); c += 2)
     {
-      dealii::Point<3> node = corners[0];
-      for (unsigned int k = 0; k < 3; ++k)
-        node += x[k] * (corners[k + 1] - corners[0]);
-      const bool is_middle =
-        std::abs(x[0] * x[1] + x[0] * x[2] + x[1] * x[2] +
-                 (x[0] + x[1] + x[2]) * (1 - x[0] - x[1] - x[2])) > 0.1;
-      node[2] += is_middle ? 0.01 : 0;
-      whole.curved_nodes.push_back(node);
+      whole.cells[c].curve = c / 2;
+      const auto corners   = cell_vertices(whole, whole.cells[c]);
+      for (const dealii::Point<3> &xi : map_points(2))
+        {
+          dealii::Point<3> x = corners[0];
+          for (unsigned int k = 0; k < 3; ++k)
+            x += xi[k] * (corners[k + 1] - corners[0]);
+          // The middles of edges.
+          if (std::abs(
+                xi.norm_square() +
+                dealii::Utilities::fixed_power<2>(1 - xi[0] - xi[1] - xi[2]) -
+                0.5) < 0.1)
+            x[2] += 0.001 * (1 + c % 7);
+          whole.curved_nodes.push_back(x);
+        }
     }
-  const auto number_of_moved = [&](const MPI_Comm ranks) {
+  using Places = std::map<std::uint64_t, std::array<double, 3>>;
+  // Of the corners of all cells; and those of curved cells are nodes.
+  const auto places_on = [&](const MPI_Comm ranks) {
     MeshPart part = owned_part(distribute(whole, ranks));
     refine_uniformly(part, 1, ranks);
-    std::set<std::array<double, 3>> all;
-    std::vector<double>             own;
-    for (const dealii::Point<3> &x : part.vertices)
-      own.insert(own.end(), {x[0], x[1], x[2]});
-    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(ranks, own))
-      for (std::size_t i = 0; i < of_rank.size(); i += 3)
-        all.insert({{of_rank[i], of_rank[i + 1], of_rank[i + 2]}});
+    Places own;
+    for (unsigned int c = 0; c < part.cells.size(); ++c)
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const MeshCells::Cell  &cell = part.cells[c];
+          const dealii::Point<3> &x    = part.vertices[cell.vertices[k]];
+          own[4 * part.numbers[c] + k] = {{x[0], x[1], x[2]}};
+          if (cell.curve != MeshCells::straight)
+            {
+              EXPECT_EQ(curved_nodes(part, cell)[k], x);
+            }
+        }
+    Places all;
+    for (const Places &of_rank : dealii::Utilities::MPI::all_gather(ranks, own))
+      all.insert(of_rank.begin(), of_rank.end());
     return all;
   };
-  EXPECT_EQ(number_of_moved(comm), number_of_moved(MPI_COMM_SELF));
+  const Places expected = places_on(MPI_COMM_SELF);
+  EXPECT_EQ(expected.size(), 4 * 8 * whole.cells.size());
+  EXPECT_EQ(places_on(MPI_COMM_WORLD), expected);
 }

@@ -78,8 +78,8 @@ namespace corotet
   };
 
   /**
-   * Keeps HDF5 from printing its error stack while it lives: a MachineError
-   * tells the user.
+   * Keeps HDF5 from printing its error stack while it lives: an Error tells the
+   * user.
    */
   class Hdf5Silence
   {

@@ -82,7 +82,7 @@ namespace corotet
   /// The part of check_mesh() that finds where cells do not fit together.
   /// Collective.
   void
-  check_surface(const LocalMesh &mesh, const std::string &origin);
+  check_surface_on_ranks(const LocalMesh &mesh, const std::string &origin);
 
   /// The cells that a rank owns.
   MeshPart

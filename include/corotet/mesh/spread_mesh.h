@@ -25,6 +25,8 @@ namespace corotet
     /// Wall time [s] of sharing it out, if one rank had it before.
     double                   scatter_time = 0;
     std::vector<std::string> remarks;
+    /// Whether rank 0 has told the log of the mesh.
+    bool is_described = false;
   };
 } // namespace corotet
 

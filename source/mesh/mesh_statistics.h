@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_mesh_statistics_h
+#define corotet_mesh_mesh_statistics_h
+
+#include <corotet/base/log.h>
+#include <corotet/mesh/local_mesh.h>
+#include <corotet/mesh/mesh_quality.h>
+
+#include <string>
+
+namespace corotet
+{
+  /// What the log says of a mesh that ranks have parts of, but for the number
+  /// of its vertices.
+  struct MeshStatistics
+  {
+    /// Collective.
+    MeshStatistics(const MeshCells   &part,
+                   const std::string &origin,
+                   const unsigned int element_degree,
+                   const MPI_Comm     comm);
+
+    void
+    log_lines(const std::uint64_t n_vertices, Log &log) const;
+
+    MeshQuality  quality;
+    std::size_t  n_cells, n_curved = 0;
+    unsigned int geometry_degree, element_degree;
+    double       least_determinant = 1;
+  };
+
+  /// Vertices of the mesh, of all ranks. Collective.
+  std::uint64_t
+  number_of_vertices(const LocalMesh &mesh);
+
+  /// Those that cells have.
+  std::uint64_t
+  number_of_vertices(const SerialMesh &mesh);
+} // namespace corotet
+
+#endif
