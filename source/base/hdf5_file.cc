@@ -15,29 +15,13 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
-#include <type_traits>
+
+#include "hdf5_types.h"
 
 namespace corotet
 {
   namespace
   {
-    template <typename Number>
-    hid_t
-    native_type()
-    {
-      if constexpr (std::is_same_v<Number, double>)
-        return H5T_NATIVE_DOUBLE;
-      else if constexpr (std::is_same_v<Number, std::int64_t>)
-        return H5T_NATIVE_INT64;
-      else if constexpr (std::is_same_v<Number, std::int32_t>)
-        return H5T_NATIVE_INT32;
-      else
-        {
-          static_assert(std::is_same_v<Number, std::uint8_t>);
-          return H5T_NATIVE_UINT8;
-        }
-    }
-
     // The data space of a table: two-dimensional, or one-dimensional for a
     // plain list.
     Hdf5Id
@@ -160,7 +144,7 @@ namespace corotet
                   const Number      *data,
                   const Hdf5Rows    &rows)
   {
-    std::uint64_t place = create_table(name, native_type<Number>(), rows);
+    std::uint64_t place = create_table(name, hdf5_type<Number>(), rows);
     MPI_Bcast(&place, 1, MPI_UINT64_T, 0, comm);
     if (place == HADDR_UNDEF || descriptor < 0)
       return;
@@ -234,7 +218,7 @@ namespace corotet
     H5Sselect_all(space);
     const Hdf5Id dataset(H5Dcreate2(file,
                                     name.c_str(),
-                                    native_type<Number>(),
+                                    hdf5_type<Number>(),
                                     space,
                                     H5P_DEFAULT,
                                     creation,

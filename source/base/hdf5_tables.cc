@@ -9,28 +9,10 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "hdf5_types.h"
+
 namespace corotet
 {
-  namespace
-  {
-    template <typename Number>
-    hid_t
-    type_in_memory()
-    {
-      if constexpr (std::is_same_v<Number, double>)
-        return H5T_NATIVE_DOUBLE;
-      else if constexpr (std::is_same_v<Number, std::int64_t>)
-        return H5T_NATIVE_INT64;
-      else
-        {
-          static_assert(std::is_same_v<Number, std::uint8_t>);
-          return H5T_NATIVE_UINT8;
-        }
-    }
-  } // namespace
-
-
-
   Hdf5Tables::Hdf5Tables(const std::string &path)
     : path(path)
   {
@@ -118,7 +100,7 @@ namespace corotet
                             size.data(),
                             nullptr) < 0 ||
         H5Dread(dataset,
-                type_in_memory<Number>(),
+                hdf5_type<Number>(),
                 in_memory,
                 in_file,
                 H5P_DEFAULT,

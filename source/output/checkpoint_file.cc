@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/hdf5_tables.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/version.h>
 #include <corotet/base/whole_file.h>
@@ -375,12 +376,19 @@ namespace corotet
     discretization.initialize_vector(vector);
     if (kind == "zero")
       return;
-    const Hdf5Rows            rows = order.rows(3);
-    const std::vector<double> numbers =
-      read_table(path + ".h5",
-                 table_name(section + name),
-                 rows,
-                 discretization.communicator());
+    const Hdf5Rows      rows  = order.rows(3);
+    const std::string   table = table_name(section + name);
+    std::vector<double> numbers;
+    on_all_ranks(discretization.communicator(), [&] {
+      const Hdf5Tables tables(path + ".h5");
+      const hsize_t    n = tables.n_rows(table, 3);
+      if (n != rows.n_global_rows)
+        fail(fmt::format(".h5: table '{}' has {} rows; needed are {}",
+                         table,
+                         n,
+                         rows.n_global_rows));
+      numbers = tables.read<double>(table, rows);
+    });
     order.from_file(numbers.data(), vector.begin(), 3);
   }
 } // namespace corotet

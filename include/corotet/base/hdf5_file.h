@@ -241,17 +241,6 @@ namespace corotet
     /// Of the file, on each rank; -1 if it is not open.
     int descriptor = -1;
   };
-
-  /**
-   * This rank's @p rows of a table of double that an Hdf5File has written.
-   * Throws MachineError if the file has no such table, or one of another size.
-   * Collective.
-   */
-  std::vector<double>
-  read_table(const std::string &path,
-             const std::string &name,
-             const Hdf5Rows    &rows,
-             const MPI_Comm     comm);
 } // namespace corotet
 
 #endif
