@@ -309,7 +309,7 @@ namespace corotet
           std::size_t                position = 0;
           std::vector<std::uint64_t> on_curve;
           parts.push_back(unpacked(message, position));
-          take_array(message, position, on_curve);
+          read_array(message, position, on_curve);
           for (unsigned int c = 0; c < on_curve.size(); ++c)
             cells.push_back(
               {on_curve[c], c, static_cast<unsigned int>(parts.size() - 1)});

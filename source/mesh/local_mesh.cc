@@ -195,19 +195,24 @@ namespace corotet
         Messages received =
           exchange_messages(cells_for_others(part, shared), comm);
         received.try_emplace(mesh.rank);
-        mesh.geometry_degree = part.geometry_degree;
+        const unsigned int    degree = part.geometry_degree;
+        std::vector<MeshPart> parts;
+        std::vector<std::pair<unsigned int, unsigned int>> order;
         for (auto &[rank, message] : received)
           {
             std::size_t position = 0;
-            if (rank == mesh.rank)
-              append(mesh, part);
-            else
-              append(mesh, unpacked(message, position));
-            mesh.owners.resize(mesh.cells.size(), rank);
+            parts.push_back(rank == mesh.rank ? std::move(part) :
+                                                unpacked(message, position));
             message = {};
+            for (unsigned int c = 0; c < parts.back().cells.size(); ++c)
+              {
+                order.emplace_back(parts.size() - 1, c);
+                mesh.owners.push_back(rank);
+              }
           }
-        part = {};
-        unite_vertices(mesh);
+        static_cast<MeshPart &>(mesh) = merged(parts, order);
+        mesh.geometry_degree          = degree;
+        sort_vertices(mesh);
       }
 
     on_all_ranks(comm, [&] {

@@ -252,12 +252,12 @@ namespace corotet
                   log,
                   element_degree,
                   parameters.selections));
-    take(std::move(*mesh),
-         n_refinements,
-         parameters.selections.are_given() ? 1. : parameters.scale,
-         comm,
-         log,
-         element_degree);
+    set_up(std::move(*mesh),
+           n_refinements,
+           parameters.selections.are_given() ? 1. : parameters.scale,
+           comm,
+           log,
+           element_degree);
   }
 
 
@@ -274,18 +274,18 @@ namespace corotet
     unsigned int n_left = n_refinements;
     SpreadMesh   spread =
       scattered(std::move(mesh), n_left, scale, comm, log, element_degree, {});
-    take(std::move(spread), n_left, scale, comm, log, element_degree);
+    set_up(std::move(spread), n_left, scale, comm, log, element_degree);
   }
 
 
 
   void
-  Mesh::take(SpreadMesh       &&mesh,
-             const unsigned int n_refinements,
-             const double       scale,
-             const MPI_Comm     comm,
-             Log               &log,
-             const unsigned int element_degree)
+  Mesh::set_up(SpreadMesh       &&mesh,
+               const unsigned int n_refinements,
+               const double       scale,
+               const MPI_Comm     comm,
+               Log               &log,
+               const unsigned int element_degree)
   {
     seconds_read      = mesh.read_time;
     seconds_partition = mesh.scatter_time;

@@ -38,6 +38,21 @@ namespace corotet
 
 
 
+    // Gives a cell of @p to the curve, if it has one, that it has in @p from.
+    void
+    copy_curve(MeshPart &to, MeshCells::Cell &cell, const MeshPart &from)
+    {
+      if (cell.curve == MeshCells::straight)
+        return;
+      const dealii::Point<3> *nodes = curved_nodes(from, cell);
+      cell.curve = to.curved_nodes.size() / from.n_map_nodes();
+      to.curved_nodes.insert(to.curved_nodes.end(),
+                             nodes,
+                             nodes + from.n_map_nodes());
+    }
+
+
+
     void
     sort_by_cells(std::vector<CellPart> &list)
     {
@@ -93,7 +108,6 @@ namespace corotet
     result.cells.reserve(cells.size());
     result.numbers.reserve(cells.size());
     std::vector<unsigned int> used;
-    unsigned int              n_curves = 0;
     for (const unsigned int c : cells)
       {
         new_cells[c]           = result.cells.size();
@@ -108,14 +122,7 @@ namespace corotet
               }
             v = new_vertices[v];
           }
-        if (cell.curve != SerialMesh::straight)
-          {
-            const dealii::Point<3> *nodes = curved_nodes(part, cell);
-            result.curved_nodes.insert(result.curved_nodes.end(),
-                                       nodes,
-                                       nodes + part.n_map_nodes());
-            cell.curve = n_curves++;
-          }
+        copy_curve(result, cell, part);
       }
     result.vertices.reserve(used.size());
     result.vertex_numbers.reserve(used.size());
@@ -155,7 +162,6 @@ namespace corotet
       }
     result.cells.reserve(order.size());
     result.numbers.reserve(order.size());
-    unsigned int n_curves = 0;
     for (const auto &[p, c] : order)
       {
         const MeshPart &part = parts[p];
@@ -173,14 +179,7 @@ namespace corotet
               }
             v = index;
           }
-        if (cell.curve != SerialMesh::straight)
-          {
-            const dealii::Point<3> *nodes = curved_nodes(part, cell);
-            result.curved_nodes.insert(result.curved_nodes.end(),
-                                       nodes,
-                                       nodes + part.n_map_nodes());
-            cell.curve = n_curves++;
-          }
+        copy_curve(result, cell, part);
       }
     result.vertex_numbers = vertices.numbers();
     for (std::vector<CellPart> MeshPart::*list :
@@ -197,65 +196,27 @@ namespace corotet
 
 
   void
-  append(MeshPart &part, const MeshPart &other)
-  {
-    const unsigned int n_vertices = part.vertices.size();
-    const unsigned int n_cells    = part.cells.size();
-    const unsigned int n_curves = part.curved_nodes.size() / part.n_map_nodes();
-    const auto         add      = [](auto &array, const auto &more) {
-      array.insert(array.end(), more.begin(), more.end());
-    };
-    const auto add_list = [&](std::vector<CellPart>       &list,
-                              const std::vector<CellPart> &more) {
-      list.reserve(list.size() + more.size());
-      for (const auto &[cell, number, id] : more)
-        list.push_back({n_cells + cell, number, id});
-    };
-    add(part.vertices, other.vertices);
-    add(part.vertex_numbers, other.vertex_numbers);
-    add(part.numbers, other.numbers);
-    add(part.curved_nodes, other.curved_nodes);
-    add_list(part.faces, other.faces);
-    add_list(part.edges, other.edges);
-    add_list(part.corners, other.corners);
-    part.cells.reserve(n_cells + other.cells.size());
-    for (SerialMesh::Cell cell : other.cells)
-      {
-        for (unsigned int &v : cell.vertices)
-          v += n_vertices;
-        if (cell.curve != SerialMesh::straight)
-          cell.curve += n_curves;
-        part.cells.push_back(cell);
-      }
-  }
-
-
-
-  void
-  unite_vertices(MeshPart &part)
+  sort_vertices(MeshPart &part)
   {
     std::vector<std::pair<std::uint64_t, unsigned int>> order;
     order.reserve(part.vertices.size());
     for (unsigned int v = 0; v < part.vertices.size(); ++v)
       order.emplace_back(part.vertex_numbers[v], v);
     std::sort(order.begin(), order.end());
-    std::vector<unsigned int>     new_number(order.size());
+    std::vector<unsigned int>     new_index(order.size());
     std::vector<dealii::Point<3>> vertices;
-    std::vector<std::uint64_t>    numbers;
-    for (const auto &[number, v] : order)
+    vertices.reserve(order.size());
+    for (unsigned int i = 0; i < order.size(); ++i)
       {
-        if (numbers.empty() || numbers.back() != number)
-          {
-            numbers.push_back(number);
-            vertices.push_back(part.vertices[v]);
-          }
-        new_number[v] = numbers.size() - 1;
+        const auto &[number, v] = order[i];
+        part.vertex_numbers[i]  = number;
+        vertices.push_back(part.vertices[v]);
+        new_index[v] = i;
       }
-    for (SerialMesh::Cell &cell : part.cells)
+    for (MeshCells::Cell &cell : part.cells)
       for (unsigned int &v : cell.vertices)
-        v = new_number[v];
-    part.vertices       = std::move(vertices);
-    part.vertex_numbers = std::move(numbers);
+        v = new_index[v];
+    part.vertices = std::move(vertices);
   }
 
 
@@ -277,10 +238,10 @@ namespace corotet
   {
     MeshPart                  part;
     std::vector<unsigned int> degree;
-    take_array(message, position, degree);
+    read_array(message, position, degree);
     part.geometry_degree = degree[0];
     for_each_array(part,
-                   [&](auto &array) { take_array(message, position, array); });
+                   [&](auto &array) { read_array(message, position, array); });
     return part;
   }
 

@@ -341,7 +341,7 @@ namespace corotet
 
     // The first nodes of curved cells are their vertices, to the last digit.
     void
-    take_vertices(MeshPart &part)
+    set_vertices_of_curves(MeshPart &part)
     {
       for (const MeshCells::Cell &cell : part.cells)
         if (cell.curve != MeshCells::straight)
@@ -372,7 +372,7 @@ namespace corotet
     if (n_refinements == 0 || part.geometry_degree == 1)
       return;
     agree_on_places(part, bend(part, pieces), comm);
-    take_vertices(part);
+    set_vertices_of_curves(part);
     // The degree is that of all ranks.
     const unsigned int degree = part.geometry_degree;
     remove_straight_maps(part);

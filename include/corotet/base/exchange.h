@@ -42,10 +42,10 @@ namespace corotet
                   n_bytes);
   }
 
-  /// Takes it from @p position on, which becomes what follows it.
+  /// Reads it from @p position on, which becomes what follows it.
   template <typename T>
   void
-  take_array(const std::vector<std::byte> &message,
+  read_array(const std::vector<std::byte> &message,
              std::size_t                  &position,
              std::vector<T>               &array)
   {
@@ -76,7 +76,7 @@ namespace corotet
          exchange_messages(std::move(messages), comm))
       {
         std::size_t position = 0;
-        take_array(message, position, received[rank]);
+        read_array(message, position, received[rank]);
       }
     return received;
   }

@@ -160,12 +160,12 @@ namespace corotet
     /// What constructors end with: the cells of @p mesh are not yet checked,
     /// refined, multiplied by the scale, and sorted.
     void
-    take(SpreadMesh       &&mesh,
-         const unsigned int n_refinements,
-         const double       scale,
-         const MPI_Comm     comm,
-         Log               &log,
-         const unsigned int element_degree);
+    set_up(SpreadMesh       &&mesh,
+           const unsigned int n_refinements,
+           const double       scale,
+           const MPI_Comm     comm,
+           Log               &log,
+           const unsigned int element_degree);
 
     /// Named boundaries must be on the surface. Throws InputError. Collective.
     void

@@ -42,15 +42,9 @@ namespace corotet
   merged(const std::vector<MeshPart>                              &parts,
          const std::vector<std::pair<unsigned int, unsigned int>> &order);
 
-  /// Appends the cells of @p other. Vertices that both have are there twice
-  /// then: see unite_vertices().
+  /// By their numbers.
   void
-  append(MeshPart &part, const MeshPart &other);
-
-  /// Vertices with the same number become one; all vertices are sorted by their
-  /// numbers.
-  void
-  unite_vertices(MeshPart &part);
+  sort_vertices(MeshPart &part);
 
   /// A part as a message, and what stands in one from @p position on, which
   /// becomes what follows it.
