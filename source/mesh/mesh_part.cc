@@ -152,14 +152,17 @@ namespace corotet
          const std::vector<std::pair<unsigned int, unsigned int>> &order)
   {
     MeshPart                               result;
-    NumberTable                            vertices;
     std::vector<std::vector<unsigned int>> new_vertices, new_cells;
+    std::size_t                            n_vertices = 0;
     for (const MeshPart &part : parts)
       {
+        n_vertices += part.vertices.size();
         new_vertices.emplace_back(part.vertices.size(), not_there);
         new_cells.emplace_back(part.cells.size(), not_there);
         result.geometry_degree = part.geometry_degree;
       }
+    NumberTable vertices(n_vertices);
+    result.vertices.reserve(n_vertices);
     result.cells.reserve(order.size());
     result.numbers.reserve(order.size());
     for (const auto &[p, c] : order)

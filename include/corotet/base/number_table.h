@@ -4,6 +4,7 @@
 #ifndef corotet_base_number_table_h
 #define corotet_base_number_table_h
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,9 +19,12 @@ namespace corotet
   class NumberTable
   {
   public:
-    NumberTable()
-      : slots(1024, empty)
-    {}
+    /// With room for so many; more are taken, too.
+    explicit NumberTable(const std::size_t n_expected = 512)
+      : slots(std::bit_ceil(2 * n_expected + 2), empty)
+    {
+      met.reserve(n_expected);
+    }
 
     /// The place of a number among those that have been met.
     unsigned int
