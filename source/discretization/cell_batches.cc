@@ -126,7 +126,7 @@ namespace corotet
   {
     // One more than the batch that had a node last.
     std::vector<unsigned int> last_use(nodes.n_local_nodes(), 0);
-    fetch_starts.reserve(n_batches() + 1 + floats_per_batch);
+    fetch_starts.reserve(n_batches() + 1 + 2 * floats_per_batch);
     fetch_starts.push_back(0);
     for (unsigned int b = 0; b < n_batches(); ++b)
       {
@@ -140,7 +140,7 @@ namespace corotet
           }
         fetch_starts.push_back(fetched_nodes.size());
       }
-    fetch_starts.resize(n_batches() + 1 + floats_per_batch,
+    fetch_starts.resize(n_batches() + 1 + 2 * floats_per_batch,
                         fetched_nodes.size());
     fetched_nodes.shrink_to_fit();
   }

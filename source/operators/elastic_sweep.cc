@@ -107,6 +107,13 @@ namespace corotet
 
       static constexpr unsigned int n_batches = 1;
 
+      static COROTET_ALWAYS_INLINE void
+      fetch(const ElasticData &data, const unsigned int batch)
+      {
+        fetch_object(data.constants + batch);
+        fetch_object(data.coefficients + batch);
+      }
+
       /// The rotations of a batch, from the displacement or as they are.
       static COROTET_ALWAYS_INLINE void
       get(ElasticData                            &data,

@@ -219,6 +219,17 @@ namespace corotet
       multigrid.vmult(dst, src);
   }
 
+  void
+  AutomaticPreconditioner::vmult_with_norm(Vector       &dst,
+                                           const Vector &src,
+                                           const double  src_norm) const
+  {
+    if (is_direct)
+      direct->vmult(dst, src);
+    else
+      multigrid.vmult_with_norm(dst, src, src_norm);
+  }
+
   unsigned int
   AutomaticPreconditioner::acceptable_iterations(const unsigned int first) const
   {

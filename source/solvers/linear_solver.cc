@@ -2,10 +2,10 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/solvers/conjugate_gradients.h>
 #include <corotet/solvers/flexible_cg.h>
 #include <corotet/solvers/linear_solver.h>
 
-#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/solver_minres.h>
 
@@ -25,27 +25,6 @@ namespace corotet
     // Directions that flexible conjugate gradients keep. On bent bodies more do
     // not save iterations, as long as the solver is not slow.
     constexpr unsigned int n_directions = 2;
-
-    // Met by conjugate gradients.
-    struct NegativeCurvature
-    {};
-
-    // A matrix that tells when conjugate gradients meet a direction of negative
-    // curvature.
-    template <typename Matrix>
-    struct Watched
-    {
-      const Matrix &A;
-
-      void
-      vmult(Vector &dst, const Vector &src) const
-      {
-        A.vmult(dst, src);
-        // The first product may be that of x = 0.
-        if (dst * src < 0)
-          throw NegativeCurvature();
-      }
-    };
 
     // After how many iterations GMRES starts again, which stores two vectors
     // for each: few of them make it stagnate on ill-conditioned systems.
@@ -135,23 +114,16 @@ namespace corotet
       }
     if (method == KrylovMethod::minres)
       return minimal_residuals(A, limit, x, b, wanted);
-    dealii::SolverCG<Vector> cg(control);
-    if (method == KrylovMethod::conjugate_gradients ||
-        !std::is_same_v<Matrix, TangentOperator>)
-      {
-        cg.solve(A, x, b, *preconditioner);
-        return control.last_step();
-      }
-    try
-      {
-        cg.solve(Watched<Matrix>{A}, x, b, *preconditioner);
-        return control.last_step();
-      }
-    catch (const NegativeCurvature &)
-      {
-        const unsigned int done = control.last_step();
-        return done + minimal_residuals(A, limit - done, x, b, wanted);
-      }
+    // Exact tangents may be indefinite, which the user's own choice of method
+    // overrides.
+    const bool is_watched = method != KrylovMethod::conjugate_gradients &&
+                            std::is_same_v<Matrix, TangentOperator>;
+    ConjugateGradients cg(control, is_watched);
+    const bool         has_converged = cg.solve(A, x, b, *preconditioner);
+    const unsigned int done          = control.last_step();
+    if (has_converged)
+      return done;
+    return done + minimal_residuals(A, limit - done, x, b, wanted);
   }
 
   unsigned int

@@ -253,22 +253,29 @@ namespace corotet
   void
   PMultigrid::vmult(Vector &dst, const Vector &src) const
   {
-    if (levels.empty())
-      {
-        vertex_level->vmult(dst, src);
-        return;
-      }
-    // Single precision has its limits: sources of any size become one of size
-    // one.
-    const double size = src.l2_norm();
-    if (size == 0)
+    vmult_with_norm(dst, src, src.l2_norm());
+  }
+
+  void
+  PMultigrid::vmult_with_norm(Vector       &dst,
+                              const Vector &src,
+                              const double  src_norm) const
+  {
+    if (src_norm == 0)
       {
         dst = 0;
         return;
       }
-    copy_scaled(levels[0]->b, src, 1 / size);
+    if (levels.empty())
+      {
+        vertex_level->vmult(dst, src, src_norm);
+        return;
+      }
+    // Single precision has its limits: sources of any size become one of size
+    // one.
+    copy_scaled(levels[0]->b, src, 1 / src_norm);
     cycle(0);
-    copy_scaled(dst, levels[0]->x, size / scale);
+    copy_scaled(dst, levels[0]->x, src_norm / scale);
   }
 
   void

@@ -95,16 +95,12 @@ namespace corotet
 
   template <typename Number>
   void
-  SmoothedAggregation::vmult(Number *dst, const Number *src) const
+  SmoothedAggregation::vmult(Number       *dst,
+                             const Number *src,
+                             const double  size) const
   {
     // Numbers near 1, which no product takes out of the range of float.
-    Number own_largest = 0;
-    for (int i = 0; i < n_unknowns; ++i)
-      own_largest = std::max(own_largest, std::abs(src[i]));
-    const double largest =
-      dealii::Utilities::MPI::max(static_cast<double>(own_largest),
-                                  communicator);
-    const Number scale   = largest > 0 ? largest : 1;
+    const Number scale   = size;
     const auto   through = [&](const auto &level, const unsigned int n_above) {
       const Number back = scale / level.unit();
       float *const rhs  = level.right_hand_side();
@@ -133,7 +129,7 @@ namespace corotet
   }
 
   template void
-  SmoothedAggregation::vmult(float *, const float *) const;
+  SmoothedAggregation::vmult(float *, const float *, const double) const;
   template void
-  SmoothedAggregation::vmult(double *, const double *) const;
+  SmoothedAggregation::vmult(double *, const double *, const double) const;
 } // namespace corotet

@@ -231,21 +231,21 @@ namespace corotet
 
   template <typename Number>
   void
-  VertexLevel::solve(Number *to, const Number *from) const
+  VertexLevel::solve(Number *to, const Number *from, const double size) const
   {
     if (solver == "direct")
       direct.vmult(to, from);
     else
-      aggregation.vmult(to, from);
+      aggregation.vmult(to, from, size);
   }
 
   void
-  VertexLevel::vmult(Vector &to, const Vector &from) const
+  VertexLevel::vmult(Vector &to, const Vector &from, const double norm) const
   {
     if (other)
       other->vmult(to, from);
     else
-      solve(to.begin(), from.begin());
+      solve(to.begin(), from.begin(), norm);
   }
 
   void
@@ -254,7 +254,7 @@ namespace corotet
     if (motions)
       {
         motions->restrict_to(unknowns.data(), residual);
-        solve(unknowns.data(), unknowns.data());
+        solve(unknowns.data(), unknowns.data(), 1);
         motions->prolongate_add(fine, unknowns.data());
         return;
       }
@@ -269,7 +269,7 @@ namespace corotet
         std::copy_n(x.begin(), x.locally_owned_size(), float_x.begin());
       }
     else
-      solve(float_x.begin(), float_b.begin());
+      solve(float_x.begin(), float_b.begin(), 1);
     float_x.update_ghost_values();
     coarser->prolongate_add(fine, float_x);
     float_x.zero_out_ghost_values();

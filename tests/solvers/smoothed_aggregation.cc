@@ -32,7 +32,7 @@ namespace
     double       rz     = 0;
     for (int i = 1; i < 1000; ++i)
       {
-        preconditioner.vmult(z.begin(), r.begin());
+        preconditioner.vmult(z.begin(), r.begin(), r.l2_norm());
         const double last = rz;
         rz                = r * z;
         d.sadd(i == 1 ? 0. : rz / last, 1., z);
@@ -205,9 +205,9 @@ TEST_P(Symmetry, OfThreeLevels)
       v.local_element(i) = std::cos(0.3 * row);
       single_v[i]        = v.local_element(i);
     }
-  preconditioner.vmult(Pu.begin(), u.begin());
-  preconditioner.vmult(Pv.begin(), v.begin());
-  preconditioner.vmult(single_Pv.data(), single_v.data());
+  preconditioner.vmult(Pu.begin(), u.begin(), 1);
+  preconditioner.vmult(Pv.begin(), v.begin(), 1);
+  preconditioner.vmult(single_Pv.data(), single_v.data(), 1);
   std::copy(single_Pv.begin(), single_Pv.end(), widened.begin());
   const double uPv = u * Pv, vPu = v * Pu, u_single_Pv = u * widened;
   const double uPu = u * Pu, vPv = v * Pv;

@@ -24,7 +24,7 @@ namespace
     void
     vmult(Vector &dst, const Vector &src) const
     {
-      aggregation.vmult(dst.begin(), src.begin());
+      aggregation.vmult(dst.begin(), src.begin(), src.l2_norm());
     }
 
     SmoothedAggregation aggregation;

@@ -6,9 +6,11 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace corotet
 {
@@ -35,6 +37,39 @@ namespace corotet
   /// message. Collective.
   void
   sum_over_ranks(const std::span<double> values, const MPI_Comm comm);
+
+  /// This rank's shares of the inner products of several pairs of vectors, all
+  /// of the same layout. Vectors that are in more than one pair are read once.
+  template <std::size_t n>
+  std::array<double, n>
+  local_inner_products(
+    const std::array<std::pair<const Vector *, const Vector *>, n> &pairs)
+  {
+    // Blocks of all vectors stay in the first-level cache.
+    constexpr std::size_t block_size = 1024;
+    const std::size_t     size       = pairs[0].first->locally_owned_size();
+    std::array<double, n> result{};
+    for (std::size_t i = 0; i < size; i += block_size)
+      {
+        const std::size_t length = std::min(block_size, size - i);
+        for (std::size_t k = 0; k < n; ++k)
+          result[k] += inner_product({pairs[k].first->begin() + i, length},
+                                     {pairs[k].second->begin() + i, length});
+      }
+    return result;
+  }
+
+  /// Inner products of several pairs of vectors, all of the same layout, with
+  /// one message. Collective.
+  template <std::size_t n>
+  std::array<double, n>
+  inner_products(
+    const std::array<std::pair<const Vector *, const Vector *>, n> &pairs)
+  {
+    std::array<double, n> result = local_inner_products(pairs);
+    sum_over_ranks(result, pairs[0].first->get_mpi_communicator());
+    return result;
+  }
 
   /**
    * Euclidean norm. Other than Vector::l2_norm(), which stops the program in

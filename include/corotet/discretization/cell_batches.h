@@ -116,7 +116,7 @@ namespace corotet
     /// Local numbers of the nodes of batches [batch, end) that the 8 *
     /// floats_per_batch batches before do not have, which leaves them far away
     /// from the processor. Only if they exceed_caches<double>(). @p end may be
-    /// beyond n_batches() by floats_per_batch.
+    /// beyond n_batches() by 2 * floats_per_batch.
     std::span<const unsigned int>
     nodes_to_fetch(const unsigned int batch, const unsigned int end) const
     {

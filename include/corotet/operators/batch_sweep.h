@@ -31,9 +31,10 @@ namespace corotet
    *     the operation has a member ignores_curvature;
    *   - fetch(data, batch), if it wants to: asks for what else it reads there.
    *
-   * Where vectors are larger than the caches, what the next batch needs is on
-   * its way while a batch is worked on: waiting for scattered nodes would take
-   * as long as the work.
+   * Where vectors are larger than the caches, what the next but one batch needs
+   * is on its way while a batch is worked on: waiting for scattered nodes would
+   * take as long as the work. (One batch ahead is too late for the short work
+   * of low degrees.)
    */
   template <typename Operation>
   class BatchSweep
@@ -63,6 +64,8 @@ namespace corotet
     }
 
   private:
+    static constexpr unsigned int n_batches_ahead = 2 * Operation::n_batches;
+
     // Flat: what it calls becomes one piece of code with constants for counters
     // and registers for arrays; with calls it is six times slower.
     template <typename IsCurved>
@@ -74,12 +77,12 @@ namespace corotet
                 const Number      *source,
                 Number            *sums)
     {
-      const bool ahead = data.batches.template exceed_caches<Number>();
+      const bool fetches = data.batches.template exceed_caches<Number>();
       for (unsigned int batch = first; batch < end;
            batch += Operation::n_batches)
         {
-          if (ahead)
-            fetch(data, batch + Operation::n_batches, source, sums);
+          if (fetches)
+            fetch(data, batch + n_batches_ahead, source, sums);
           Operation::apply(is_curved, data, batch, source, sums);
         }
     }

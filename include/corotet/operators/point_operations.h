@@ -302,6 +302,12 @@ namespace corotet
 
     static constexpr unsigned int n_batches = 1;
 
+    static COROTET_ALWAYS_INLINE void
+    fetch(const ElasticData &data, const unsigned int batch)
+    {
+      fetch_object(data.constants + batch);
+    }
+
     template <typename IsCurved>
     static COROTET_ALWAYS_INLINE void
     apply(const IsCurved,

@@ -70,6 +70,11 @@ namespace corotet
     void
     vmult(Vector &dst, const Vector &src) const override;
 
+    void
+    vmult_with_norm(Vector       &dst,
+                    const Vector &src,
+                    const double  src_norm) const override;
+
     unsigned int
     acceptable_iterations(const unsigned int first) const override;
 

@@ -5,6 +5,7 @@
 #define corotet_solvers_flexible_cg_h
 
 #include <corotet/base/vector.h>
+#include <corotet/solvers/conjugate_gradients.h>
 
 #include <deal.II/lac/solver_control.h>
 
@@ -25,7 +26,7 @@ namespace corotet
    * be quite linear.
    *
    * It takes 2 k + 3 vectors, while GMRES takes two in each iteration; and
-   * three sums over the ranks in each iteration.
+   * two sums over the ranks in each iteration.
    */
   class FlexibleCG
   {
@@ -37,7 +38,6 @@ namespace corotet
       , images(k)
       , curvatures(k)
       , crosses(std::size_t(k) * k)
-      , sums(k + 2)
     {}
 
     /**
@@ -68,16 +68,17 @@ namespace corotet
           if (is_slow(residuals))
             return false;
 
-          P.vmult(p, r);
+          P.vmult_with_norm(p, r, residual);
           A.vmult(Ap, p);
           make_conjugate(step, p, Ap);
-          const auto [curvature, slope] = take_products(step, p, Ap, r);
+          const auto [curvature, slope, rr, r_Ap, Ap_Ap] =
+            take_products(step, p, Ap, r);
           if (!(curvature > 0))
             return false;
           const double length = slope / curvature;
           x.add(length, p);
           r.add(-length, Ap);
-          residual = norm(r);
+          residual = norm_after_step(length, rr, r_Ap, Ap_Ap, r);
           keep(step % directions.size(), p, Ap, curvature);
         }
     }
@@ -116,9 +117,10 @@ namespace corotet
       const unsigned int k = directions.size(), begin = first(step);
       if (begin == step)
         return;
+      sums.clear();
       for (unsigned int i = begin; i < step; ++i)
-        sums[i - begin] = local_inner_product(directions[i % k], Ap);
-      sum_over_ranks({sums.data(), step - begin}, p.get_mpi_communicator());
+        sums.push_back(local_inner_product(directions[i % k], Ap));
+      sum_over_ranks(sums, p.get_mpi_communicator());
       for (unsigned int i = begin; i < step; ++i)
         {
           const double factor = -sums[i - begin] / curvatures[i % k];
@@ -129,23 +131,30 @@ namespace corotet
         }
     }
 
-    /// p . A p and p . r. Notes the products of p with the images of the
-    /// directions that the next step has, too.
-    std::pair<double, double>
+    /// Inner products of p, A p and the residual r.
+    struct Products
+    {
+      double p_Ap, p_r, r_r, r_Ap, Ap_Ap;
+    };
+
+    /// Notes the products of p with the images of the directions that the next
+    /// step has, too.
+    Products
     take_products(const unsigned int step,
                   const Vector      &p,
                   const Vector      &Ap,
                   const Vector      &r)
     {
       const unsigned int k = directions.size(), begin = first(step + 1);
-      sums[0] = local_inner_product(p, Ap);
-      sums[1] = local_inner_product(p, r);
+      const auto         own = local_inner_products<5>(
+        {{{&p, &Ap}, {&p, &r}, {&r, &r}, {&r, &Ap}, {&Ap, &Ap}}});
+      sums.assign(own.begin(), own.end());
       for (unsigned int i = begin; i < step; ++i)
-        sums[2 + i - begin] = local_inner_product(p, images[i % k]);
-      sum_over_ranks({sums.data(), 2 + step - begin}, p.get_mpi_communicator());
+        sums.push_back(local_inner_product(p, images[i % k]));
+      sum_over_ranks(sums, p.get_mpi_communicator());
       for (unsigned int i = begin; i < step; ++i)
-        crosses[(step % k) * k + i % k] = sums[2 + i - begin];
-      return {sums[0], sums[1]};
+        crosses[(step % k) * k + i % k] = sums[own.size() + i - begin];
+      return {sums[0], sums[1], sums[2], sums[3], sums[4]};
     }
 
     /// In place of the oldest direction, whose storage the next one takes.
@@ -171,6 +180,7 @@ namespace corotet
     std::vector<double>    curvatures;
     /// Entry (j, i): direction j times image i, of an older one.
     std::vector<double> crosses;
+    /// Of one message.
     std::vector<double> sums;
   };
 } // namespace corotet

@@ -64,6 +64,11 @@ namespace corotet
     void
     vmult(Vector &dst, const Vector &src) const override;
 
+    void
+    vmult_with_norm(Vector       &dst,
+                    const Vector &src,
+                    const double  src_norm) const override;
+
     /// What the smoothers of all levels, the finest first, take for the largest
     /// eigenvalue of D^{-1} A since the last build().
     std::vector<double>

@@ -57,6 +57,16 @@ namespace corotet
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
+    /// The same where the norm of @p src is known, which may save a sum over
+    /// the ranks. Collective.
+    virtual void
+    vmult_with_norm(Vector       &dst,
+                    const Vector &src,
+                    const double /*src_norm*/) const
+    {
+      vmult(dst, src);
+    }
+
     /// What an iteration takes, where that is far more than the operator's
     /// application: in iterations of a preconditioner that is as cheap.
     virtual double

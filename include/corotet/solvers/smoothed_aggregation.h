@@ -60,11 +60,12 @@ namespace corotet
     void
     build(const AggregateProblem &A);
 
-    /// dst = P src, owned entries, for float or double. Only the first call
-    /// allocates memory. Collective.
+    /// dst = P src, owned entries, for float or double. @p size is about that
+    /// of src, on all ranks the same: numbers in single precision are relative
+    /// to it. Only the first call allocates memory. Collective.
     template <typename Number>
     void
-    vmult(Number *dst, const Number *src) const;
+    vmult(Number *dst, const Number *src, const double size) const;
 
     /// Of all ranks, on each level from the second one on.
     std::vector<int>

@@ -51,12 +51,14 @@ namespace corotet
           const double             scale,
           const Vector            &positions);
 
-    /// to = A^{-1} from, about, where A is of degree 1. Collective.
+    /// to = A^{-1} from, about, where A is of degree 1. @p norm of @p from,
+    /// not 0. Collective.
     void
-    vmult(Vector &to, const Vector &from) const;
+    vmult(Vector &to, const Vector &from, const double norm) const;
 
     /// fine += P A^{-1} P^T residual, about, for the quadratic element: zero at
-    /// prescribed unknowns, where both must be zero. Collective.
+    /// prescribed unknowns, where both must be zero. The residual's size is
+    /// about one. Collective.
     void
     correct(FloatVector &fine, const FloatVector &residual) const;
 
@@ -101,10 +103,10 @@ namespace corotet
              const double             stiffness_unit,
              const double             scale,
              const Vector            &positions);
-    /// Owned entries, of float or double.
+    /// Owned entries, of float or double; @p size is about that of @p from.
     template <typename Number>
     void
-    solve(Number *to, const Number *from) const;
+    solve(Number *to, const Number *from, const double size) const;
 
     const PMultigridParameters &parameters;
     /// Null where A is of degree 1.
