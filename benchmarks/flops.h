@@ -129,16 +129,25 @@ namespace corotet::benchmarks
   }
 
   /**
-   * Operations of the tangent by quadrature for one cell: at each point the
-   * gradient by reference coordinates and its transpose (each two for 9 n_nodes
-   * products), the changes of coordinates (45 each), 10 for the weights, and
-   * the stress (45 for R^T grad u, 3 for the trace, 21 for sigma, 45 for R
-   * sigma).
+   * Operations of the tangent by quadrature for one cell. Once, the form of
+   * derivatives and its transpose: the change to Bernstein's basis (each two
+   * for the entries of a component that are not those of the identity) and
+   * differences. At each point the gradient by reference coordinates and its
+   * transpose (each two for 9 n products, with n polynomials of degree p - 1),
+   * the changes of coordinates (45 each), 10 for the weights, and the stress
+   * (45 for R^T grad u, 3 for the trace, 21 for sigma, 45 for R sigma).
    */
+  template <int p>
   constexpr double
-  quadrature_flops(const int n_nodes, const int n_points)
+  quadrature_flops(const int n_points)
   {
-    return n_points * (36. * n_nodes + 2 * 45 + 10 + 45 + 3 + 21 + 45);
+    constexpr int n         = bernstein::size<p - 1>;
+    int           n_entries = 0;
+    for (int i = 4; i < bernstein::size<p>; ++i)
+      for (const double entry : bernstein::from_lagrange<p>[i])
+        n_entries += entry != 0 ? 1 : 0;
+    return 2 * (3 * 2. * n_entries) + 3 * 9 * n +
+           n_points * (36. * n + 2 * 45 + 10 + 45 + 3 + 21 + 45);
   }
 } // namespace corotet::benchmarks
 

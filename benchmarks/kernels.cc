@@ -223,8 +223,7 @@ namespace corotet::benchmarks
                                                 n_lanes<float>);
       add_kernel<QuadratureCells<p>>(
         name + "quadrature",
-        quadrature_flops(bernstein::size<p>,
-                         ReferenceElement(p).stiffness_rule.weights.size()),
+        quadrature_flops<p>(ReferenceElement(p).stiffness_rule.weights.size()),
         n_lanes<double>);
     }
 

@@ -60,10 +60,9 @@ namespace corotet::benchmarks
         constexpr int degree = decltype(p)::value;
         result.stiffness     = factored_flops<degree, true, false>();
         result.with_mass     = factored_flops<degree, true, true>();
+        result.quadrature    = quadrature_flops<degree>(
+          problem.reference.stiffness_rule.weights.size());
       });
-      result.quadrature =
-        quadrature_flops(problem.reference.n_nodes,
-                         problem.reference.stiffness_rule.weights.size());
       return result;
     }
 

@@ -32,9 +32,8 @@ MOST_ERROR = 1 / 3
 LATENCY, BANDWIDTH = 2e-6, 1e9
 # Pieces of a curve that fills space touch about so many others.
 NEIGHBOURS = 14
-# By degree, from doc/algorithms.md ("Between ranks"): messages of an iteration to each neighbour, sums over all ranks; layers of nodes on
-# the border between two pieces that go with a message, in terms of those of degree 1.
-MESSAGES, SUMS = {1: 2, 2: 20, 3: 38}, {1: 3, 2: 4, 3: 4}
+# From doc/algorithms.md ("Between ranks"): messages of an iteration to each neighbour, by degree, and sums over all ranks.
+MESSAGES, SUMS = {1: 2, 2: 20, 3: 38}, 2
 # Unknowns for each cell of a large body of tetrahedra.
 UNKNOWNS_OF_CELL = {1: 0.53, 2: 4.2, 3: 13.9}
 LARGE = 1e9
@@ -100,7 +99,7 @@ def predicted(degree, rate, unknowns, ranks):
     # The surface of a cube, shared with the neighbours; displacements of 4 bytes.
     border = 6 * (own / 3) ** (2 / 3) * 3 * 4
     messages = 0 if ranks == 1 else MESSAGES[degree] * (min(NEIGHBOURS, ranks - 1) * LATENCY + border / BANDWIDTH)
-    sums = SUMS[degree] * 2 * math.ceil(math.log2(ranks)) * LATENCY
+    sums = SUMS * 2 * math.ceil(math.log2(ranks)) * LATENCY
     cells = unknowns / UNKNOWNS_OF_CELL[degree]
     return own * rate.iteration, messages, sums, rate.cell_on_root * cells, rate.cell_on_all * cells / ranks
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/bernstein.h>
 #include <corotet/discretization/finite_element.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/discretization/with_degree.h>
@@ -30,6 +31,26 @@ namespace corotet
       if (normal * (centre - v[0]) > 0)
         std::swap(v[1], v[2]);
       return v;
+    }
+
+    template <int p>
+    dealii::Table<2, double>
+    derivative_basis(const std::vector<dealii::Point<3>> &points)
+    {
+      constexpr int            n = bernstein::size<p - 1>;
+      dealii::Table<2, double> result(points.size(), n);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const dealii::Point<3> &x = points[q];
+          for (int i = 0; i < n; ++i)
+            result[q][i] =
+              p * bernstein::value(bernstein::multi_indices<p - 1>[i], {
+                {
+                  1 - x[0] - x[1] - x[2], x[0], x[1], x[2]
+                }
+              });
+        }
+      return result;
     }
   } // namespace
 
@@ -141,6 +162,11 @@ namespace corotet
           for (unsigned int k = 0; k < 3; ++k)
             result.gradients[q][i][k] = gradient[k];
         }
+    for (unsigned int p = 1; p <= 3; ++p)
+      with_degree(p, [&](const auto degree) {
+        if (n == bernstein::size<degree>)
+          result.derivative_basis = derivative_basis<degree>(points);
+      });
     return result;
   }
 

@@ -248,6 +248,7 @@ namespace corotet
         preconditioner->build_for(A, J, positions);
         built_mass_ratio = A.mass_ratio();
         built_surface    = A.surface_size();
+        built_version    = A.version();
         ++n_builds;
       }
     else if (A.version() != known_version)
@@ -284,15 +285,23 @@ namespace corotet
     const auto with_this =
       static_cast<unsigned int>((iterations - done_before_change) / digits);
     if (was_built)
-      first_iterations = with_this;
+      {
+        first_iterations = with_this;
+        more_iterations  = 0;
+      }
+    // For the operator that it was made of, another one would be the same.
+    else if (with_this > first_iterations &&
+             (J != nullptr || A.version() != built_version))
+      more_iterations += with_this - first_iterations;
     unsigned int acceptable =
       preconditioner->acceptable_iterations(first_iterations);
     // A new preconditioner is not better than the first solve with it, as most
     // are made of the effective operator.
     if (J != nullptr)
       acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
-    is_built =
-      with_this <= acceptable && !preconditioner->is_worth_another(with_this);
+    is_built = with_this <= acceptable &&
+               more_iterations <= preconditioner->build_cost() &&
+               !preconditioner->is_worth_another(with_this);
     if (preconditioner->take_note(with_this, was_built))
       is_built = false;
     return iterations;

@@ -15,6 +15,7 @@ namespace corotet
     archive.transfer("built_surface", built_surface);
     archive.transfer("n_builds", n_builds);
     archive.transfer("first_iterations", first_iterations);
+    archive.transfer("more_iterations", more_iterations);
     preconditioner->transfer(archive);
   }
 
@@ -25,5 +26,6 @@ namespace corotet
   {
     preconditioner->build_for(A, J, positions);
     known_version = A.version();
+    built_version = A.version();
   }
 } // namespace corotet

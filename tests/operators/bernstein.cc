@@ -4,9 +4,9 @@
 // The compiler's tables of the factored kernel against deal.II's element:
 // numbering, change of basis, derivatives, integrals.
 
+#include <corotet/discretization/bernstein.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/discretization/with_degree.h>
-#include <corotet/operators/bernstein.h>
 
 #include <deal.II/fe/fe_simplex_p.h>
 

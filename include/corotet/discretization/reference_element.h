@@ -38,6 +38,10 @@ namespace corotet
       dealii::Table<2, double> values;
       /// [point][node][k]: derivative by the reference coordinate xi_k.
       dealii::Table<3, double> gradients;
+      /// [point][polynomial]: p times the Bernstein polynomials of degree
+      /// p - 1, which derivatives are made of. Empty for other elements than
+      /// those of degree p = 1, 2 and 3.
+      dealii::Table<2, double> derivative_basis;
     };
 
     explicit ReferenceElement(const Element element);

@@ -42,7 +42,7 @@ namespace corotet
      * @p add(first, end, source, sums) adds what batches [first, end)
      * contribute to the array sums, four numbers per local node; source are the
      * local values of @p src. @p take(i, y) gets the sum y of the owned unknown
-     * i, or those of i, .., i + 3 (see take_sums()); it may change @p src
+     * i, or those of several from i on (see take_sums()); it may change @p src
      * there. Ghost entries of @p src are brought up to date if they are not in
      * use, and left as they came. Collective.
      */

@@ -70,6 +70,20 @@ namespace corotet
     return rule.number(q, 9);
   }
 
+  /// PointValues::derivative_basis at point @p q.
+  COROTET_ALWAYS_INLINE const double *
+  derivative_basis_at(const ReferenceElement::PointValues &rule,
+                      const unsigned int                   q)
+  {
+    return &rule.derivative_basis(q, 0);
+  }
+
+  COROTET_ALWAYS_INLINE const double *
+  derivative_basis_at(const CurvedRule &rule, const unsigned int q)
+  {
+    return derivative_basis_at(rule.shapes, q);
+  }
+
   /// Derivatives by xi at point @p q, [node][k].
   COROTET_ALWAYS_INLINE const double *
   derivatives_at(const ReferenceElement::PointValues &rule,

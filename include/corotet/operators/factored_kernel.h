@@ -5,7 +5,7 @@
 #define corotet_operators_factored_kernel_h
 
 #include <corotet/base/simd.h>
-#include <corotet/operators/bernstein.h>
+#include <corotet/discretization/bernstein.h>
 
 namespace corotet
 {
@@ -147,8 +147,7 @@ namespace corotet
       });
     }
 
-  protected:
-    // Bernstein coefficients from values at the nodes.
+    /// Bernstein coefficients from values at the nodes.
     static COROTET_ALWAYS_INLINE void
     to_bernstein(NodalValues &u)
     {
@@ -168,7 +167,7 @@ namespace corotet
         });
     }
 
-    // The transpose of that.
+    /// The transpose of that.
     static COROTET_ALWAYS_INLINE void
     to_lagrange_transposed(NodalValues &v)
     {
@@ -190,6 +189,7 @@ namespace corotet
         });
     }
 
+  protected:
     // c = (I + 1/k^2 U_n (..) U_n^T) c: with k = 1 the mass matrix of degree n.
     template <int n, int k>
     static COROTET_ALWAYS_INLINE void

@@ -6,6 +6,8 @@
 
 #include <corotet/discretization/cell_batches.h>
 
+#include <type_traits>
+
 /**
  * Between vectors in memory and registers with one cell per lane.
  *
@@ -194,10 +196,56 @@ namespace corotet
       }
   }
 
+  namespace internal
+  {
+    /// Of numbers of nodes in fours, which follow each other in registers of n,
+    /// the ones that count: register @p which of those that they fill without
+    /// the fourths. @p a and @p b are registers @p which and the next one.
+    template <int which, int n, typename V, int... l>
+    COROTET_ALWAYS_INLINE V
+    without_fourths(const V a, const V b, std::integer_sequence<int, l...>)
+    {
+      constexpr auto place = [](const int j) {
+        return j / 3 * 4 + j % 3 - which * n;
+      };
+      return __builtin_shufflevector(a, b, place(which * n + l)...);
+    }
+
+    /// take_sums() of as many nodes as a register of @p n numbers has.
+    template <int n, typename T, typename Function>
+    COROTET_ALWAYS_INLINE void
+    take_sums_of(T *sums, const unsigned int node, const Function &function)
+    {
+      using V            = SimdVector<T, n>;
+      T *const       s   = sums + 4 * static_cast<std::size_t>(node);
+      constexpr auto all = std::make_integer_sequence<int, n>();
+      V              registers[4];
+      static_for<4>([&](auto k) { registers[k] = load_aligned<n>(s + k * n); });
+      static_for<3>([&](auto k) {
+        function(3 * node + k * n,
+                 without_fourths<k, n>(registers[k], registers[k + 1], all));
+      });
+      static_for<4>([&](auto k) { store_aligned(V{}, s + k * n); });
+    }
+  } // namespace internal
+
+  /// take_sums() of one node.
+  template <typename T, typename Function>
+  COROTET_ALWAYS_INLINE void
+  take_sum(T *sums, const unsigned int node, const Function &function)
+  {
+    for (unsigned int a = 0; a < 3; ++a)
+      {
+        T &sum = sums[4 * static_cast<std::size_t>(node) + a];
+        function(3 * node + a, sum);
+        sum = 0;
+      }
+  }
+
   /**
    * Takes the sums of nodes [begin, end) out of @p sums, which are zero
    * afterwards, and calls function(i, y): y is the sum of unknown i of a
-   * vector, or a SimdVector of those of i, i+1, i+2, i+3.
+   * vector, or a SimdVector of those from i on.
    */
   template <typename T, typename Function>
   inline void
@@ -206,27 +254,22 @@ namespace corotet
             const unsigned int end,
             const Function    &function)
   {
-    using Four = SimdVector<T, 4>;
-    const Four   zero{};
+    // Numbers of double precision by four: what @p function loads would lie in
+    // two cache lines each with eight, which makes explicit steps 7 % slower.
+    // In single precision 16 make p-multigrid 5 % faster.
+    constexpr unsigned int n_narrow = 4;
+    constexpr unsigned int n_wide =
+      std::is_same_v<T, float> ? n_lanes<T> : n_narrow;
+    // Where such registers may be loaded.
     unsigned int n = begin;
-    for (; n + 4 <= end; n += 4)
-      {
-        T *const   s = sums + 4 * static_cast<std::size_t>(n);
-        const Four a = load_aligned<4>(s), b = load_aligned<4>(s + 4),
-                   c = load_aligned<4>(s + 8), d = load_aligned<4>(s + 12);
-        function(3 * n, __builtin_shufflevector(a, b, 0, 1, 2, 4));
-        function(3 * n + 4, __builtin_shufflevector(b, c, 1, 2, 4, 5));
-        function(3 * n + 8, __builtin_shufflevector(c, d, 2, 4, 5, 6));
-        for (int k = 0; k < 16; k += 4)
-          store_aligned(zero, s + k);
-      }
+    for (; n % (n_wide / 4) != 0 && n < end; ++n)
+      take_sum(sums, n, function);
+    for (; n + n_wide <= end; n += n_wide)
+      internal::take_sums_of<n_wide>(sums, n, function);
+    for (; n + n_narrow <= end; n += n_narrow)
+      internal::take_sums_of<n_narrow>(sums, n, function);
     for (; n < end; ++n)
-      for (unsigned int a = 0; a < 3; ++a)
-        {
-          T &sum = sums[4 * static_cast<std::size_t>(n) + a];
-          function(3 * n + a, sum);
-          sum = 0;
-        }
+      take_sum(sums, n, function);
   }
 
   /// A number or a SimdVector from memory, as V says; and back.

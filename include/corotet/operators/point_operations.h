@@ -132,13 +132,7 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     for_each_point(const NodalValues &u, const Function &function) const
     {
-      const auto &points = rule();
-      for (unsigned int q = 0; q < n_points(points); ++q)
-        {
-          Tensor2Lanes H;
-          Kernel::gradient(points, q, g, u, H);
-          function(q, H);
-        }
+      Kernel::for_each_point(rule(), g, u, function);
     }
 
     /// f_i += sum_q w_q P(q, grad u) grad N_i. @p stress(q, grad u, P)

@@ -7,6 +7,7 @@
 #include <corotet/discretization/reference_element.h>
 #include <corotet/material/corotational_simd.h>
 #include <corotet/operators/cell_rule.h>
+#include <corotet/operators/derivative_form.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/sweep.h>
 
@@ -62,20 +63,14 @@ namespace corotet
              const NodalValues &u,
              Tensor2           &result)
     {
-      const double *dN = derivatives_at(rule, q);
-      Tensor2       by_xi{};
+      const double *dN             = derivatives_at(rule, q);
+      V             derivatives[9] = {};
       static_for<n_nodes>([&](auto i) {
         static_for<9>([&](auto ak) {
-          by_xi[ak / 3][ak % 3] += dN[3 * i + ak % 3] * u[i][ak / 3];
+          derivatives[ak] += dN[3 * i + ak % 3] * u[i][ak / 3];
         });
       });
-      to_centre(rule, q, by_xi);
-      static_for<9>([&](auto ab) {
-        V sum{};
-        static_for<3>(
-          [&](auto k) { sum += by_xi[ab / 3][k] * g[3 * k + ab % 3]; });
-        result[ab / 3][ab % 3] = sum;
-      });
+      from_reference(rule, q, g, derivatives, result);
     }
 
     /// f_i += P grad N_i at point @p q of @p rule.
@@ -87,19 +82,35 @@ namespace corotet
         const Tensor2     &P,
         NodalValues       &f)
     {
-      Tensor2 by_xi;
-      static_for<9>([&](auto ak) {
-        V sum{};
-        static_for<3>(
-          [&](auto b) { sum += P[ak / 3][b] * g[3 * (ak % 3) + b]; });
-        by_xi[ak / 3][ak % 3] = sum;
-      });
-      from_centre(rule, q, by_xi);
+      V derivatives[9];
+      to_reference(rule, q, g, P, derivatives);
       const double *dN = derivatives_at(rule, q);
       static_for<n_nodes>([&](auto i) {
         static_for<9>([&](auto ak) {
-          f[i][ak / 3] += dN[3 * i + ak % 3] * by_xi[ak / 3][ak % 3];
+          f[i][ak / 3] += dN[3 * i + ak % 3] * derivatives[ak];
         });
+      });
+    }
+
+    /// Calls @p function(q, grad u) for all points of @p rule.
+    template <typename Rule, typename Function>
+    static COROTET_ALWAYS_INLINE void
+    for_each_point(const Rule        &rule,
+                   const Geometry    &g,
+                   const NodalValues &u,
+                   const Function    &function)
+    {
+      typename Form::Coefficients c;
+      Form::from_nodes(u, c);
+      for_pairs_of_points(rule, [&](const auto n_points, const unsigned int q) {
+        V derivatives[n_points][9];
+        Form::template evaluate<n_points>(rule, q, c, derivatives);
+        for (int j = 0; j < n_points; ++j)
+          {
+            Tensor2 grad_u;
+            from_reference(rule, q + j, g, derivatives[j], grad_u);
+            function(q + j, grad_u);
+          }
       });
     }
 
@@ -116,16 +127,81 @@ namespace corotet
               NodalValues       &f,
               const Stress      &stress)
     {
-      const unsigned int n_q = n_points(rule);
-      for (unsigned int q = 0; q < n_q; ++q)
-        {
-          Tensor2 grad_u, P;
-          gradient(rule, q, g, u, grad_u);
-          stress(q, grad_u, P);
-          const V weight = weight_at(rule, q) * volume;
-          static_for<9>([&](auto ab) { P[ab / 3][ab % 3] *= weight; });
-          add(rule, q, g, P, f);
-        }
+      typename Form::Coefficients c, sums{};
+      Form::from_nodes(u, c);
+      for_pairs_of_points(rule, [&](const auto n_points, const unsigned int q) {
+        V derivatives[n_points][9];
+        Form::template evaluate<n_points>(rule, q, c, derivatives);
+        for (int j = 0; j < n_points; ++j)
+          {
+            Tensor2 grad_u, P;
+            from_reference(rule, q + j, g, derivatives[j], grad_u);
+            stress(q + j, grad_u, P);
+            const V weight = weight_at(rule, q + j) * volume;
+            static_for<9>([&](auto ab) { P[ab / 3][ab % 3] *= weight; });
+            to_reference(rule, q + j, g, P, derivatives[j]);
+          }
+        Form::template add<n_points>(rule, q, derivatives, sums);
+      });
+      Form::add_to_nodes(sums, f);
+    }
+
+  private:
+    using Form = DerivativeForm<n>;
+
+    /// Two points at a time at degree 3: each coefficient that is read or added
+    /// to then serves both. Others have few coefficients.
+    template <typename Rule, typename Action>
+    static COROTET_ALWAYS_INLINE void
+    for_pairs_of_points(const Rule &rule, const Action &action)
+    {
+      const unsigned int n_all = n_points(rule);
+      unsigned int       q     = 0;
+      if constexpr (n == 20)
+        for (; q + 2 <= n_all; q += 2)
+          action(std::integral_constant<int, 2>(), q);
+      for (; q < n_all; ++q)
+        action(std::integral_constant<int, 1>(), q);
+    }
+
+    /// The gradient from derivatives by the reference coordinates.
+    template <typename Rule>
+    static COROTET_ALWAYS_INLINE void
+    from_reference(const Rule        &rule,
+                   const unsigned int q,
+                   const Geometry    &g,
+                   const V (&derivatives)[9],
+                   Tensor2 &gradient)
+    {
+      Tensor2 by_xi;
+      static_for<9>([&](auto ak) { by_xi[ak / 3][ak % 3] = derivatives[ak]; });
+      to_centre(rule, q, by_xi);
+      static_for<9>([&](auto ab) {
+        V sum{};
+        static_for<3>(
+          [&](auto k) { sum += by_xi[ab / 3][k] * g[3 * k + ab % 3]; });
+        gradient[ab / 3][ab % 3] = sum;
+      });
+    }
+
+    /// The transpose of that.
+    template <typename Rule>
+    static COROTET_ALWAYS_INLINE void
+    to_reference(const Rule        &rule,
+                 const unsigned int q,
+                 const Geometry    &g,
+                 const Tensor2     &P,
+                 V (&derivatives)[9])
+    {
+      Tensor2 by_xi;
+      static_for<9>([&](auto ak) {
+        V sum{};
+        static_for<3>(
+          [&](auto b) { sum += P[ak / 3][b] * g[3 * (ak % 3) + b]; });
+        by_xi[ak / 3][ak % 3] = sum;
+      });
+      from_centre(rule, q, by_xi);
+      static_for<9>([&](auto ak) { derivatives[ak] = by_xi[ak / 3][ak % 3]; });
     }
   };
 } // namespace corotet

@@ -79,6 +79,12 @@ namespace corotet
     acceptable_iterations(const unsigned int first) const override;
 
     double
+    build_cost() const override
+    {
+      return is_direct ? direct->build_cost() : multigrid.build_cost();
+    }
+
+    double
     cost() const override
     {
       return is_direct ? costs.solve : 1.;

@@ -185,6 +185,8 @@ namespace corotet
     bool   is_built         = false;
     double built_mass_ratio = 0;
     double built_surface    = 0;
+    /// Of the operator that the preconditioner was made of.
+    unsigned int built_version = 0;
 
     unsigned int n_builds = 0;
     /// Of the present solve, iterations with a preconditioner that has been
@@ -194,6 +196,8 @@ namespace corotet
     unsigned int known_version = 0;
     /// Iterations of the first solve after the preconditioner was made.
     unsigned int first_iterations = 0;
+    /// What the solves since then have taken more than that, in all.
+    unsigned int more_iterations = 0;
   };
 } // namespace corotet
 

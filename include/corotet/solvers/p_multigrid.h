@@ -61,6 +61,14 @@ namespace corotet
     void
     update(const EffectiveOperator &A) override;
 
+    /// 4 to 8 iterations at degree 3, 8 to 13 at degree 2 and 11 to 17 at
+    /// degree 1 were measured.
+    double
+    build_cost() const override
+    {
+      return 10;
+    }
+
     void
     vmult(Vector &dst, const Vector &src) const override;
 

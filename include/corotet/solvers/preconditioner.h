@@ -127,6 +127,15 @@ namespace corotet
       return false;
     }
 
+    /// What build() takes, in iterations of a solve: as soon as the solves
+    /// since the last one have taken so many more, all together, than if each
+    /// had taken as many as the first, P is outdated.
+    virtual double
+    build_cost() const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
     /// Iterations that a solve may take before P counts as outdated,
     /// given those of the first solve after it was built.
     virtual unsigned int

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_operators_bernstein_h
-#define corotet_operators_bernstein_h
+#ifndef corotet_discretization_bernstein_h
+#define corotet_discretization_bernstein_h
 
 #include <corotet/discretization/tetrahedron.h>
 
