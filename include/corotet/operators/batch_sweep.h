@@ -33,8 +33,9 @@ namespace corotet
    *
    * Where vectors are larger than the caches, what the next but one batch needs
    * is on its way while a batch is worked on: waiting for scattered nodes would
-   * take as long as the work. (One batch ahead is too late for the short work
-   * of low degrees.)
+   * take as long as the work. One batch ahead is too late for short work. For
+   * long work it is early enough, and two cost up to half the time more:
+   * operations with a member works_long get one.
    */
   template <typename Operation>
   class BatchSweep
@@ -64,7 +65,9 @@ namespace corotet
     }
 
   private:
-    static constexpr unsigned int n_batches_ahead = 2 * Operation::n_batches;
+    static constexpr bool works_long = requires { Operation::works_long; };
+    static constexpr unsigned int n_batches_ahead =
+      (works_long ? 1 : 2) * Operation::n_batches;
 
     // Flat: what it calls becomes one piece of code with constants for counters
     // and registers for arrays; with calls it is six times slower.

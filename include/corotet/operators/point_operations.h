@@ -294,7 +294,8 @@ namespace corotet
     using Data   = ElasticData;
     using Number = double;
 
-    static constexpr unsigned int n_batches = 1;
+    static constexpr unsigned int n_batches  = 1;
+    static constexpr bool         works_long = true;
 
     static COROTET_ALWAYS_INLINE void
     fetch(const ElasticData &data, const unsigned int batch)
