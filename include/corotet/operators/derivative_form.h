@@ -9,6 +9,35 @@
 
 namespace corotet
 {
+  /// Derivatives by the reference coordinates, [3 component + k], from those of
+  /// the n shape functions at a point, [node][k], and nodal values.
+  template <int n>
+  COROTET_ALWAYS_INLINE void
+  derivatives_of(const double *dN,
+                 const Simd<double> (&u)[n][3],
+                 Simd<double> (&result)[9])
+  {
+    Simd<double> sum[9] = {};
+    static_for<n>([&](auto i) {
+      static_for<9>(
+        [&](auto ak) { sum[ak] += dN[3 * i + ak % 3] * u[i][ak / 3]; });
+    });
+    static_for<9>([&](auto ak) { result[ak] = sum[ak]; });
+  }
+
+  /// Adds to nodal values what derivatives_of() makes of them, transposed.
+  template <int n>
+  COROTET_ALWAYS_INLINE void
+  add_transposed(const double *dN,
+                 const Simd<double> (&derivatives)[9],
+                 Simd<double> (&f)[n][3])
+  {
+    static_for<n>([&](auto i) {
+      static_for<9>(
+        [&](auto ak) { f[i][ak / 3] += dN[3 * i + ak % 3] * derivatives[ak]; });
+    });
+  }
+
   /**
    * Derivatives of nodal values by the reference coordinates at quadrature
    * points, and the transpose of that; one cell per lane, for elements of n
@@ -160,13 +189,7 @@ namespace corotet
              V (*derivatives)[9])
     {
       static_for<n_points>([&](auto j) {
-        const double *dN     = derivatives_at(rule, q + j);
-        V             sum[9] = {};
-        static_for<n>([&](auto i) {
-          static_for<9>(
-            [&](auto ak) { sum[ak] += dN[3 * i + ak % 3] * c[i][ak / 3]; });
-        });
-        static_for<9>([&](auto ak) { derivatives[j][ak] = sum[ak]; });
+        derivatives_of<n>(derivatives_at(rule, q + j), c, derivatives[j]);
       });
     }
 
@@ -178,12 +201,7 @@ namespace corotet
         Coefficients &c)
     {
       static_for<n_points>([&](auto j) {
-        const double *dN = derivatives_at(rule, q + j);
-        static_for<n>([&](auto i) {
-          static_for<9>([&](auto ak) {
-            c[i][ak / 3] += dN[3 * i + ak % 3] * derivatives[j][ak];
-          });
-        });
+        add_transposed<n>(derivatives_at(rule, q + j), derivatives[j], c);
       });
     }
   };

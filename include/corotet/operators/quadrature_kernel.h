@@ -63,13 +63,8 @@ namespace corotet
              const NodalValues &u,
              Tensor2           &result)
     {
-      const double *dN             = derivatives_at(rule, q);
-      V             derivatives[9] = {};
-      static_for<n_nodes>([&](auto i) {
-        static_for<9>([&](auto ak) {
-          derivatives[ak] += dN[3 * i + ak % 3] * u[i][ak / 3];
-        });
-      });
+      V derivatives[9];
+      derivatives_of<n>(derivatives_at(rule, q), u, derivatives);
       from_reference(rule, q, g, derivatives, result);
     }
 
@@ -84,12 +79,7 @@ namespace corotet
     {
       V derivatives[9];
       to_reference(rule, q, g, P, derivatives);
-      const double *dN = derivatives_at(rule, q);
-      static_for<n_nodes>([&](auto i) {
-        static_for<9>([&](auto ak) {
-          f[i][ak / 3] += dN[3 * i + ak % 3] * derivatives[ak];
-        });
-      });
+      add_transposed<n>(derivatives_at(rule, q), derivatives, f);
     }
 
     /// Calls @p function(q, grad u) for all points of @p rule.

@@ -33,6 +33,19 @@ namespace corotet
     return square > smallest * (rr + shift) ? std::sqrt(square) : norm(next);
   }
 
+  /// Whether @p control is content with the @p residual after @p step steps.
+  /// Throws dealii::SolverControl::NoConvergence if there are to be no more.
+  inline bool
+  has_converged(dealii::SolverControl &control,
+                const unsigned int     step,
+                const double           residual)
+  {
+    const auto state = control.check(step, residual);
+    if (state == dealii::SolverControl::failure)
+      throw dealii::SolverControl::NoConvergence(step, residual);
+    return state == dealii::SolverControl::success;
+  }
+
   /**
    * Preconditioned conjugate gradients with two sums over the ranks in each
    * iteration. (deal.II's takes three; the inner products are the same ones.)
@@ -75,11 +88,8 @@ namespace corotet
       double residual = norm(*r), slope = 1;
       for (unsigned int step = 0;; ++step)
         {
-          const auto state = control.check(step, residual);
-          if (state == dealii::SolverControl::success)
+          if (has_converged(control, step, residual))
             return true;
-          if (state == dealii::SolverControl::failure)
-            throw dealii::SolverControl::NoConvergence(step, residual);
 
           P.vmult_with_norm(*z, *r, residual);
           const double last_slope = slope;

@@ -59,11 +59,8 @@ namespace corotet
       std::vector<double> residuals;
       for (unsigned int step = 0;; ++step)
         {
-          const auto state = control.check(step, residual);
-          if (state == dealii::SolverControl::success)
+          if (has_converged(control, step, residual))
             return true;
-          if (state == dealii::SolverControl::failure)
-            throw dealii::SolverControl::NoConvergence(step, residual);
           residuals.push_back(residual);
           if (is_slow(residuals))
             return false;
