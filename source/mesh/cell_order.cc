@@ -183,14 +183,19 @@ namespace corotet
       }
 
       /**
-       * The lowest places that have at least so much before them, ascending as
-       * @p amounts: work, or cells.
+       * Places that have so much before them, ascending as @p amounts: work, or
+       * cells. Of those that differ from it by no more than @p tolerance, the
+       * one that is the corner of the largest cube; without any, the lowest one
+       * with at least so much.
        */
       std::vector<CurvePlace>
-      cuts(const std::vector<std::uint64_t> &amounts, const bool of_work) const
+      cuts(const std::vector<std::uint64_t> &amounts,
+           const bool                        of_work,
+           const std::uint64_t               tolerance) const
       {
         // By bisection: bits of the place on the curve, then of the number.
         std::vector<CurvePlace> cuts(amounts.size(), CurvePlace{0, 0});
+        std::vector<bool>       is_found(amounts.size(), false);
         for (const auto &[coordinate, n_bits] :
              {std::pair(&CurvePlace::on_curve, int(3 * hilbert_bits)),
               std::pair(&CurvePlace::number, 64)})
@@ -205,12 +210,19 @@ namespace corotet
                                            position(trial));
               MPI::sum(before, comm, before);
               for (std::size_t i = 0; i < cuts.size(); ++i)
-                if (before[i] < amounts[i])
-                  cuts[i] = trials[i];
+                {
+                  if (is_found[i])
+                    continue;
+                  is_found[i] = before[i] + tolerance >= amounts[i] &&
+                                before[i] <= amounts[i] + tolerance;
+                  if (is_found[i] || before[i] < amounts[i])
+                    cuts[i] = trials[i];
+                }
             }
-        // Those are the highest places with less before them.
-        for (CurvePlace &cut : cuts)
-          ++cut.number;
+        // The others are the highest places with less before them.
+        for (std::size_t i = 0; i < cuts.size(); ++i)
+          if (!is_found[i])
+            ++cuts[i].number;
         return cuts;
       }
 
@@ -237,8 +249,15 @@ namespace corotet
 
 
 
-    // Where the piece of each rank but the first begins, with equal work, and
-    // a cell for each rank.
+    // Of the work of a rank, what it may have more or less at either end, so
+    // that pieces end between large cubes: lines of cells through the thickness
+    // of a plate, which solvers want together, stay whole [-].
+    constexpr double inequality = 0.005;
+
+
+
+    // Where the piece of each rank but the first begins, with about equal work,
+    // and a cell for each rank.
     std::vector<CurvePlace>
     beginnings(const Sequence &sequence, const unsigned int n_ranks)
     {
@@ -246,7 +265,8 @@ namespace corotet
       std::vector<std::uint64_t> amounts;
       for (unsigned int rank = 1; rank < n_ranks; ++rank)
         amounts.push_back(work * rank / n_ranks);
-      std::vector<CurvePlace>    cuts     = sequence.cuts(amounts, true);
+      std::vector<CurvePlace> cuts =
+        sequence.cuts(amounts, true, inequality * work / n_ranks);
       std::vector<std::uint64_t> first    = sequence.n_cells_before(cuts);
       bool                       is_moved = false;
       if (n < n_ranks)
@@ -259,7 +279,7 @@ namespace corotet
           is_moved        = is_moved || wanted != first[rank - 1];
           first[rank - 1] = wanted;
         }
-      return is_moved ? sequence.cuts(first, false) : cuts;
+      return is_moved ? sequence.cuts(first, false, 0) : cuts;
     }
 
 

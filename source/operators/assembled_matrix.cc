@@ -97,7 +97,9 @@ namespace corotet
             if (i < n_owned)
               {
                 const int column =
-                  j < n_owned ? j : pattern.local_node(nodes.global_node(j));
+                  j < n_owned ?
+                    j :
+                    pattern.nodes().local_node(nodes.global_node(j));
                 const int place = pattern.place(i, column);
                 AssertThrow(place <= std::numeric_limits<std::uint16_t>::max(),
                             dealii::ExcMessage(

@@ -8,60 +8,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace corotet
 {
   BlockPattern::BlockPattern(const NodeGraph &rows, const MPI_Comm comm)
     : comm(comm)
-    , first_nodes(dealii::Utilities::MPI::all_gather(comm, rows.n_rows()))
+    , numbers(comm, rows.n_rows())
   {
-    first_nodes.push_back(0);
-    std::exclusive_scan(first_nodes.begin(),
-                        first_nodes.end(),
-                        first_nodes.begin(),
-                        0);
-    first        = first_nodes[dealii::Utilities::MPI::this_mpi_process(comm)];
-    const int  n = rows.n_rows();
-    const auto owns = [this, n](const int node) {
-      return node >= first && node < first + n;
-    };
-    for (const int column : rows.columns)
-      if (!owns(column))
-        ghost_nodes.push_back(column);
-    std::sort(ghost_nodes.begin(), ghost_nodes.end());
-    ghost_nodes.erase(std::unique(ghost_nodes.begin(), ghost_nodes.end()),
-                      ghost_nodes.end());
-    ghost_nodes.shrink_to_fit();
-
+    numbers.set_ghosts(rows.columns);
     local_graph.starts = rows.starts;
     local_graph.columns.resize(rows.columns.size());
     for (std::size_t k = 0; k < rows.columns.size(); ++k)
-      {
-        const int column = rows.columns[k];
-        local_graph.columns[k] =
-          owns(column) ?
-            column - first :
-            n +
-              std::lower_bound(ghost_nodes.begin(), ghost_nodes.end(), column) -
-              ghost_nodes.begin();
-      }
-    for (int node = 0; node < n; ++node)
+      local_graph.columns[k] = numbers.local_node(rows.columns[k]);
+    for (int node = 0; node < n_owned(); ++node)
       std::sort(local_graph.columns.begin() + rows.starts[node],
                 local_graph.columns.begin() + rows.starts[node + 1]);
-    ghost_exchange = GhostExchange(comm, first_nodes, ghost_nodes);
-  }
-
-  int
-  BlockPattern::local_node(const int global) const
-  {
-    if (global >= first && global < first + n_owned())
-      return global - first;
-    const auto found =
-      std::lower_bound(ghost_nodes.begin(), ghost_nodes.end(), global);
-    Assert(found != ghost_nodes.end() && *found == global,
-           dealii::ExcInternalError());
-    return n_owned() + (found - ghost_nodes.begin());
+    ghost_exchange = GhostExchange(comm, numbers);
   }
 
   int

@@ -3,34 +3,77 @@
 
 #include <corotet/operators/ghost_exchange.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cstring>
+#include <iterator>
 #include <numeric>
 
 namespace corotet
 {
-  GhostExchange::GhostExchange(const MPI_Comm          comm,
-                               const std::vector<int> &first_nodes,
-                               const std::vector<int> &ghosts)
-    : comm(comm)
-    , n_ghosts(ghosts.size())
+  NodeNumbers::NodeNumbers(const MPI_Comm comm, const int n_owned)
+    : first_nodes(dealii::Utilities::MPI::all_gather(comm, n_owned))
   {
-    const int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
-    const int n_ranks = first_nodes.size() - 1;
-    n_owned           = first_nodes[rank + 1] - first_nodes[rank];
+    first_nodes.push_back(0);
+    std::exclusive_scan(first_nodes.begin(),
+                        first_nodes.end(),
+                        first_nodes.begin(),
+                        0);
+    first = first_nodes[dealii::Utilities::MPI::this_mpi_process(comm)];
+    end   = first + n_owned;
+  }
+
+  void
+  NodeNumbers::set_ghosts(const std::vector<int> &nodes)
+  {
+    the_ghosts.clear();
+    std::copy_if(nodes.begin(),
+                 nodes.end(),
+                 std::back_inserter(the_ghosts),
+                 [this](const int node) { return !owns(node); });
+    std::sort(the_ghosts.begin(), the_ghosts.end());
+    the_ghosts.erase(std::unique(the_ghosts.begin(), the_ghosts.end()),
+                     the_ghosts.end());
+    the_ghosts.shrink_to_fit();
+  }
+
+  std::pair<int, int>
+  NodeNumbers::owner(const int global) const
+  {
+    // Of ranks that begin with the same node, the last one has nodes.
+    const int rank =
+      std::upper_bound(first_nodes.begin(), first_nodes.end(), global) -
+      first_nodes.begin() - 1;
+    return {rank, global - first_nodes[rank]};
+  }
+
+  int
+  NodeNumbers::local_node(const int global) const
+  {
+    if (owns(global))
+      return global - first;
+    const auto found =
+      std::lower_bound(the_ghosts.begin(), the_ghosts.end(), global);
+    Assert(found != the_ghosts.end() && *found == global,
+           dealii::ExcInternalError());
+    return n_owned() + (found - the_ghosts.begin());
+  }
+
+  GhostExchange::GhostExchange(const MPI_Comm comm, const NodeNumbers &numbers)
+    : comm(comm)
+    , n_owned(numbers.n_owned())
+    , n_ghosts(numbers.ghosts().size())
+  {
+    const int n_ranks = numbers.n_ranks();
     // The numbers of ghosts at their owners.
     std::vector<int> nodes(n_ghosts);
     std::vector<int> n_got(n_ranks), n_sent(n_ranks);
     std::vector<int> ghost_begin(n_ranks), send_begin(n_ranks);
     for (int i = 0; i < n_ghosts; ++i)
       {
-        // Of ranks that begin with the same node, the last one has nodes.
-        const int owner =
-          std::upper_bound(first_nodes.begin(), first_nodes.end(), ghosts[i]) -
-          first_nodes.begin() - 1;
-        nodes[i] = ghosts[i] - first_nodes[owner];
+        const auto [owner, node] = numbers.owner(numbers.ghosts()[i]);
+        nodes[i]                 = node;
         ++n_got[owner];
       }
     MPI_Alltoall(n_got.data(), 1, MPI_INT, n_sent.data(), 1, MPI_INT, comm);
@@ -108,6 +151,33 @@ namespace corotet
           std::memcpy(&buffer[i * size], values + sent[i] * size, size);
         MPI_Isend(buffer.data() + neighbour.send_begin * size,
                   (neighbour.send_end - neighbour.send_begin) * size,
+                  MPI_BYTE,
+                  neighbour.rank,
+                  tag,
+                  comm,
+                  request++);
+      }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+  }
+
+  void
+  GhostExchange::return_ghosts(const char *values, const std::size_t size) const
+  {
+    constexpr int tag = 7317;
+    buffer.resize(std::max(buffer.size(), sent.size() * size));
+    requests.resize(2 * neighbours.size());
+    MPI_Request *request = requests.data();
+    for (const Neighbour &neighbour : neighbours)
+      {
+        MPI_Irecv(buffer.data() + neighbour.send_begin * size,
+                  (neighbour.send_end - neighbour.send_begin) * size,
+                  MPI_BYTE,
+                  neighbour.rank,
+                  tag,
+                  comm,
+                  request++);
+        MPI_Isend(values + (n_owned + neighbour.ghost_begin) * size,
+                  (neighbour.ghost_end - neighbour.ghost_begin) * size,
                   MPI_BYTE,
                   neighbour.rank,
                   tag,

@@ -26,7 +26,7 @@ namespace corotet
   void
   AggregationLevel<d>::build(const BlockMatrix                         &A,
                              const std::shared_ptr<const BlockPattern> &pattern,
-                             std::vector<PointFrame<d>>                 frames,
+                             const std::vector<PointFrame<d>>          &frames,
                              const Coarsening &coarsening)
   {
     const bool is_new = points != pattern;
@@ -55,7 +55,7 @@ namespace corotet
     if (has_aggregate_blocks)
       invert_aggregates(A);
     estimate_largest_eigenvalue();
-    build_coarse(A, std::move(frames));
+    build_coarse(A, frames);
   }
 
   template <int d>
@@ -224,12 +224,12 @@ namespace corotet
   template void
   AggregationLevel<3>::build(const BlockMatrix &,
                              const std::shared_ptr<const BlockPattern> &,
-                             std::vector<PointFrame<3>>,
+                             const std::vector<PointFrame<3>> &,
                              const Coarsening &);
   template void
   AggregationLevel<6>::build(const BlockMatrix &,
                              const std::shared_ptr<const BlockPattern> &,
-                             std::vector<PointFrame<6>>,
+                             const std::vector<PointFrame<6>> &,
                              const Coarsening &);
   template void
   AggregationLevel<3>::fill_without_pattern(std::vector<float> &,

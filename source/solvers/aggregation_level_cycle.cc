@@ -159,7 +159,7 @@ namespace corotet
            ++k)
         action(d * i,
                &prolongation[k].values[0][0],
-               6 * (prolongation_pattern.columns[k] - first_aggregate));
+               6 * prolongation_columns[k]);
   }
 
   template <int d>
@@ -169,26 +169,32 @@ namespace corotet
     apply(product.data(), x.data());
     for (int i = 0; i < d * n_points; ++i)
       residual[i] = rhs[i] - product[i];
-    std::fill_n(coarse, 6 * points_of_aggregates.n_rows(), 0.f);
+    float *const values = coarse_values.data();
+    std::fill_n(values, coarse_values.size(), 0.f);
     for_each_prolongation_block([&](const int i, const float *p, const int g) {
       for (int m = 0; m < 6; ++m)
         {
           float sum = p[m] * residual[i];
           for (int a = 1; a < d; ++a)
             sum += p[6 * a + m] * residual[i + a];
-          coarse[g + m] += sum;
+          values[g + m] += sum;
         }
     });
+    coarse_exchange.add(values, 6);
+    std::copy_n(values, 6 * points_of_aggregates.n_rows(), coarse);
   }
 
   template <int d>
   void
   AggregationLevel<d>::prolongate_add(const float *coarse) const
   {
+    float *const values = coarse_values.data();
+    std::copy_n(coarse, 6 * points_of_aggregates.n_rows(), values);
+    coarse_exchange.update(values, 6);
     for_each_prolongation_block([&](const int i, const float *p, const int g) {
       for (int a = 0; a < d; ++a)
         for (int m = 0; m < 6; ++m)
-          x[i + a] += p[6 * a + m] * coarse[g + m];
+          x[i + a] += p[6 * a + m] * values[g + m];
     });
   }
 

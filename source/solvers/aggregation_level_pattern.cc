@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/exchange.h>
 #include <corotet/solvers/aggregation_level.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace corotet
 {
@@ -177,53 +179,164 @@ namespace corotet
 
   template <int d>
   void
+  AggregationLevel<d>::set_up_prolongation(const bool has_blocks)
+  {
+    const auto renumber = [](std::vector<int> &numbers, const auto &number) {
+      std::transform(numbers.begin(), numbers.end(), numbers.begin(), number);
+    };
+    const auto to_global = [this](const int g) {
+      return used_aggregates.global_node(g);
+    };
+    const std::vector<int> of_owned = aggregates;
+    used_aggregates =
+      NodeNumbers(points->communicator(), points_of_aggregates.n_rows());
+    renumber(aggregates, to_global);
+    aggregates.resize(points->exchange().n_items());
+    points->exchange().update(aggregates.data());
+    used_aggregates.set_ghosts(aggregates);
+    coarse_exchange  = GhostExchange(points->communicator(), used_aggregates);
+    const int n_used = used_aggregates.n_local();
+    coarse_values.resize(6 * static_cast<std::size_t>(n_used));
+
+    std::vector<int> used(aggregates);
+    renumber(used,
+             [this](const int g) { return used_aggregates.local_node(g); });
+    prolongation_pattern =
+      corotet::product(points->graph(), one_entry_each(used), n_used);
+    if (has_blocks)
+      // D couples all points of an aggregate.
+      prolongation_pattern = corotet::product(
+        one_entry_each(of_owned),
+        corotet::product(points_of_aggregates, prolongation_pattern, n_used),
+        n_used);
+    prolongation_columns = prolongation_pattern.columns;
+
+    renumber(prolongation_pattern.columns, to_global);
+    prolongation_ghosts = points->exchange().append_rows(prolongation_pattern);
+    known_aggregates    = used_aggregates;
+    known_aggregates.set_ghosts(prolongation_pattern.columns);
+    for (auto *numbers : {&aggregates, &prolongation_pattern.columns})
+      renumber(*numbers,
+               [this](const int g) { return known_aggregates.local_node(g); });
+  }
+
+  /// Gives others what owned points make of the rows of their aggregates, and
+  /// returns the entries of owned ones; their columns have global numbers.
+  template <int d>
+  NodeGraph
+  AggregationLevel<d>::set_up_coarse_rows(const bool is_last)
+  {
+    NodeGraph own_prolongation;
+    own_prolongation.starts.assign(prolongation_pattern.starts.begin(),
+                                   prolongation_pattern.starts.begin() +
+                                     n_points + 1);
+    own_prolongation.columns = prolongation_columns;
+    const NodeGraph all =
+      corotet::product(transpose(own_prolongation, used_aggregates.n_local()),
+                       product_pattern,
+                       known_aggregates.n_local());
+    const NodeGraph wanted = part_of(all, [&](const int i, const int k) {
+      return !is_last || known_aggregates.global_node(all.columns[k]) <=
+                           used_aggregates.global_node(i);
+    });
+    // Rows and columns of the owned rows.
+    std::vector<std::pair<int, int>> entries;
+    std::map<unsigned int, RowParts> parts;
+    rows_of_others = NodeGraph();
+    for (int i = 0; i < wanted.n_rows(); ++i)
+      {
+        const auto [rank, row] =
+          used_aggregates.owner(used_aggregates.global_node(i));
+        const bool is_own = i < used_aggregates.n_owned();
+        for (int k = wanted.starts[i]; k < wanted.starts[i + 1]; ++k)
+          {
+            const int column = known_aggregates.global_node(wanted.columns[k]);
+            if (is_own)
+              {
+                entries.emplace_back(row, column);
+                continue;
+              }
+            rows_of_others.columns.push_back(wanted.columns[k]);
+            parts[rank].entries.columns.push_back(column);
+          }
+        if (is_own)
+          continue;
+        rows_of_others.starts.push_back(rows_of_others.columns.size());
+        parts[rank].add_row(row);
+      }
+    exchange_row_parts(parts);
+    for (const auto &[rank, part] : received_rows)
+      for (int r = 0; r < part.entries.n_rows(); ++r)
+        for (int k = part.entries.starts[r]; k < part.entries.starts[r + 1];
+             ++k)
+          entries.emplace_back(part.rows[r], part.entries.columns[k]);
+    std::sort(entries.begin(), entries.end());
+    entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+    NodeGraph rows;
+    rows.starts.assign(used_aggregates.n_owned() + 1, 0);
+    for (const auto &[row, column] : entries)
+      {
+        rows.columns.push_back(column);
+        rows.starts[row + 1] = rows.columns.size();
+      }
+    return rows;
+  }
+
+  template <int d>
+  void
+  AggregationLevel<d>::exchange_row_parts(
+    const std::map<unsigned int, RowParts> &parts)
+  {
+    Messages messages;
+    for (const auto &[rank, part] : parts)
+      for (const auto *array :
+           {&part.rows, &part.entries.starts, &part.entries.columns})
+        append_array(messages[rank], *array);
+    received_rows.clear();
+    for (const auto &[rank, message] :
+         exchange_messages(std::move(messages), points->communicator()))
+      {
+        RowParts   &part     = received_rows[rank];
+        std::size_t position = 0;
+        for (auto *array :
+             {&part.rows, &part.entries.starts, &part.entries.columns})
+          read_array(message, position, *array);
+      }
+  }
+
+  template <int d>
+  void
   AggregationLevel<d>::set_up_pattern(const Coarsening &coarsening,
                                       const std::vector<PointFrame<d>> &frames)
   {
     aggregate_points(coarsening, frames);
-    const int n_own      = number_of(aggregates);
-    const int n_ghosts   = points->exchange().n_items() - n_points;
-    NodeGraph tentative  = one_entry_each(aggregates);
-    points_of_aggregates = transpose(tentative, n_own);
-    tentative.starts.insert(tentative.starts.end(), n_ghosts, n_points);
-    prolongation_pattern = corotet::product(points->graph(), tentative, n_own);
-    if (coarsening.least_similarity > 0)
-      {
-        // D couples all points of an aggregate.
-        const NodeGraph of_aggregates =
-          corotet::product(points_of_aggregates, prolongation_pattern, n_own);
-        prolongation_pattern =
-          corotet::product(one_entry_each(aggregates), of_aggregates, n_own);
-      }
-    const NodeGraph restriction = transpose(prolongation_pattern, n_own);
-
-    // From here on, aggregates are numbered through all ranks.
-    const auto [before, n_all] =
-      dealii::Utilities::MPI::partial_and_total_sum(n_own,
-                                                    points->communicator());
-    first_aggregate  = before;
-    n_all_aggregates = n_all;
-    for (auto *columns : {&aggregates, &prolongation_pattern.columns})
-      for (int &column : *columns)
-        column += first_aggregate;
-    prolongation_ghosts = points->exchange().append_rows(prolongation_pattern);
-    product_pattern =
-      corotet::product(points->graph(), prolongation_pattern, n_all);
-    coarse_pattern = corotet::product(restriction, product_pattern, n_all);
-    problem        = AggregateProblem();
+    points_of_aggregates =
+      transpose(one_entry_each(aggregates), number_of(aggregates));
+    set_up_prolongation(coarsening.least_similarity > 0);
+    product_pattern = corotet::product(points->graph(),
+                                       prolongation_pattern,
+                                       known_aggregates.n_local());
     // Points without neighbours, as those of many small bodies, stay as many.
     constexpr double almost_all = 0.8;
-    if (n_all > coarsening.most_aggregates &&
-        n_all < almost_all * points->n_global())
-      problem.aggregates =
-        std::make_shared<const BlockPattern>(coarse_pattern,
-                                             points->communicator());
-    else
-      coarse_pattern = part_of(coarse_pattern, [&](const int i, const int k) {
-        return coarse_pattern.columns[k] <= first_aggregate + i;
-      });
+    const int        n_all      = n_aggregates();
+    const bool       is_last    = n_all <= coarsening.most_aggregates ||
+                         n_all >= almost_all * points->nodes().n_global();
+    const NodeGraph rows = set_up_coarse_rows(is_last);
+    coarse_pattern =
+      std::make_shared<const BlockPattern>(rows, points->communicator());
+    for (auto &[rank, part] : received_rows)
+      for (int r = 0; r < part.entries.n_rows(); ++r)
+        for (int k = part.entries.starts[r]; k < part.entries.starts[r + 1];
+             ++k)
+          part.entries.columns[k] =
+            coarse_pattern->place(part.rows[r],
+                                  coarse_pattern->nodes().local_node(
+                                    part.entries.columns[k]));
+    problem = AggregateProblem();
+    if (!is_last)
+      problem.aggregates = coarse_pattern;
     coarse_matrix_pattern =
-      std::make_shared<const BlockPattern>(split_in_two(coarse_pattern),
+      std::make_shared<const BlockPattern>(split_in_two(rows),
                                            points->communicator());
   }
 

@@ -22,7 +22,7 @@ namespace corotet
     for (int i = 0; i < n_nodes; ++i)
       for (int a = 0; a < 3; ++a)
         frames[i].centre[a] = positions[3 * i + a];
-    finest.build(A, A.pattern(), std::move(frames), coarsening);
+    finest.build(A, A.pattern(), frames, coarsening);
     build_coarser(&finest.coarse());
   }
 

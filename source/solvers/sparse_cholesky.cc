@@ -125,14 +125,14 @@ namespace corotet
     for (int node = 0; node < pattern->n_owned(); ++node)
       for (int a = 0; a < 3; ++a)
         {
-          const int         id     = 3 * pattern->global_node(node) + a;
+          const int         id     = 3 * pattern->nodes().global_node(node) + a;
           const std::size_t before = columns.size();
           const int         begin  = graph.starts[node];
           for (int k = begin; k < graph.starts[node + 1]; ++k)
             for (int b = 0; b < 3; ++b)
               {
                 const int column =
-                  3 * pattern->global_node(graph.columns[k]) + b;
+                  3 * pattern->nodes().global_node(graph.columns[k]) + b;
                 if (column <= id)
                   {
                     columns.push_back(column);
@@ -147,7 +147,7 @@ namespace corotet
   void
   SparseCholesky::Factors::set_up(const std::vector<int> &columns)
   {
-    const int n_rows = 3 * pattern->n_global();
+    const int n_rows = 3 * pattern->nodes().n_global();
     row_shares       = Shares(row_counts.size(), comm);
     entry_shares     = Shares(columns.size(), comm);
     on_root(comm, [&] {

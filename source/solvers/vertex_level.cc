@@ -4,7 +4,6 @@
 #include <corotet/solvers/vertex_level.h>
 
 #include <deal.II/base/array_view.h>
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <array>
@@ -65,15 +64,7 @@ namespace corotet
     // What bends, as flat cells and thin bodies do, takes a large last level:
     // with more levels iterations double, or worse.
     result.most_aggregates = 4000;
-    if (!cells.are_poor())
-      return result;
-    // Aggregates end where a rank does. Partitions cut through lines of flat
-    // cells, whose nodes are coupled strongly: aggregates of what is left of
-    // these are worse than those of all neighbours. Stretched cells are cut in
-    // few places only.
-    const bool is_alone =
-      dealii::Utilities::MPI::n_mpi_processes(vertices.communicator()) == 1;
-    if (is_alone || cells.share_stretched > CellProportions::few)
+    if (cells.are_poor())
       result.least_similarity = 0.3;
     return result;
   }

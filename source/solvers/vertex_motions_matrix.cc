@@ -35,7 +35,7 @@ namespace corotet
                  ++k)
               {
                 const int column =
-                  pattern.global_node(pattern.graph().columns[k]);
+                  pattern.nodes().global_node(pattern.graph().columns[k]);
                 rows.columns.push_back(2 * column);
                 rows.columns.push_back(2 * column + 1);
               }

@@ -59,7 +59,7 @@ namespace
           if (has_block(i, j))
             {
               const int place =
-                pattern->place(i - first, pattern->local_node(j));
+                pattern->place(i - first, pattern->nodes().local_node(j));
               for (int a = 0; a < 3; ++a)
                 for (int b = 0; b < 3; ++b)
                   matrix->row(i - first, a)[3 * place + b] =
@@ -73,24 +73,63 @@ namespace
   };
 
   void
+  check_ghosts(const Example &example)
+  {
+    const BlockPattern &pattern = *example.pattern;
+    const MPI_Comm      comm    = pattern.communicator();
+    // Every ghost gets the number of its node.
+    std::vector<int> numbers(pattern.exchange().n_items(), -1);
+    for (int i = 0; i < pattern.n_owned(); ++i)
+      numbers[i] = example.first + i;
+    pattern.exchange().update(numbers.data());
+    for (int i = 0; i < pattern.exchange().n_items(); ++i)
+      EXPECT_EQ(numbers[i], pattern.nodes().global_node(i));
+
+    // Each node gets its number from all ranks where it is a ghost.
+    std::vector<int> here(n_nodes), everywhere(n_nodes);
+    for (int i = 0; i < pattern.nodes().n_local(); ++i)
+      here[pattern.nodes().global_node(i)] = 1;
+    MPI_Allreduce(
+      here.data(), everywhere.data(), n_nodes, MPI_INT, MPI_SUM, comm);
+    std::vector<int> twice;
+    for (const int number : numbers)
+      twice.insert(twice.end(), {number, -number});
+    pattern.exchange().add(twice.data(), 2);
+    for (int i = 0; i < pattern.n_owned(); ++i)
+      {
+        const int node = example.first + i;
+        EXPECT_EQ(twice[2 * i], node * everywhere[node]);
+        EXPECT_EQ(twice[2 * i + 1], -node * everywhere[node]);
+        EXPECT_EQ(pattern.nodes().owner(node),
+                  std::pair(static_cast<int>(
+                              dealii::Utilities::MPI::this_mpi_process(comm)),
+                            i));
+      }
+    for (const int ghost : pattern.nodes().ghosts())
+      EXPECT_NE(pattern.nodes().owner(ghost).first,
+                static_cast<int>(
+                  dealii::Utilities::MPI::this_mpi_process(comm)));
+  }
+
+  void
   check(const MPI_Comm comm)
   {
     Example             example(comm);
     const BlockPattern &pattern = *example.pattern;
-    EXPECT_EQ(pattern.n_global(), n_nodes);
+    EXPECT_EQ(pattern.nodes().n_global(), n_nodes);
     EXPECT_EQ(pattern.n_owned(), example.end - example.first);
-    EXPECT_EQ(pattern.first_owned(), example.first);
+    EXPECT_EQ(pattern.nodes().first_owned(), example.first);
 
     // Local numbers lead back to the nodes; columns ascend.
-    EXPECT_TRUE(
-      std::is_sorted(pattern.ghosts().begin(), pattern.ghosts().end()));
+    EXPECT_TRUE(std::is_sorted(pattern.nodes().ghosts().begin(),
+                               pattern.nodes().ghosts().end()));
     const NodeGraph &graph = pattern.graph();
     for (int i = 0; i < pattern.n_owned(); ++i)
       {
         std::vector<int> found, expected;
         for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
           {
-            found.push_back(pattern.global_node(graph.columns[k]));
+            found.push_back(pattern.nodes().global_node(graph.columns[k]));
             EXPECT_TRUE(k == graph.starts[i] ||
                         graph.columns[k - 1] < graph.columns[k]);
           }
@@ -101,13 +140,7 @@ namespace
         EXPECT_EQ(found, expected);
       }
 
-    // Every ghost gets the number of its node.
-    std::vector<int> numbers(pattern.exchange().n_items(), -1);
-    for (int i = 0; i < pattern.n_owned(); ++i)
-      numbers[i] = example.first + i;
-    pattern.exchange().update(numbers.data());
-    for (int i = 0; i < pattern.exchange().n_items(); ++i)
-      EXPECT_EQ(numbers[i], pattern.global_node(i));
+    check_ghosts(example);
 
     // The product, entry by entry; sums of up to 69 numbers below one.
     dealii::IndexSet owned(3 * n_nodes);

@@ -69,6 +69,17 @@ class Messages(ProgramTest):
             self.assertLessEqual(found["messages"], 20 * MOST_NEIGHBOURS)
             self.assertEqual((found["reductions"], found["gathers"], found["exchanges"], found["barriers"]), (2, 2, 0, 0))
 
+    def test_iterations_of_aggregation(self):
+        # The operator has two. The level has two in the smoother that starts from zero, one for the residual, three in the other smoother,
+        # and one each for the unknowns of aggregates there and back, which are gathered and scattered on the last level.
+        case = {**STATIC, "Discretization/Degree": "1", "Linear solver/p-multigrid/Coarse solver": "aggregation"}
+        for ranks in (3, 8):
+            found = self.each(ranks, {**case, "Linear solver/Tolerance": "1e-2"}, {**case, "Linear solver/Tolerance": "1e-11"},
+                              lambda summary: summary["final"]["linear_iterations"])
+            print(f"{ranks} ranks, each iteration with aggregation: {found}")
+            self.assertLessEqual(found["messages"], 10 * MOST_NEIGHBOURS)
+            self.assertEqual((found["reductions"], found["gathers"], found["exchanges"], found["barriers"]), (2, 2, 0, 0))
+
     def test_implicit_steps(self):
         # Flexible conjugate gradients have two sums, too. All else: two iterations of Newton's method, with a residual before, after the
         # first and after the second (2 sums), linearizations (1), norms of increments and of right hand sides (4); and the row.

@@ -12,7 +12,7 @@ must accept both time series, which two ranks write together.
 import re
 import unittest
 
-from support import ProgramTest, has_preconditioner, read_history, read_summary
+from support import ProgramTest, has_preconditioner, parameter_text, read_history, read_summary, run_on
 
 STRICT = ("Linear solver/Tolerance = 1e-11", "Newton/Residual tolerance = 1e-10", "Newton/Increment tolerance = 1e-10")
 MAY_DIFFER = {"newton_iterations", "linear_iterations", "wall_time"}
@@ -56,6 +56,22 @@ class Ranks(ProgramTest):
 
     def test_direct(self):
         self.check("direct")
+
+    def test_iterations(self):
+        # What a rank owns is no limit for the solver: they are the same but for the places where aggregates end.
+        for degree, cells in ((1, "32, 8, 8"), (2, "16, 4, 4"), (3, "16, 4, 4")):
+            case = {"Mesh/Type": "box", "Mesh/box/Size": "4, 1, 1", "Mesh/box/Cells": cells, "Discretization/Degree": str(degree),
+                    "Material/Type": "linear", "Boundary conditions/Fixed": "x-min", "Loads/Gravity": "0; 0; -1",
+                    "Time integration/Type": "static", "Output/Overwrite": "true", "Linear solver/Type": "p-multigrid",
+                    "Linear solver/p-multigrid/Coarse solver": "aggregation"}
+            (self.folder / "case.prm").write_text(parameter_text(case), encoding="utf-8")
+            found = {}
+            for ranks in (1, 2, 7):
+                run = run_on(ranks, ["case.prm", "--output", self.folder / "results", "--quiet"], self.folder, 120)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                found[ranks] = read_summary(self.folder / "results")["final"]["linear_iterations"]
+            print(f"degree {degree}: {found}")
+            self.assertLessEqual(max(found.values()), found[1] + 2)
 
     @unittest.skipUnless(has_preconditioner("amg"), "built without Epetra")
     def test_amg(self):

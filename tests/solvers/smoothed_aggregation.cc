@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../body.h"
 #include "spring_box.h"
 
 using namespace corotet;
@@ -47,8 +48,8 @@ namespace
   }
 } // namespace
 
-// Aggregates end where a rank does; if they lost their rigid motions there,
-// more iterations would be added.
+// Aggregates end where a rank does, but their smoothed motions go on behind it:
+// if these ended there, too, each rank would cost up to two iterations more.
 TEST(SmoothedAggregation, IterationsHardlyGrow)
 {
   for (const int n : {4, 8, 14})
@@ -58,15 +59,16 @@ TEST(SmoothedAggregation, IterationsHardlyGrow)
         SmoothedAggregation preconditioner;
         preconditioner.build(*box.matrix, box.positions().data());
         EXPECT_LT(8 * preconditioner.n_aggregates().front(),
-                  box.pattern->n_global())
+                  box.pattern->nodes().n_global())
           << n;
         return iterations(box, preconditioner);
       };
       const int alone = iterations_of(MPI_COMM_SELF);
       EXPECT_LE(alone, 25) << n;
-      const int n_interfaces =
-        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
-      EXPECT_LE(iterations_of(MPI_COMM_WORLD), alone + 2 * n_interfaces) << n;
+      const int together = iterations_of(MPI_COMM_WORLD);
+      report("iterations on one rank", alone);
+      report("iterations on all", together);
+      EXPECT_LE(together, alone + 2) << n;
     }
 }
 

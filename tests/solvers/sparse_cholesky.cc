@@ -107,7 +107,7 @@ TEST(SparseCholesky, InvertsMatrix)
       EXPECT_LT(error<double>(box, inverse), 1e-11);
       EXPECT_LT(error<float>(box, inverse), 1e-2);
       EXPECT_GT(inverse.n_entries(),
-                static_cast<std::size_t>(3 * box.pattern->n_global()));
+                static_cast<std::size_t>(3 * box.pattern->nodes().n_global()));
     }
 }
 
@@ -122,7 +122,7 @@ TEST(SparseCholesky, AnalyzeCounts)
   EXPECT_EQ(counted.n_operations(), inverse.n_operations());
   // Each column of k entries takes about k^2 operations: at least what a
   // diagonal of blocks would.
-  EXPECT_GT(counted.n_operations(), 9. * 3 * box.pattern->n_global());
+  EXPECT_GT(counted.n_operations(), 9. * 3 * box.pattern->nodes().n_global());
   counted.factorize(*box.matrix);
   EXPECT_LT(error<double>(box, counted), 1e-11);
 }
@@ -254,7 +254,7 @@ TEST(SparseCholesky, MemoryMayBeTooShortAnywhere)
       const SpringBox   box(cells, true);
       const std::string expected =
         "memory is too short to factorise a matrix with " +
-        std::to_string(3 * box.pattern->n_global()) + " unknowns";
+        std::to_string(3 * box.pattern->nodes().n_global()) + " unknowns";
       const auto factorizes = [&](const long n_blocks, const bool once) {
         SparseCholesky inverse(precision);
         std::string    message = "none";

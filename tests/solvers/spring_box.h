@@ -53,8 +53,9 @@ namespace corotet::tests
           for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b)
               matrix->row(
-                i, a)[3 * pattern->place(i, pattern->local_node(column)) + b] =
-                block[a][b];
+                i,
+                a)[3 * pattern->place(i, pattern->nodes().local_node(column)) +
+                   b] = block[a][b];
     }
 
     /// Adds @p mass to the diagonal.
@@ -71,7 +72,7 @@ namespace corotet::tests
     {
       std::vector<double> result;
       for (int i = 0; i < pattern->n_owned(); ++i)
-        for (const int x : position(pattern->global_node(i)))
+        for (const int x : position(pattern->nodes().global_node(i)))
           result.push_back(x);
       return result;
     }

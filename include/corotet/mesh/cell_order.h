@@ -11,11 +11,12 @@ namespace corotet
   /**
    * Sorts the cells of all ranks along a Hilbert curve, so that neighbours are
    * close in memory, and gives each rank a piece of the sequence, all with
-   * equal work (that of curved cells is larger). Cells at the same place are
-   * sorted by their numbers. Then cells have the numbers of their places in the
-   * sequence, which depend on nothing but the mesh. Vertices of no cell are
-   * dropped. No rank is without a cell if there are as many as ranks.
-   * Collective.
+   * equal work up to one percent (that of curved cells is larger): pieces end
+   * between cubes of space, as large ones as that allows. Cells at the same
+   * place are sorted by their numbers. Then cells have the numbers of their
+   * places in the sequence, which depend on nothing but the mesh. Vertices of
+   * no cell are dropped. No rank is without a cell if there are as many as
+   * ranks. Collective.
    */
   void
   sort_along_curve(MeshPart &part, const MPI_Comm comm);

@@ -16,12 +16,10 @@ namespace corotet
 {
   /**
    * Where a distributed square matrix has 3 x 3 blocks: node n has the rows and
-   * columns 3n, 3n+1, 3n+2. The ranks own contiguous ranges of nodes, in
-   * ascending order; a rank may own none.
+   * columns 3n, 3n+1, 3n+2.
    *
-   * Columns have local numbers: owned nodes first, then the ghosts, nodes of
-   * other ranks that owned rows have a column of, both in the order of their
-   * global numbers.
+   * Columns have local numbers, see NodeNumbers; the ghosts are nodes of other
+   * ranks that owned rows have a column of.
    */
   class BlockPattern
   {
@@ -43,31 +41,16 @@ namespace corotet
       return local_graph;
     }
 
+    const NodeNumbers &
+    nodes() const
+    {
+      return numbers;
+    }
+
     int
     n_owned() const
     {
-      return local_graph.n_rows();
-    }
-
-    /// Nodes of all ranks.
-    int
-    n_global() const
-    {
-      return first_nodes.back();
-    }
-
-    /// The first of the owned nodes, in global numbers.
-    int
-    first_owned() const
-    {
-      return first;
-    }
-
-    /// Global numbers, ascending.
-    const std::vector<int> &
-    ghosts() const
-    {
-      return ghost_nodes;
+      return numbers.n_owned();
     }
 
     /// Of what owned nodes have to where they are ghosts.
@@ -77,28 +60,16 @@ namespace corotet
       return ghost_exchange;
     }
 
-    int
-    global_node(const int local) const
-    {
-      return local < n_owned() ? first + local : ghost_nodes[local - n_owned()];
-    }
-
-    /// Of a node that is owned or a ghost.
-    int
-    local_node(const int global) const;
-
     /// Where row @p node has a block: the place of @p column among its columns,
     /// which must be there.
     int
     place(const int node, const int column) const;
 
   private:
-    MPI_Comm         comm;
-    int              first = 0;
-    std::vector<int> first_nodes;
-    std::vector<int> ghost_nodes;
-    NodeGraph        local_graph;
-    GhostExchange    ghost_exchange;
+    MPI_Comm      comm;
+    NodeNumbers   numbers;
+    NodeGraph     local_graph;
+    GhostExchange ghost_exchange;
   };
 
   /**

@@ -7,6 +7,8 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <cstring>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -28,7 +30,93 @@ namespace corotet
   };
 
   /**
-   * Brings what owned nodes have to the ranks where they are ghosts.
+   * Numbers of nodes through all ranks, which own contiguous ranges of them, in
+   * ascending order; a rank may own none. Local numbers are those of the owned
+   * nodes, then those of ghosts, nodes of other ranks that are known here, both
+   * in the order of their global numbers.
+   */
+  class NodeNumbers
+  {
+  public:
+    NodeNumbers() = default;
+
+    /// Without ghosts. Collective.
+    NodeNumbers(const MPI_Comm comm, const int n_owned);
+
+    /// Those of other ranks among @p nodes, global numbers in any order, also
+    /// repeated, become the ghosts.
+    void
+    set_ghosts(const std::vector<int> &nodes);
+
+    /// Global numbers, ascending.
+    const std::vector<int> &
+    ghosts() const
+    {
+      return the_ghosts;
+    }
+
+    int
+    n_owned() const
+    {
+      return end - first;
+    }
+
+    /// Owned nodes and ghosts.
+    int
+    n_local() const
+    {
+      return n_owned() + static_cast<int>(the_ghosts.size());
+    }
+
+    /// Nodes of all ranks.
+    int
+    n_global() const
+    {
+      return first_nodes.back();
+    }
+
+    /// A global number.
+    int
+    first_owned() const
+    {
+      return first;
+    }
+
+    int
+    n_ranks() const
+    {
+      return first_nodes.size() - 1;
+    }
+
+    /// The owner of a node, and its number among those of the owner.
+    std::pair<int, int>
+    owner(const int global) const;
+
+    int
+    global_node(const int local) const
+    {
+      return local < n_owned() ? first + local : the_ghosts[local - n_owned()];
+    }
+
+    /// Of a node that is owned or a ghost.
+    int
+    local_node(const int global) const;
+
+  private:
+    bool
+    owns(const int global) const
+    {
+      return global >= first && global < end;
+    }
+
+    /// Of each rank; the last entry is the number of all nodes.
+    std::vector<int> first_nodes{0};
+    int              first = 0, end = 0;
+    std::vector<int> the_ghosts;
+  };
+
+  /**
+   * Brings what owned nodes have to the ranks where they are ghosts, and back.
    */
   class GhostExchange
   {
@@ -36,12 +124,8 @@ namespace corotet
     /// Without ghosts.
     GhostExchange() = default;
 
-    /// Rank r owns the nodes @p first_nodes[r], .., @p first_nodes[r + 1] - 1;
-    /// the last entry is the number of all. @p ghosts: nodes of other ranks, in
-    /// ascending order. Here, owned nodes come first, then ghosts. Collective.
-    GhostExchange(const MPI_Comm          comm,
-                  const std::vector<int> &first_nodes,
-                  const std::vector<int> &ghosts);
+    /// Collective.
+    GhostExchange(const MPI_Comm comm, const NodeNumbers &nodes);
 
     /// Gives @p graph, which has the rows of owned nodes, those of the ghosts.
     /// Returns the exchange of what its entries have. Collective.
@@ -64,6 +148,23 @@ namespace corotet
       exchange(reinterpret_cast<char *>(values), n * sizeof(T));
     }
 
+    /// Adds the values of ghosts to those of the nodes at their owners; @p
+    /// values has n per node. Collective.
+    template <typename T>
+    void
+    add(T *values, const int n = 1) const
+    {
+      return_ghosts(reinterpret_cast<const char *>(values), n * sizeof(T));
+      const char *next = buffer.data();
+      for (const int node : sent)
+        for (int k = 0; k < n; ++k, next += sizeof(T))
+          {
+            T value;
+            std::memcpy(&value, next, sizeof(T));
+            values[static_cast<std::ptrdiff_t>(node) * n + k] += value;
+          }
+    }
+
   private:
     /// Consecutive items that are sent to a rank, and ghosts that it owns.
     struct Neighbour
@@ -75,6 +176,9 @@ namespace corotet
 
     void
     exchange(char *values, const std::size_t size) const;
+    /// Into the buffer, in the order of @p sent.
+    void
+    return_ghosts(const char *values, const std::size_t size) const;
 
     MPI_Comm                         comm     = MPI_COMM_SELF;
     int                              n_owned  = 0;

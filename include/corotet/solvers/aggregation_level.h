@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -88,7 +89,7 @@ namespace corotet
     void
     build(const BlockMatrix                         &A,
           const std::shared_ptr<const BlockPattern> &pattern,
-          std::vector<PointFrame<d>>                 frames,
+          const std::vector<PointFrame<d>>          &frames,
           const Coarsening                          &coarsening);
 
     /// Since the last build(). Not collective.
@@ -110,7 +111,7 @@ namespace corotet
     int
     n_aggregates() const
     {
-      return n_all_aggregates;
+      return known_aggregates.n_global();
     }
 
     /// What A is divided by, a power of two, so that single precision holds it
@@ -144,7 +145,7 @@ namespace corotet
     void
     restrict_residual(float *coarse) const;
 
-    /// x += P coarse. Not collective.
+    /// x += P coarse.
     void
     prolongate_add(const float *coarse) const;
 
@@ -165,8 +166,21 @@ namespace corotet
 
       Number values[d][6];
     };
-    struct CoarseRow;
-    struct Motions;
+    /// Parts of rows of the coarse matrix: of each, the number at its owner and
+    /// the entries.
+    struct RowParts
+    {
+      /// With the entries since the last one.
+      void
+      add_row(const int row)
+      {
+        rows.push_back(row);
+        entries.starts.push_back(entries.columns.size());
+      }
+
+      std::vector<int> rows;
+      NodeGraph        entries;
+    };
 
     /// Where the unknowns of point @p i begin, or those of a number of points
     /// end.
@@ -174,6 +188,18 @@ namespace corotet
     offset(const std::size_t i)
     {
       return d * i;
+    }
+
+    /// target += the block from column @p k of @p rows times @p b.
+    static void
+    add_product(std::array<Modes, d>                &target,
+                const std::array<const double *, d> &rows,
+                const int                            k,
+                const std::array<Modes, d>          &b)
+    {
+      for (int a = 0; a < d; ++a)
+        for (int c = 0; c < d; ++c)
+          target[a] += rows[a][k + c] * b[c];
     }
 
     void
@@ -200,23 +226,33 @@ namespace corotet
     set_up_pattern(const Coarsening                 &coarsening,
                    const std::vector<PointFrame<d>> &frames);
     void
-    build_coarse(const BlockMatrix &A, std::vector<PointFrame<d>> frames);
-    Motions
+    set_up_prolongation(const bool has_blocks);
+    NodeGraph
+    set_up_coarse_rows(const bool is_last);
+    void
+    exchange_row_parts(const std::map<unsigned int, RowParts> &parts);
+    void
+    build_coarse(const BlockMatrix                &A,
+                 const std::vector<PointFrame<d>> &frames);
+    std::vector<std::array<Modes, d>>
     rigid_motions(const std::vector<PointFrame<d>> &frames);
     void
-    multiply_by_motions(std::array<Modes, d>             *product,
-                        const int                         i,
-                        const BlockMatrix                &A,
-                        const Motions                    &motions,
-                        const std::vector<PointFrame<d>> &frames,
-                        std::vector<int>                 &place) const;
+    multiply_by_motions(std::array<Modes, d>                    *product,
+                        const int                                i,
+                        const BlockMatrix                       &A,
+                        const std::vector<std::array<Modes, d>> &motions,
+                        std::vector<int>                        &place) const;
     std::vector<ProlongationBlock<double>>
-    smoothed_motions(const BlockMatrix                &A,
-                     const Motions                    &motions,
-                     const std::vector<PointFrame<d>> &frames);
+    smoothed_motions(const BlockMatrix                       &A,
+                     const std::vector<std::array<Modes, d>> &motions);
     void
     fill_coarse(const BlockMatrix                            &A,
                 const std::vector<ProlongationBlock<double>> &exact);
+    std::vector<int>
+    coarse_numbers() const;
+    void
+    add_received_rows(BlockMatrix               &coarse,
+                      const std::vector<double> &of_others) const;
     void
     apply(float *y, float *x) const;
     void
@@ -234,17 +270,27 @@ namespace corotet
     std::shared_ptr<const BlockPattern> points;
     int                                 n_points = 0;
 
-    /// Aggregates are numbered through all ranks, rows are owned ones.
-    int              first_aggregate  = 0;
-    int              n_all_aggregates = 0;
+    /// Used are aggregates that rows of owned points in the prolongation have;
+    /// known are those that rows of ghosts have, too.
+    NodeNumbers used_aggregates, known_aggregates;
+    /// Of owned points and of ghosts; numbers of known ones.
     std::vector<int> aggregates;
-    NodeGraph        points_of_aggregates;
-    /// With rows of ghosts.
+    /// Rows are owned aggregates.
+    NodeGraph points_of_aggregates;
+    /// With rows of ghosts. Columns are known aggregates.
     NodeGraph     prolongation_pattern;
     GhostExchange prolongation_ghosts;
-    NodeGraph     product_pattern;
+    /// Of the rows of owned points, as numbers of used aggregates.
+    std::vector<int> prolongation_columns;
+    GhostExchange    coarse_exchange;
+    NodeGraph        product_pattern;
     /// Its lower triangle only, if this is the last level.
-    NodeGraph coarse_pattern;
+    std::shared_ptr<const BlockPattern> coarse_pattern;
+    /// What owned points make of the rows of others' used aggregates, by known
+    /// ones; and what others make of the owned rows: places of entries, by
+    /// rank.
+    NodeGraph                        rows_of_others;
+    std::map<unsigned int, RowParts> received_rows;
     /// The same for matrices whose nodes come in twos.
     std::shared_ptr<const BlockPattern> coarse_matrix_pattern;
     AggregateProblem                    problem;
@@ -266,6 +312,8 @@ namespace corotet
     /// The first two with entries of ghosts.
     mutable std::vector<float> x, direction, rhs, residual, product, scaled;
     mutable std::vector<float> block_product;
+    /// Six for each used aggregate.
+    mutable std::vector<float> coarse_values;
   };
 } // namespace corotet
 

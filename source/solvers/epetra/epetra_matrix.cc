@@ -41,7 +41,7 @@ namespace corotet
       std::vector<int> unknowns, columns, lengths;
       for (int node = 0; node < pattern.exchange().n_items(); ++node)
         for (int a = 0; a < 3; ++a)
-          unknowns.push_back(3 * pattern.global_node(node) + a);
+          unknowns.push_back(3 * pattern.nodes().global_node(node) + a);
       for (int node = 0; node < pattern.n_owned(); ++node)
         lengths.insert(lengths.end(),
                        3,
@@ -67,7 +67,7 @@ namespace corotet
     : pattern(A.pattern())
     , values(A.values_begin())
     , comm(pattern->communicator())
-    , owned(3 * pattern->n_global(), 3 * pattern->n_owned(), 0, comm)
+    , owned(3 * pattern->nodes().n_global(), 3 * pattern->n_owned(), 0, comm)
     , matrix(
         std::make_unique<Epetra_CrsMatrix>(View, graph_of(*pattern, owned)))
   {

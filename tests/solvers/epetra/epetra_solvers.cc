@@ -30,7 +30,7 @@ TEST(EpetraMatrix, ShowsTheMatrix)
   SpringBox          box({{7, 3, 4}}, true);
   const EpetraMatrix epetra(*box.matrix);
   EXPECT_TRUE(epetra.shows(*box.matrix));
-  EXPECT_EQ(epetra.get().NumGlobalRows(), 3 * box.pattern->n_global());
+  EXPECT_EQ(epetra.get().NumGlobalRows(), 3 * box.pattern->nodes().n_global());
   EXPECT_EQ(epetra.get().NumMyNonzeros(),
             static_cast<int>(box.matrix->n_values()));
   Vector x = box.vector(), y(x), z(x);
