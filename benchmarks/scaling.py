@@ -32,8 +32,11 @@ MOST_ERROR = 1 / 3
 LATENCY, BANDWIDTH = 2e-6, 1e9
 # Pieces of a curve that fills space touch about so many others.
 NEIGHBOURS = 14
-# From doc/algorithms.md ("Between ranks"): messages of an iteration to each neighbour, by degree, and sums over all ranks.
-MESSAGES, SUMS = {1: 2, 2: 20, 3: 38}, 2
+# From doc/algorithms.md ("Between ranks"): messages of an iteration to each neighbour, by degree, without and with a level of aggregation
+# each time that it is visited; and sums over all ranks.
+MESSAGES, MESSAGES_OF_LEVEL, SUMS = {1: 2, 2: 20, 3: 38}, 8, 2
+# Points of a level for one of the next, as measured: of degree 1 alone and below others, of aggregates; and the most on the last level.
+POINTS_OF_AGGREGATE, AGGREGATES_OF_AGGREGATE, MOST_ON_LAST_LEVEL = {1: 49, 2: 14, 3: 14}, 60, 330
 # Unknowns for each cell of a large body of tetrahedra.
 UNKNOWNS_OF_CELL = {1: 0.53, 2: 4.2, 3: 13.9}
 LARGE = 1e9
@@ -93,12 +96,25 @@ def rates(alone, both):
                  (times["setup"] - times["read"] + times["assembly"]) / n)
 
 
+def visits(degree, unknowns):
+    """How often an iteration comes to a level of aggregation: twice as often as to the one above."""
+    points = unknowns / 3 / degree**3 / POINTS_OF_AGGREGATE[degree]
+    visited = result = 1
+    while points > MOST_ON_LAST_LEVEL:
+        points /= AGGREGATES_OF_AGGREGATE
+        visited *= 2
+        result += visited
+    return result
+
+
 def predicted(degree, rate, unknowns, ranks):
     """Seconds of an iteration: computing, messages, sums; and of set-up: rank 0, all."""
     own = unknowns / ranks
     # The surface of a cube, shared with the neighbours; displacements of 4 bytes.
     border = 6 * (own / 3) ** (2 / 3) * 3 * 4
-    messages = 0 if ranks == 1 else MESSAGES[degree] * (min(NEIGHBOURS, ranks - 1) * LATENCY + border / BANDWIDTH)
+    neighbours = min(NEIGHBOURS, ranks - 1)
+    messages = MESSAGES[degree] * (neighbours * LATENCY + border / BANDWIDTH) if ranks > 1 else 0
+    messages += MESSAGES_OF_LEVEL * visits(degree, unknowns) * neighbours * LATENCY
     sums = SUMS * 2 * math.ceil(math.log2(ranks)) * LATENCY
     cells = unknowns / UNKNOWNS_OF_CELL[degree]
     return own * rate.iteration, messages, sums, rate.cell_on_root * cells, rate.cell_on_all * cells / ranks

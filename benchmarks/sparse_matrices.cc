@@ -13,7 +13,7 @@ namespace corotet::benchmarks
   {
     const BlockPattern &pattern = *matrix.pattern();
     const NodeGraph    &graph   = pattern.graph();
-    AssertThrow(pattern.n_owned() == pattern.n_global(),
+    AssertThrow(pattern.n_owned() == pattern.nodes().n_global(),
                 dealii::ExcNotImplemented());
     columns.reserve(matrix.n_values());
     for (int row = 0; row < 3 * pattern.n_owned(); ++row)

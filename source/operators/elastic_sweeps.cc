@@ -10,9 +10,9 @@ namespace corotet
                                 const CellBatches      &batches) const
   {
     std::size_t size = std::size_t(batches.n_batches()) *
-                       of_cell(n_points(reference.stiffness_rule));
+                       of_straight_cell(n_points(reference.stiffness_rule));
     if (const CurvedBatches *curved = batches.curved())
-      size += curved->n_batches() * of_cell(curved->n_points());
+      size += curved->n_batches() * of_curved_cell(curved->n_points());
     return batch_size * size;
   }
 } // namespace corotet

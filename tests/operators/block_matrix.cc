@@ -98,8 +98,8 @@ namespace
     for (int i = 0; i < pattern.n_owned(); ++i)
       {
         const int node = example.first + i;
-        EXPECT_EQ(twice[2 * i], node * everywhere[node]);
-        EXPECT_EQ(twice[2 * i + 1], -node * everywhere[node]);
+        EXPECT_EQ(twice[std::size_t(2) * i], node * everywhere[node]);
+        EXPECT_EQ(twice[std::size_t(2) * i + 1], -node * everywhere[node]);
         EXPECT_EQ(pattern.nodes().owner(node),
                   std::pair(static_cast<int>(
                               dealii::Utilities::MPI::this_mpi_process(comm)),

@@ -40,7 +40,8 @@ TEST(Progress, QuickStepsLeaveTwoLines)
                       body.displacement,
                       body.velocity,
                       {},
-                      last};
+                      last,
+                      {}};
     };
     progress.start(state(false));
     for (unsigned int step = 1; step <= 1000; ++step)

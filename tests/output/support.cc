@@ -207,7 +207,7 @@ namespace test_output
     };
     const corotet::StepRecord numbers = record(step, time);
     const corotet::Snapshot   state{
-      discretization, numbers, displacement, velocity, cell_results, last};
+      discretization, numbers, displacement, velocity, cell_results, last, {}};
     if (step == 0)
       observer.start(state);
     else

@@ -15,11 +15,19 @@ namespace corotet
   {
     unsigned int per_cell  = 0;
     unsigned int per_point = 0;
+    /// Straight cells keep none of their points, but need the displacement.
+    bool only_curved_have_points = false;
 
     constexpr std::size_t
-    of_cell(const unsigned int n_points) const
+    of_curved_cell(const unsigned int n_points) const
     {
       return per_cell + per_point * n_points;
+    }
+
+    constexpr std::size_t
+    of_straight_cell(const unsigned int n_points) const
+    {
+      return of_curved_cell(only_curved_have_points ? 0 : n_points);
     }
 
     /// Those of all owned batches.
@@ -37,13 +45,13 @@ namespace corotet
                       const unsigned int      batch)
   {
     const std::size_t straight =
-      size.of_cell(n_points(data.reference.stiffness_rule));
+      size.of_straight_cell(n_points(data.reference.stiffness_rule));
     std::size_t start = straight * batch;
     if constexpr (is_curved)
       {
         const CurvedBatches &curved = *data.batches.curved();
         start                       = straight * data.batches.n_batches() +
-                size.of_cell(curved.n_points()) * curved.index(batch);
+                size.of_curved_cell(curved.n_points()) * curved.index(batch);
       }
     return batch_size * start;
   }

@@ -269,6 +269,8 @@ namespace corotet
 
     /// Of the last linearize(); see TangentSweeps.
     dealii::AlignedVector<double> linearization;
+    /// Where it was made, with ghosts, if the sweeps need it.
+    dealii::AlignedVector<double> linearized_displacement;
     Tangent                       linearized_tangent = Tangent::frozen_rotation;
 
     RotationCounts counts;

@@ -125,7 +125,7 @@ namespace corotet
     GhostExchange() = default;
 
     /// Collective.
-    GhostExchange(const MPI_Comm comm, const NodeNumbers &nodes);
+    GhostExchange(const MPI_Comm comm, const NodeNumbers &numbers);
 
     /// Gives @p graph, which has the rows of owned nodes, those of the ghosts.
     /// Returns the exchange of what its entries have. Collective.

@@ -72,7 +72,10 @@ namespace corotet
   class PointBatch
   {
   public:
-    static constexpr int n_nodes = CellKernel::n_nodes;
+    using Cell = CellKernel;
+
+    static constexpr int  n_nodes         = CellKernel::n_nodes;
+    static constexpr bool is_curved_batch = is_curved;
 
     using Kernel      = QuadratureKernel<n_nodes>;
     using NodalValues = typename Kernel::NodalValues;

@@ -158,6 +158,8 @@ namespace corotet
     const double *linearization = nullptr;
     /// The same, for sweeps that linearize.
     double *new_linearization = nullptr;
+    /// Where it was made, with ghosts, for sweeps that need it.
+    const double *linearized_displacement = nullptr;
     /// Cells where a derivative was bounded.
     unsigned int n_clamped = 0;
     /// Multiplies the part of the tangent with frozen rotations.

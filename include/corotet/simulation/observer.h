@@ -35,7 +35,7 @@ namespace corotet
     /// Whether no step follows (the run ends here).
     bool last;
     /// The stress of this state. Collective.
-    std::function<StressField &()> stress = {};
+    std::function<StressField &()> stress;
   };
 
   /**

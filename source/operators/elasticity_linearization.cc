@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/operators/elasticity.h>
+#include <corotet/operators/gather.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace corotet
+{
+  unsigned int
+  Elasticity::linearize(const Vector &u, const Tangent tangent)
+  {
+    if (is_by_cell(tangent))
+      return 0;
+    const TangentSweeps &work = sweeps.tangent(tangent);
+    linearized_tangent        = tangent;
+    linearization.resize_fast(
+      work.size.of_batches(reference, discretization.batches()));
+    if (work.size.only_curved_have_points)
+      {
+        const std::size_t n = std::size_t(3) * discretization.n_local_nodes();
+        linearized_displacement.resize_fast(n);
+        std::copy_n(u.begin(), n, linearized_displacement.begin());
+      }
+    ElasticData data       = elastic_data();
+    data.new_linearization = linearization.data();
+    work.linearize(
+      data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
+    return dealii::Utilities::MPI::sum(data.n_clamped,
+                                       discretization.communicator());
+  }
+
+  void
+  Elasticity::apply_linearization(Vector                   &f,
+                                  const Vector             &v,
+                                  const double              frozen_factor,
+                                  const double              c_M,
+                                  const CellMasses<double> *masses,
+                                  const Vector             *lumped_mass) const
+  {
+    Assert(!linearization.empty(), dealii::ExcNotInitialized());
+    ElasticData data             = elastic_data();
+    data.linearization           = linearization.data();
+    data.linearized_displacement = linearized_displacement.begin();
+    data.frozen_factor           = frozen_factor;
+    data.masses                  = masses;
+    data.mass_factor             = c_M;
+    const ElasticSweep sweep     = sweeps.tangent(linearized_tangent).apply;
+    cell_loop.run(
+      v,
+      [&](const auto    first,
+          const auto    end,
+          const double *source,
+          double       *sums) { sweep(data, first, end, source, sums); },
+      [&](const unsigned int i, const auto y) {
+        using V  = decltype(y + y);
+        V result = y;
+        if (lumped_mass != nullptr)
+          result += c_M * load_as<V>(lumped_mass->begin() + i) *
+                    load_as<V>(v.begin() + i);
+        store_to(result, f.begin() + i);
+      });
+  }
+
+  void
+  Elasticity::cell_matrices(const Vector             &u,
+                            const double              frozen_factor,
+                            const double              c_M,
+                            const CellMasses<double> *masses,
+                            const TakeCellMatrices   &take)
+  {
+    Assert(!linearization.empty(), dealii::ExcNotInitialized());
+    const CellBatches   &batches = discretization.batches();
+    const TangentSweeps &work    = sweeps.tangent(linearized_tangent);
+    ElasticData          ghosts  = elastic_data();
+    ghosts.new_linearization     = linearization.data();
+    work.linearize(ghosts,
+                   batches.n_owned_batches(),
+                   batches.n_batches(),
+                   u.begin(),
+                   nullptr);
+
+    // Unit vectors in all cells of a batch at once, as if these had no common
+    // nodes.
+    const CellBatches apart = batches.apart();
+    const auto        own   = std::as_const(*this).elastic_data();
+    ElasticData       data{apart,
+                     own.reference,
+                     own.constants,
+                     own.coefficients,
+                     own.has_rotations,
+                     own.law};
+    data.linearization                 = linearization.data();
+    data.frozen_factor                 = frozen_factor;
+    data.masses                        = masses;
+    data.mass_factor                   = c_M;
+    const unsigned int            n    = discretization.n_nodes_per_cell();
+    const std::size_t             size = std::size_t(4) * batch_size * n;
+    dealii::AlignedVector<double> source(std::size_t(3) * (batch_size * n + 1));
+    dealii::AlignedVector<double> displacement(source.size());
+    data.linearized_displacement = displacement.data();
+    dealii::AlignedVector<double> columns(std::size_t(3) * n * size);
+    for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
+      {
+        columns.fill(0.);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int lane = 0; lane < batch_size; ++lane)
+            for (unsigned int a = 0; a < 3; ++a)
+              displacement[3 * (lane * n + i) + a] =
+                u.begin()[std::size_t(3) *
+                            batches.nodes(batch)[batch_size * i + lane] +
+                          a];
+        for (unsigned int column = 0; column < 3 * n; ++column)
+          {
+            for (unsigned int lane = 0; lane < batch_size; ++lane)
+              source[3 * lane * n + column] = 1;
+            work.apply(
+              data, batch, batch + 1, source.data(), &columns[column * size]);
+            for (unsigned int lane = 0; lane < batch_size; ++lane)
+              source[3 * lane * n + column] = 0;
+          }
+        take(batch, columns.data());
+      }
+  }
+} // namespace corotet
