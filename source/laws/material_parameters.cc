@@ -131,9 +131,9 @@ namespace corotet
   }
 
   std::shared_ptr<const MaterialLaw>
-  MaterialParameters::law() const
+  MaterialParameters::law(const unsigned int degree) const
   {
-    return type.selected().make(rotation);
+    return type.selected().make(degree == 1 ? Rotation::cell_centre : rotation);
   }
 
   std::map<unsigned int, IsotropicMaterial>

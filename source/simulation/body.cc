@@ -54,7 +54,9 @@ namespace corotet
     , reference(ReferenceElement::of(discretization.element()))
     , problem(parameters, purpose == Purpose::motion)
     , materials(parameters.material.materials(mesh.regions()))
-    , law(purpose == Purpose::motion ? parameters.material.law() : linear_law())
+    , law(purpose == Purpose::motion ?
+            parameters.material.law(discretization.degree()) :
+            linear_law())
     , conditions(problem.boundary_conditions(mesh.boundaries()),
                  mesh.places(),
                  tables)

@@ -44,8 +44,10 @@ namespace corotet
            T                *all,
            const MPI_Comm    comm) const
     {
-      const MPI_Datatype type = mpi_type_id_for_type<T>;
-      MPI_Gatherv(part == all ? MPI_IN_PLACE : part,
+      const MPI_Datatype type        = mpi_type_id_for_type<T>;
+      const bool         is_in_place = part == all && !counts.empty();
+      // Elsewhere both may be null, on a rank without nodes.
+      MPI_Gatherv(is_in_place ? MPI_IN_PLACE : part,
                   size,
                   type,
                   all,

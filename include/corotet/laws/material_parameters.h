@@ -26,8 +26,10 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
+    /// For elements of that degree. At degree 1 all points of a cell have the
+    /// same rotation, and the fastest way is taken.
     std::shared_ptr<const MaterialLaw>
-    law() const;
+    law(const unsigned int degree) const;
 
     /**
      * The material of each region, by the region's id. Throws InputError if a
