@@ -44,10 +44,9 @@ LARGE = 1e9
 
 @dataclasses.dataclass
 class Rates:
-    """Of one degree, measured: seconds for each unknown of an iteration, and for each cell of set-up, on rank 0 alone and on all."""
+    """Of one degree, measured: seconds for each unknown of an iteration, and for each cell of set-up."""
     iteration: float
-    cell_on_root: float
-    cell_on_all: float
+    cell: float
 
 
 def cuboids(ranks, n):
@@ -93,12 +92,10 @@ def weak_scaling(options, folder):
 
 
 def rates(alone, both):
-    """From runs on one rank and on two, with as many cells on each: what partitioning takes longer on two is said to be rank 0's alone,
-    though ranks exchange cells in it."""
-    times, n = alone["wall_time"], alone["cells"]
+    """From runs on one rank and on two, with as many cells on each: set-up is that of two, which exchange cells in it."""
+    times, together = alone["wall_time"], both["wall_time"]
     return Rates(times["solve"] / alone["final"]["linear_iterations"] / alone["dofs"],
-                 max(0, both["wall_time"]["partition"] - times["partition"]) / both["cells"],
-                 (times["setup"] - times["read"] + times["assembly"]) / n)
+                 (together["setup"] - together["read"] + together["assembly"]) / (both["cells"] / 2))
 
 
 def visits(degree, unknowns):
@@ -113,7 +110,7 @@ def visits(degree, unknowns):
 
 
 def predicted(degree, rate, unknowns, ranks):
-    """Seconds of an iteration: computing, messages, sums; and of set-up: rank 0, all."""
+    """Seconds of an iteration: computing, messages, sums; and of set-up."""
     own = unknowns / ranks
     # The surface of a cube, shared with the neighbours; displacements of 4 bytes.
     border = 6 * (own / 3) ** (2 / 3) * 3 * 4
@@ -122,13 +119,13 @@ def predicted(degree, rate, unknowns, ranks):
     messages += MESSAGES_OF_LEVEL * visits(degree, unknowns) * neighbours * LATENCY
     sums = SUMS * 2 * math.ceil(math.log2(ranks)) * LATENCY
     cells = unknowns / UNKNOWNS_OF_CELL[degree]
-    return own * rate.iteration, messages, sums, rate.cell_on_root * cells, rate.cell_on_all * cells / ranks
+    return own * rate.iteration, messages, sums, rate.cell * cells / ranks
 
 
 def model(options, folder):
     """Lines of the table, and what is not as it should be."""
-    lines = ["| degree | ranks | unknowns on each | iteration: computing | messages | sums | efficiency | set-up: rank 0 alone | all |",
-             "|---:|" + "---:|" * 8]
+    lines = ["| degree | ranks | unknowns on each | iteration: computing | messages | sums | efficiency | set-up |",
+             "|---:|" + "---:|" * 7]
     mistakes = []
     for degree in (1, 2, 3):
         n = {1: 12, 2: 6, 3: 4}[degree] * options.cells
@@ -141,9 +138,9 @@ def model(options, folder):
         if abs(expected / found - 1) > MOST_ERROR:
             mistakes.append(f"degree {degree}: an iteration on two ranks takes {found:.3g} s, the model says {expected:.3g}")
         for ranks in (64, 256, 1024):
-            computing, messages, sums, root, everywhere = predicted(degree, rate, LARGE, ranks)
+            computing, messages, sums, set_up = predicted(degree, rate, LARGE, ranks)
             lines.append(f"| {degree} | {ranks} | {LARGE / ranks:.2g} | {computing:.2g} | {messages:.2g} | {sums:.2g} | "
-                         f"{100 * computing / (computing + messages + sums):.0f} % | {root:.0f} | {everywhere:.2g} |")
+                         f"{100 * computing / (computing + messages + sums):.0f} % | {set_up:.2g} |")
             print(lines[-1], flush=True)
     return lines, mistakes
 

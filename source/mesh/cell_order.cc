@@ -322,21 +322,44 @@ namespace corotet
     MeshPart
     sorted_part(const Messages &messages, const unsigned int geometry_degree)
     {
-      std::vector<MeshPart>   parts;
-      std::vector<PlacedCell> cells;
+      std::vector<MeshPart>    parts;
+      std::vector<PlacedCell>  cells;
+      std::vector<std::size_t> begins;
       for (const auto &[rank, message] : messages)
         {
           std::size_t                position = 0;
           std::vector<std::uint64_t> on_curve;
           parts.push_back(unpacked(message, position));
           read_array(message, position, on_curve);
+          begins.push_back(cells.size());
           for (unsigned int c = 0; c < on_curve.size(); ++c)
             cells.push_back(
               {on_curve[c], c, static_cast<unsigned int>(parts.size() - 1)});
         }
-      sort_cells(cells, [&](const PlacedCell &placed) {
-        return parts[placed.part].numbers[placed.cell];
-      });
+      begins.push_back(cells.size());
+      const auto place = [&](const PlacedCell &placed) {
+        return CurvePlace{placed.on_curve,
+                          parts[placed.part].numbers[placed.cell]};
+      };
+      // Those of each rank are sorted.
+      while (begins.size() > 2)
+        {
+          std::vector<std::size_t> merged_begins;
+          for (std::size_t i = 0; i + 1 < begins.size(); i += 2)
+            {
+              merged_begins.push_back(begins[i]);
+              if (i + 2 < begins.size())
+                std::inplace_merge(cells.begin() + begins[i],
+                                   cells.begin() + begins[i + 1],
+                                   cells.begin() + begins[i + 2],
+                                   [&](const PlacedCell &a,
+                                       const PlacedCell &b) {
+                                     return place(a) < place(b);
+                                   });
+            }
+          merged_begins.push_back(cells.size());
+          begins = std::move(merged_begins);
+        }
       std::vector<std::pair<unsigned int, unsigned int>> order;
       order.reserve(cells.size());
       for (const PlacedCell &placed : cells)

@@ -10,6 +10,8 @@
 
 namespace corotet
 {
+  struct MeshPart;
+
   /**
    * A box of cuboids, each cut into five tetrahedra: one regular in the middle
    * (if the cuboid is a cube) and one at every other corner. Neighbours are
@@ -28,7 +30,21 @@ namespace corotet
     create(const std::string &folder,
            const unsigned int n_refinements = 0) const override;
 
+    std::shared_ptr<SpreadMesh>
+    create_spread(const std::string &folder,
+                  const MPI_Comm     comm) const override;
+
   private:
+    /// Throws InputError, and MachineError if that many ranks do not have the
+    /// memory for the mesh.
+    void
+    check(const unsigned int n_ranks) const;
+
+    /// Of as many pieces of the sequence of cells as there are ranks, all of
+    /// the same length.
+    MeshPart
+    piece(const unsigned int rank, const unsigned int n_ranks) const;
+
     std::array<double, 3>       origin  = {{0, 0, 0}};
     std::array<double, 3>       size    = {{1, 0.1, 0.1}};
     std::array<unsigned int, 3> n_cells = {{10, 1, 1}};
