@@ -308,7 +308,10 @@ namespace corotet
           result.linearize = BatchSweep<
             PointOperation<Linearization<variational>, CellKernel>>::run;
           if constexpr (is_factored<CellKernel, variational>)
-            result.apply = BatchSweep<MixedTangent<CellKernel>>::run;
+            {
+              result.apply = BatchSweep<MixedTangent<CellKernel>>::run;
+              result.needs_displacement = !Factored<CellKernel>::keeps_B;
+            }
           else
             result.apply = BatchSweep<
               PointOperation<PointTangent<variational>, CellKernel>>::run;

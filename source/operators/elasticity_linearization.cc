@@ -22,7 +22,7 @@ namespace corotet
     linearized_tangent        = tangent;
     linearization.resize_fast(
       work.size.of_batches(reference, discretization.batches()));
-    if (work.size.only_curved_have_points)
+    if (work.needs_displacement)
       {
         const std::size_t n = std::size_t(3) * discretization.n_local_nodes();
         linearized_displacement.resize_fast(n);

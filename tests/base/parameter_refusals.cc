@@ -156,7 +156,10 @@ TEST(ParameterFile, RefusesDeepNesting)
             "a.xml: " + reason);
   // What follows the shortest statement, and the shortest end of an element,
   // counts.
-  EXPECT_EQ(example.refusal("a.xml", "<??>" + repeated("<a>", 100)),
+  EXPECT_EQ(example.refusal("a.xml",
+                            "<?"
+                            "?>" +
+                              repeated("<a>", 100)),
             "a.xml: " + reason);
   EXPECT_EQ(example.refusal("a.xml", repeated("<b><a></>", 100)),
             "a.xml: " + reason);

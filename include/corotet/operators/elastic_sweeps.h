@@ -15,7 +15,7 @@ namespace corotet
   {
     unsigned int per_cell  = 0;
     unsigned int per_point = 0;
-    /// Straight cells keep none of their points, but need the displacement.
+    /// Straight cells keep none of their points.
     bool only_curved_have_points = false;
 
     constexpr std::size_t
@@ -67,6 +67,8 @@ namespace corotet
     LinearizationSize size      = {};
     ElasticSweep      linearize = nullptr;
     ElasticSweep      apply     = nullptr;
+    /// Whether the second sweep reads the displacement of the first one, too.
+    bool needs_displacement = false;
   };
 
   /**
