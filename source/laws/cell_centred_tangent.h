@@ -224,13 +224,9 @@ namespace corotet
 
     // Straight cells without points, curved ones with.
     template <typename CellKernel>
-    struct MixedTangent
+    struct MixedTangent : PointOperation<PointTangent<false>, CellKernel>
     {
-      using Data   = ElasticData;
-      using Number = double;
-
-      static constexpr unsigned int n_batches  = 1;
-      static constexpr bool         works_long = true;
+      using PointOperation<PointTangent<false>, CellKernel>::apply;
 
       static COROTET_ALWAYS_INLINE void
       fetch(const ElasticData &data, const unsigned int batch)
@@ -238,24 +234,21 @@ namespace corotet
         fetch_object(data.coefficients + batch);
         if constexpr (!Factored<CellKernel>::keeps_B)
           for (const unsigned int node :
-               data.batches.nodes_to_fetch(batch, batch + n_batches))
+               data.batches.nodes_to_fetch(batch, batch + 1))
             __builtin_prefetch(data.linearized_displacement +
                                  3 * static_cast<std::size_t>(node),
                                0);
       }
 
-      template <typename IsCurved>
       static COROTET_ALWAYS_INLINE void
-      apply(const IsCurved,
+      apply(const std::false_type,
             ElasticData       &data,
             const unsigned int batch,
             const double      *source,
             double            *sums)
       {
-        PointBatch<CellKernel, IsCurved::value> points(data, batch);
-        if constexpr (IsCurved::value)
-          PointTangent<false>::apply(points, source, sums);
-        else if (data.masses != nullptr)
+        const PointBatch<CellKernel, false> points(data, batch);
+        if (data.masses != nullptr)
           apply_straight<true>(points, source, sums);
         else
           apply_straight<false>(points, source, sums);

@@ -3,63 +3,14 @@
 
 #include <corotet/operators/ghost_exchange.h>
 
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <iterator>
+#include <cstring>
 #include <numeric>
 
 namespace corotet
 {
-  NodeNumbers::NodeNumbers(const MPI_Comm comm, const int n_owned)
-    : first_nodes(dealii::Utilities::MPI::all_gather(comm, n_owned))
-  {
-    first_nodes.push_back(0);
-    std::exclusive_scan(first_nodes.begin(),
-                        first_nodes.end(),
-                        first_nodes.begin(),
-                        0);
-    first = first_nodes[dealii::Utilities::MPI::this_mpi_process(comm)];
-    end   = first + n_owned;
-  }
-
-  void
-  NodeNumbers::set_ghosts(const std::vector<int> &nodes)
-  {
-    the_ghosts.clear();
-    std::copy_if(nodes.begin(),
-                 nodes.end(),
-                 std::back_inserter(the_ghosts),
-                 [this](const int node) { return !owns(node); });
-    std::sort(the_ghosts.begin(), the_ghosts.end());
-    the_ghosts.erase(std::unique(the_ghosts.begin(), the_ghosts.end()),
-                     the_ghosts.end());
-    the_ghosts.shrink_to_fit();
-  }
-
-  std::pair<int, int>
-  NodeNumbers::owner(const int global) const
-  {
-    // Of ranks that begin with the same node, the last one has nodes.
-    const int rank =
-      std::upper_bound(first_nodes.begin(), first_nodes.end(), global) -
-      first_nodes.begin() - 1;
-    return {rank, global - first_nodes[rank]};
-  }
-
-  int
-  NodeNumbers::local_node(const int global) const
-  {
-    if (owns(global))
-      return global - first;
-    const auto found =
-      std::lower_bound(the_ghosts.begin(), the_ghosts.end(), global);
-    Assert(found != the_ghosts.end() && *found == global,
-           dealii::ExcInternalError());
-    return n_owned() + (found - the_ghosts.begin());
-  }
-
   GhostExchange::GhostExchange(const MPI_Comm comm, const NodeNumbers &numbers)
     : comm(comm)
     , n_owned(numbers.n_owned())
@@ -91,11 +42,10 @@ namespace corotet
                   comm);
     for (int rank = 0; rank < n_ranks; ++rank)
       if (n_sent[rank] + n_got[rank] > 0)
-        neighbours.push_back({rank,
-                              send_begin[rank],
-                              send_begin[rank] + n_sent[rank],
-                              ghost_begin[rank],
-                              ghost_begin[rank] + n_got[rank]});
+        neighbours.push_back(
+          {rank,
+           {send_begin[rank], send_begin[rank] + n_sent[rank]},
+           {ghost_begin[rank], ghost_begin[rank] + n_got[rank]}});
   }
 
   GhostExchange
@@ -115,16 +65,15 @@ namespace corotet
     for (const Neighbour &neighbour : neighbours)
       {
         const int send_begin = result.sent.size();
-        for (int i = neighbour.send_begin; i < neighbour.send_end; ++i)
+        for (int i = neighbour.sent.begin; i < neighbour.sent.end; ++i)
           for (int k = graph.starts[sent[i]]; k < graph.starts[sent[i] + 1];
                ++k)
             result.sent.push_back(k);
         result.neighbours.push_back(
           {neighbour.rank,
-           send_begin,
-           static_cast<int>(result.sent.size()),
-           graph.starts[n_owned + neighbour.ghost_begin] - result.n_owned,
-           graph.starts[n_owned + neighbour.ghost_end] - result.n_owned});
+           {send_begin, static_cast<int>(result.sent.size())},
+           {graph.starts[n_owned + neighbour.ghosts.begin] - result.n_owned,
+            graph.starts[n_owned + neighbour.ghosts.end] - result.n_owned}});
       }
     graph.columns.resize(graph.starts.back());
     result.update(graph.columns.data());
@@ -134,50 +83,50 @@ namespace corotet
   void
   GhostExchange::exchange(char *values, const std::size_t size) const
   {
-    constexpr int tag = 7316;
     buffer.resize(std::max(buffer.size(), sent.size() * size));
-    requests.resize(2 * neighbours.size());
-    MPI_Request *request = requests.data();
-    for (const Neighbour &neighbour : neighbours)
-      {
-        MPI_Irecv(values + (n_owned + neighbour.ghost_begin) * size,
-                  (neighbour.ghost_end - neighbour.ghost_begin) * size,
-                  MPI_BYTE,
-                  neighbour.rank,
-                  tag,
-                  comm,
-                  request++);
-        for (int i = neighbour.send_begin; i < neighbour.send_end; ++i)
-          std::memcpy(&buffer[i * size], values + sent[i] * size, size);
-        MPI_Isend(buffer.data() + neighbour.send_begin * size,
-                  (neighbour.send_end - neighbour.send_begin) * size,
-                  MPI_BYTE,
-                  neighbour.rank,
-                  tag,
-                  comm,
-                  request++);
-      }
-    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    for (std::size_t i = 0; i < sent.size(); ++i)
+      std::memcpy(&buffer[i * size], values + sent[i] * size, size);
+    transfer(buffer.data(),
+             &Neighbour::sent,
+             values + n_owned * size,
+             &Neighbour::ghosts,
+             size);
   }
 
   void
   GhostExchange::return_ghosts(const char *values, const std::size_t size) const
   {
-    constexpr int tag = 7317;
     buffer.resize(std::max(buffer.size(), sent.size() * size));
+    transfer(values + n_owned * size,
+             &Neighbour::ghosts,
+             buffer.data(),
+             &Neighbour::sent,
+             size);
+  }
+
+  void
+  GhostExchange::transfer(const char *source,
+                          const Range Neighbour::*sent_range,
+                          char                   *target,
+                          const Range Neighbour::*received_range,
+                          const std::size_t       size) const
+  {
+    constexpr int tag = 7316;
     requests.resize(2 * neighbours.size());
     MPI_Request *request = requests.data();
     for (const Neighbour &neighbour : neighbours)
       {
-        MPI_Irecv(buffer.data() + neighbour.send_begin * size,
-                  (neighbour.send_end - neighbour.send_begin) * size,
+        const Range received = neighbour.*received_range;
+        MPI_Irecv(target + received.begin * size,
+                  (received.end - received.begin) * size,
                   MPI_BYTE,
                   neighbour.rank,
                   tag,
                   comm,
                   request++);
-        MPI_Isend(values + (n_owned + neighbour.ghost_begin) * size,
-                  (neighbour.ghost_end - neighbour.ghost_begin) * size,
+        const Range to_send = neighbour.*sent_range;
+        MPI_Isend(source + to_send.begin * size,
+                  (to_send.end - to_send.begin) * size,
                   MPI_BYTE,
                   neighbour.rank,
                   tag,

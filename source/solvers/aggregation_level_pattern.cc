@@ -220,8 +220,6 @@ namespace corotet
                [this](const int g) { return known_aggregates.local_node(g); });
   }
 
-  /// Gives others what owned points make of the rows of their aggregates, and
-  /// returns the entries of owned ones; their columns have global numbers.
   template <int d>
   NodeGraph
   AggregationLevel<d>::set_up_coarse_rows(const bool is_last)

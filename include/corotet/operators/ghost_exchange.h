@@ -4,11 +4,12 @@
 #ifndef corotet_operators_ghost_exchange_h
 #define corotet_operators_ghost_exchange_h
 
+#include <corotet/operators/node_numbers.h>
+
 #include <mpi.h>
 
 #include <cstddef>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 namespace corotet
@@ -27,92 +28,6 @@ namespace corotet
     {
       return starts.size() - 1;
     }
-  };
-
-  /**
-   * Numbers of nodes through all ranks, which own contiguous ranges of them, in
-   * ascending order; a rank may own none. Local numbers are those of the owned
-   * nodes, then those of ghosts, nodes of other ranks that are known here, both
-   * in the order of their global numbers.
-   */
-  class NodeNumbers
-  {
-  public:
-    NodeNumbers() = default;
-
-    /// Without ghosts. Collective.
-    NodeNumbers(const MPI_Comm comm, const int n_owned);
-
-    /// Those of other ranks among @p nodes, global numbers in any order, also
-    /// repeated, become the ghosts.
-    void
-    set_ghosts(const std::vector<int> &nodes);
-
-    /// Global numbers, ascending.
-    const std::vector<int> &
-    ghosts() const
-    {
-      return the_ghosts;
-    }
-
-    int
-    n_owned() const
-    {
-      return end - first;
-    }
-
-    /// Owned nodes and ghosts.
-    int
-    n_local() const
-    {
-      return n_owned() + static_cast<int>(the_ghosts.size());
-    }
-
-    /// Nodes of all ranks.
-    int
-    n_global() const
-    {
-      return first_nodes.back();
-    }
-
-    /// A global number.
-    int
-    first_owned() const
-    {
-      return first;
-    }
-
-    int
-    n_ranks() const
-    {
-      return first_nodes.size() - 1;
-    }
-
-    /// The owner of a node, and its number among those of the owner.
-    std::pair<int, int>
-    owner(const int global) const;
-
-    int
-    global_node(const int local) const
-    {
-      return local < n_owned() ? first + local : the_ghosts[local - n_owned()];
-    }
-
-    /// Of a node that is owned or a ghost.
-    int
-    local_node(const int global) const;
-
-  private:
-    bool
-    owns(const int global) const
-    {
-      return global >= first && global < end;
-    }
-
-    /// Of each rank; the last entry is the number of all nodes.
-    std::vector<int> first_nodes{0};
-    int              first = 0, end = 0;
-    std::vector<int> the_ghosts;
   };
 
   /**
@@ -166,12 +81,17 @@ namespace corotet
     }
 
   private:
-    /// Consecutive items that are sent to a rank, and ghosts that it owns.
+    struct Range
+    {
+      int begin, end;
+    };
+
+    /// What goes to a rank, among the items of @p sent, and which of the ghosts
+    /// it owns.
     struct Neighbour
     {
-      int rank;
-      int send_begin, send_end;
-      int ghost_begin, ghost_end;
+      int   rank;
+      Range sent, ghosts;
     };
 
     void
@@ -179,6 +99,13 @@ namespace corotet
     /// Into the buffer, in the order of @p sent.
     void
     return_ghosts(const char *values, const std::size_t size) const;
+    /// Sends and receives those ranges of items of @p size bytes.
+    void
+    transfer(const char *source,
+             const Range Neighbour::*sent_range,
+             char                   *target,
+             const Range Neighbour::*received_range,
+             const std::size_t       size) const;
 
     MPI_Comm                         comm     = MPI_COMM_SELF;
     int                              n_owned  = 0;

@@ -225,10 +225,15 @@ namespace corotet
     void
     set_up_pattern(const Coarsening                 &coarsening,
                    const std::vector<PointFrame<d>> &frames);
+    /// The entries of the prolongation, numbers of aggregates on all ranks, and
+    /// their exchange. @p has_blocks: points of an aggregate have the same.
     void
     set_up_prolongation(const bool has_blocks);
+    /// The entries of the owned rows of the coarse matrix, columns by global
+    /// numbers, and who makes parts of them. @p is_last: its lower triangle.
     NodeGraph
     set_up_coarse_rows(const bool is_last);
+    /// Gives other ranks those parts of their rows.
     void
     exchange_row_parts(const std::map<unsigned int, RowParts> &parts);
     void
