@@ -117,6 +117,16 @@ namespace corotet
                     "the energy. For degree 1 all are the same. Otherwise "
                     "the log says at the end how far rotations differ "
                     "inside of cells, and warns above 0.005 rad.");
+    add_enumeration(prm,
+                    "Dilatation",
+                    dilatation,
+                    dilatations,
+                    "Whose change of volume elements of degree 1 resist: "
+                    "'cells', that of each cell; 'vertices', the mean of the "
+                    "cells around each vertex, so that nearly incompressible "
+                    "bodies do not lock (Poisson's ratio above 0.4, say; with "
+                    "'linear' and 'corotational' laws). Elements of degree 2 "
+                    "and 3 have 'cells' only.");
     const std::string by_region =
       " One number, or 'region: number, ...' with every region.";
     prm.add_parameter("Young's modulus",

@@ -16,14 +16,15 @@
 namespace corotet
 {
   AssembledMatrix::AssembledMatrix(
-    const Nodes                      &nodes,
-    const std::vector<unsigned char> &is_prescribed)
+    const Nodes                               &nodes,
+    const std::vector<unsigned char>          &is_prescribed,
+    const std::shared_ptr<const BlockPattern> &pattern)
     : nodes(nodes)
     , reference(ReferenceElement::of(nodes.element()))
     , prescribed(is_prescribed)
   {
-    block_matrix     = std::make_unique<BlockMatrix>(block_pattern(nodes));
-    places_of_blocks = block_places(nodes, *block_matrix->pattern());
+    block_matrix     = std::make_unique<BlockMatrix>(pattern);
+    places_of_blocks = block_places(nodes, *pattern);
     touches_prescribed.resize(nodes.n_local_cells());
     for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
       for (const unsigned int node : nodes.cell_nodes(c))

@@ -3,6 +3,7 @@
 
 #include <corotet/operators/effective_operator.h>
 #include <corotet/operators/force_round_off.h>
+#include <corotet/operators/vertex_dilatation.h>
 
 namespace corotet
 {
@@ -30,6 +31,8 @@ namespace corotet
     , noise(std::make_unique<ForceRoundOff>(discretization, elasticity))
     , surface_matrix(surface)
   {
+    if (elasticity.vertex_dilatation() != nullptr)
+      disc.initialize_vector(source);
     if (surface == nullptr)
       return;
     surface_operator = std::make_unique<SurfaceOperator<double>>(disc);
@@ -61,31 +64,74 @@ namespace corotet
         size_of_surface = surface_matrix->size() / c_K;
       }
     compute_diagonal();
+    if (VertexDilatation *dilatation = elastic.vertex_dilatation())
+      dilatation->add_diagonal(diagonal_of_A, c_K, elastic.elastic_data());
     is_assembled = false;
     ++n_updates;
   }
 
-  AssembledMatrix &
-  EffectiveOperator::matrix_for_others() const
+  void
+  EffectiveOperator::vmult(Vector &dst, const Vector &src) const
   {
+    VertexDilatation *const dilatation = elastic.vertex_dilatation();
+    if (dilatation == nullptr)
+      {
+        CellwiseOperator<double>::vmult(dst, src);
+        return;
+      }
+    const unsigned int n_owned = src.locally_owned_size();
+    source.copy_locally_owned_data_from(src);
+    for (const unsigned int i : prescribed_unknowns())
+      if (i < n_owned)
+        source.local_element(i) = 0;
+    source.update_ghost_values();
+    CellwiseOperator<double>::vmult(dst, source);
+    dilatation->add_product(dst, source, c_K, elastic.elastic_data());
+    source.zero_out_ghost_values();
+    for (const unsigned int i : prescribed_unknowns())
+      if (i < n_owned)
+        dst.local_element(i) =
+          diagonal().local_element(i) * src.local_element(i);
+  }
+
+  const BlockMatrix &
+  EffectiveOperator::other_matrix(
+    const std::function<void(AssembledMatrix &)> &update,
+    const double                                  stiffness_factor) const
+  {
+    VertexDilatation *const dilatation = elastic.vertex_dilatation();
     if (!assembled)
-      assembled = std::make_unique<AssembledMatrix>(disc, prescribed);
+      assembled =
+        std::make_unique<AssembledMatrix>(disc,
+                                          prescribed,
+                                          dilatation != nullptr ?
+                                            dilatation->block_pattern() :
+                                            block_pattern(disc));
     is_assembled = false;
-    return *assembled;
+    update(*assembled);
+    if (dilatation != nullptr)
+      dilatation->add_to_matrix(assembled->matrix(),
+                                prescribed,
+                                stiffness_factor,
+                                elastic.elastic_data());
+    return assembled->matrix();
   }
 
   const BlockMatrix &
   EffectiveOperator::matrix() const
   {
     if (!assembled || !is_assembled)
-      matrix_for_others().update(c_K,
-                                 elastic.coefficients(),
-                                 c_M,
-                                 mass_matrix.cell_masses(),
-                                 mass_matrix.is_lumped() ?
-                                   &mass_matrix.diagonal() :
-                                   nullptr,
-                                 surface_operator.get());
+      other_matrix(
+        [this](AssembledMatrix &matrix) {
+          matrix.update(c_K,
+                        elastic.coefficients(),
+                        c_M,
+                        mass_matrix.cell_masses(),
+                        mass_matrix.is_lumped() ? &mass_matrix.diagonal() :
+                                                  nullptr,
+                        surface_operator.get());
+        },
+        c_K);
     is_assembled = true;
     return assembled->matrix();
   }

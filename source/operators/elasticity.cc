@@ -4,6 +4,7 @@
 #include <corotet/material/corotational.h>
 #include <corotet/material/polar_decomposition.h>
 #include <corotet/operators/elasticity.h>
+#include <corotet/operators/vertex_dilatation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,7 +18,8 @@ namespace corotet
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
     const std::map<unsigned int, IsotropicMaterial> &materials,
-    const std::shared_ptr<const MaterialLaw>        &law)
+    const std::shared_ptr<const MaterialLaw>        &law,
+    const Dilatation                                 whose_dilatation)
     : discretization(discretization)
     , reference(reference)
     , material_law(law)
@@ -35,8 +37,14 @@ namespace corotet
     material_of_cell.resize(discretization.n_local_cells());
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       material_of_cell[c] = index.at(discretization.region(c));
+    if (whose_dilatation == Dilatation::vertices)
+      dilatation = std::make_unique<VertexDilatation>(discretization,
+                                                      cell_materials,
+                                                      material_of_cell);
     set_up_cells();
   }
+
+  Elasticity::~Elasticity() = default;
 
   void
   Elasticity::set_up_cells()
@@ -47,11 +55,11 @@ namespace corotet
         const CellGeometry &geometry = discretization.geometry(c);
         CellConstants      &cells    = constants[batch];
         cells.volume[lane]           = geometry.volume;
-        cells.lambda[lane]           = material(c).lambda;
+        cells.lambda[lane]           = dilatation ? 0. : material(c).lambda;
         cells.mu[lane]               = material(c).mu;
         cells.scale[lane] = std::sqrt(material(c).mu * geometry.volume);
         cell_coefficients[batch].lame_ratio[lane] =
-          material(c).lambda / material(c).mu;
+          cells.lambda[lane] / material(c).mu;
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int a = 0; a < 3; ++a)
             {
@@ -75,9 +83,9 @@ namespace corotet
   }
 
   ElasticData
-  Elasticity::elastic_data()
+  Elasticity::rotating_data()
   {
-    ElasticData data      = std::as_const(*this).elastic_data();
+    ElasticData data      = elastic_data();
     data.new_coefficients = cell_coefficients.data();
     return data;
   }
@@ -105,7 +113,7 @@ namespace corotet
       return;
     const CellBatches &batches = discretization.batches();
     const ElasticSweep rotate  = rotation_sweep(discretization.element());
-    ElasticData        data    = elastic_data();
+    ElasticData        data    = rotating_data();
     rotate(data, 0, batches.n_owned_batches(), u.begin(), nullptr);
     counts = data.counts;
     rotate(
@@ -141,26 +149,31 @@ namespace corotet
     const Element element = discretization.element();
     ElasticData   data    = elastic_data();
     cell_sweep(f, u, force_sweep(element), data, stiffness_scale(element));
+    if (dilatation)
+      dilatation->add_force(f, u, data);
   }
 
   void
   Elasticity::update_rotations_and_force(Vector &f, const Vector &u)
   {
-    ElasticData data = elastic_data();
+    ElasticData data = rotating_data();
     cell_sweep(f, u, sweeps.force, data, sweeps.force_scale);
     counts = data.counts;
-    if (material_law->is_linear())
-      return;
-    // Where rotations are not unique, round-off chooses: those of owned and of
-    // ghost cells must come from one function.
-    const CellBatches &batches = discretization.batches();
-    rotation_sweep(discretization.element())(data,
-                                             sweeps.force_rotates ?
-                                               batches.n_owned_batches() :
-                                               0,
-                                             batches.n_batches(),
-                                             u.begin(),
-                                             nullptr);
+    if (!material_law->is_linear())
+      {
+        // Where rotations are not unique, round-off chooses: those of owned and
+        // of ghost cells must come from one function.
+        const CellBatches &batches = discretization.batches();
+        rotation_sweep(discretization.element())(data,
+                                                 sweeps.force_rotates ?
+                                                   batches.n_owned_batches() :
+                                                   0,
+                                                 batches.n_batches(),
+                                                 u.begin(),
+                                                 nullptr);
+      }
+    if (dilatation)
+      dilatation->add_force(f, u, data);
   }
 
   void
@@ -170,7 +183,7 @@ namespace corotet
                             const Vector &inverse_mass,
                             const double  dt)
   {
-    ElasticData data = elastic_data();
+    ElasticData data = rotating_data();
     cell_loop.run(
       u,
       [&](const auto    first,
@@ -203,6 +216,8 @@ namespace corotet
                form_sweep<double>(element, Terms::stiffness),
                data,
                stiffness_scale(element));
+    if (dilatation)
+      dilatation->add_product(f, v, 1., elastic_data());
   }
 
   void
@@ -211,6 +226,8 @@ namespace corotet
     ElasticData data = elastic_data();
     cell_sweep(
       f, v, tangent_by_quadrature_sweep(discretization.element()), data, 1.);
+    if (dilatation)
+      dilatation->add_product(f, v, 1., data);
   }
 
   void
@@ -230,7 +247,8 @@ namespace corotet
     sweeps.state(
       data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
     const PointResults &local = data.results;
-    return {local.energy,
+    return {local.energy +
+              (dilatation ? dilatation->local_energy(u, data) : 0.),
             local.min_det_F,
             local.inverted_cells,
             counts.degenerate,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/ghosted_copy.h>
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/gather.h>
+#include <corotet/operators/vertex_dilatation.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -32,6 +34,8 @@ namespace corotet
     data.new_linearization = linearization.data();
     work.linearize(
       data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
+    if (dilatation)
+      dilatation->linearize(u, data);
     return dealii::Utilities::MPI::sum(data.n_clamped,
                                        discretization.communicator());
   }
@@ -52,6 +56,9 @@ namespace corotet
     data.masses                  = masses;
     data.mass_factor             = c_M;
     const ElasticSweep sweep     = sweeps.tangent(linearized_tangent).apply;
+    std::unique_ptr<const GhostsInUse> ghosts;
+    if (dilatation)
+      ghosts = std::make_unique<const GhostsInUse>(v);
     cell_loop.run(
       v,
       [&](const auto    first,
@@ -66,6 +73,8 @@ namespace corotet
                     load_as<V>(v.begin() + i);
         store_to(result, f.begin() + i);
       });
+    if (dilatation)
+      dilatation->add_tangent(f, v, frozen_factor, data);
   }
 
   void
@@ -89,7 +98,7 @@ namespace corotet
     // Unit vectors in all cells of a batch at once, as if these had no common
     // nodes.
     const CellBatches apart = batches.apart();
-    const auto        own   = std::as_const(*this).elastic_data();
+    const auto        own   = elastic_data();
     ElasticData       data{apart,
                      own.reference,
                      own.constants,
@@ -122,6 +131,11 @@ namespace corotet
               source[3 * lane * n + column] = 1;
             work.apply(
               data, batch, batch + 1, source.data(), &columns[column * size]);
+            if (dilatation)
+              dilatation->add_rotation_part(data,
+                                            batch,
+                                            source.data(),
+                                            &columns[column * size]);
             for (unsigned int lane = 0; lane < batch_size; ++lane)
               source[3 * lane * n + column] = 0;
           }

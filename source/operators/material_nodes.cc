@@ -113,4 +113,15 @@ namespace corotet
                    found.begin()]);
         }
   }
+
+  NodeNumbers
+  MaterialNodes::numbers() const
+  {
+    NodeNumbers      result(discretization.communicator(), n_owned());
+    std::vector<int> ghosts;
+    for (unsigned int n = n_owned(); n < copies.size(); ++n)
+      ghosts.push_back(partitioner->local_to_global(6 * n) / 6);
+    result.set_ghosts(ghosts);
+    return result;
+  }
 } // namespace corotet

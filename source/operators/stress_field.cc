@@ -3,6 +3,7 @@
 
 #include <corotet/material/stress_measures.h>
 #include <corotet/operators/stress_field.h>
+#include <corotet/operators/vertex_dilatation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,17 +25,34 @@ namespace corotet
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
     const std::map<unsigned int, IsotropicMaterial> &materials,
-    const std::shared_ptr<const MaterialLaw>        &law)
+    const std::shared_ptr<const MaterialLaw>        &law,
+    const VertexDilatation                          *dilatation)
     : discretization(discretization)
     , reference(reference)
     , point_stress(discretization, reference, materials, law)
+    , dilatation(dilatation)
+    , has_rotations(!law->is_linear())
   {}
 
   void
   StressField::set_displacement(const Vector &u)
   {
     displacement = &u;
+    if (dilatation != nullptr)
+      pressure_corrections = dilatation->pressure_corrections(u, has_rotations);
     has_points = has_recovery = has_error = false;
+  }
+
+  void
+  StressField::evaluate(const unsigned int                   cell,
+                        const ReferenceElement::PointValues &rule,
+                        SymmetricTensor<2, 3>               *stresses) const
+  {
+    point_stress.evaluate(*displacement, cell, rule, stresses);
+    if (dilatation != nullptr)
+      for (unsigned int q = 0; q < rule.weights.size(); ++q)
+        stresses[q] +=
+          pressure_corrections[cell] * dealii::unit_symmetric_tensor<3>();
   }
 
   const std::vector<SymmetricTensor<2, 3>> &
@@ -47,7 +65,7 @@ namespace corotet
     const std::size_t n_points = rule.weights.size();
     points.resize(discretization.n_local_cells() * n_points);
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
-      point_stress.evaluate(*displacement, c, rule, &points[c * n_points]);
+      evaluate(c, rule, &points[c * n_points]);
     has_points = true;
     return points;
   }
@@ -88,7 +106,7 @@ namespace corotet
     Assert(displacement != nullptr, dealii::ExcNotInitialized());
     AssertDimension(point.weights.size(), 1);
     SymmetricTensor<2, 3> result;
-    point_stress.evaluate(*displacement, cell, point, &result);
+    evaluate(cell, point, &result);
     return result;
   }
 

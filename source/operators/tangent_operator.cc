@@ -44,21 +44,24 @@ namespace corotet
     const double        c_M  = A.mass_factor();
     const Vector *const lumped =
       c_M != 0 && mass.is_lumped() ? &mass.diagonal() : nullptr;
-    AssembledMatrix &result = A.matrix_for_others();
-    result.update(
-      [&](const Elasticity::TakeCellMatrices &take) {
-        elasticity.cell_matrices(*displacement,
-                                 A.stiffness_factor() + n_frozen,
-                                 c_M,
-                                 c_M == 0 || mass.is_lumped() ?
-                                   nullptr :
-                                   mass.cell_masses().data(),
-                                 take);
+    const double frozen_factor = A.stiffness_factor() + n_frozen;
+    return A.other_matrix(
+      [&](AssembledMatrix &matrix) {
+        matrix.update(
+          [&](const Elasticity::TakeCellMatrices &take) {
+            elasticity.cell_matrices(*displacement,
+                                     frozen_factor,
+                                     c_M,
+                                     c_M == 0 || mass.is_lumped() ?
+                                       nullptr :
+                                       mass.cell_masses().data(),
+                                     take);
+          },
+          c_M,
+          lumped,
+          A.surface_numbers());
       },
-      c_M,
-      lumped,
-      A.surface_numbers());
-    return result.matrix();
+      frozen_factor);
   }
 
   void

@@ -139,9 +139,10 @@ namespace corotet
   bool
   AccelerationSolver::can_step_many() const
   {
-    return body.mass.is_lumped() && !equation.terms.has_damping() &&
-           !equation.terms.has_elastic() && equation.has_constant_loads() &&
-           body.motion.is_at_rest();
+    return body.mass.is_lumped() &&
+           body.elasticity.vertex_dilatation() == nullptr &&
+           !equation.terms.has_damping() && !equation.terms.has_elastic() &&
+           equation.has_constant_loads() && body.motion.is_at_rest();
   }
 
   bool

@@ -61,7 +61,12 @@ namespace corotet
                  mesh.places(),
                  tables)
     , mass(discretization, reference, densities(materials), parameters.mass)
-    , elasticity(discretization, reference, materials, law)
+    , elasticity(discretization,
+                 reference,
+                 materials,
+                 law,
+                 parameters.material.dilatation_of(discretization.degree(),
+                                                   *law))
     , motion(discretization,
              reference,
              conditions,

@@ -112,7 +112,9 @@ namespace corotet
       motions =
         std::make_unique<VertexMotions>(*quadratic, *coarser, is_prescribed);
     else
-      assembled = std::make_unique<AssembledMatrix>(vertices, marks);
+      assembled = std::make_unique<AssembledMatrix>(vertices,
+                                                    marks,
+                                                    block_pattern(vertices));
     unknowns.resize(6 * std::size_t(motions ? vertices.n_owned_nodes() : 0));
   }
 

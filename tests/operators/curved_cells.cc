@@ -291,7 +291,8 @@ TEST_P(CurvedCells, CoarserForms)
 
   AssembledMatrix matrix(
     coarser,
-    std::vector<unsigned char>(std::size_t(3) * coarser.n_local_nodes(), 0));
+    std::vector<unsigned char>(std::size_t(3) * coarser.n_local_nodes(), 0),
+    block_pattern(coarser));
   matrix.update(1., elastic.coefficients(), c_M, mass.cell_masses(), nullptr);
   matrix.matrix().vmult(z, x);
   EXPECT_LE(largest_difference(z, y), 1e-13 * y.linfty_norm());

@@ -16,6 +16,36 @@ namespace corotet
     copy.copy_locally_owned_data_from(vector);
     copy.update_ghost_values();
   }
+
+  /**
+   * Brings the ghost entries of a vector up to date for as long as it lives, if
+   * they are not in use. The vector must live as long. Collective.
+   */
+  class GhostsInUse
+  {
+  public:
+    explicit GhostsInUse(const Vector &vector)
+      : vector(vector)
+      , fetched(!vector.has_ghost_elements())
+    {
+      if (fetched)
+        vector.update_ghost_values();
+    }
+
+    GhostsInUse(const GhostsInUse &) = delete;
+    GhostsInUse &
+    operator=(const GhostsInUse &) = delete;
+
+    ~GhostsInUse()
+    {
+      if (fetched)
+        vector.zero_out_ghost_values();
+    }
+
+  private:
+    const Vector &vector;
+    const bool    fetched;
+  };
 } // namespace corotet
 
 #endif

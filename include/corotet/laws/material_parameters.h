@@ -5,6 +5,7 @@
 #define corotet_laws_material_parameters_h
 
 #include <corotet/laws/law_kind.h>
+#include <corotet/material/dilatation.h>
 #include <corotet/mesh/mesh.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -38,8 +39,14 @@ namespace corotet
     std::map<unsigned int, IsotropicMaterial>
     materials(const MeshNames &regions) const;
 
+    /// Whose dilatation elements of that degree take, with that law. Throws
+    /// InputError if they have no choice and it is not that of cells.
+    Dilatation
+    dilatation_of(const unsigned int degree, const MaterialLaw &law) const;
+
     Selectable<LawKind> type;
     Rotation            rotation       = Rotation::cell_centre;
+    Dilatation          dilatation     = Dilatation::cells;
     std::string         youngs_modulus = "1e6";
     std::string         poissons_ratio = "0.3";
     std::string         density        = "1000";

@@ -46,9 +46,11 @@ namespace corotet
   class AssembledMatrix
   {
   public:
-    /// @p is_prescribed: for each local unknown, ghosts included. Collective.
-    AssembledMatrix(const Nodes                      &nodes,
-                    const std::vector<unsigned char> &is_prescribed);
+    /// @p is_prescribed: for each local unknown, ghosts included. @p pattern:
+    /// that of @p nodes, or one with more blocks, for what others add.
+    AssembledMatrix(const Nodes                               &nodes,
+                    const std::vector<unsigned char>          &is_prescribed,
+                    const std::shared_ptr<const BlockPattern> &pattern);
 
     /// Computes A as CellwiseOperator::set_terms() takes it, from the
     /// coefficients of all local cells, and adds a matrix of the surface, if
@@ -73,6 +75,13 @@ namespace corotet
 
     const BlockMatrix &
     matrix() const
+    {
+      return *block_matrix;
+    }
+
+    /// The same, for others to add to.
+    BlockMatrix &
+    matrix()
     {
       return *block_matrix;
     }

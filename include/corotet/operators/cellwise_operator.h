@@ -92,6 +92,10 @@ namespace corotet
       return prescribed;
     }
 
+  protected:
+    /// For what derived classes add.
+    VectorType diagonal_of_A;
+
   private:
     template <typename Store>
     void
@@ -108,7 +112,6 @@ namespace corotet
     T                 lumped      = 0;
     T                 unit        = 0;
     const VectorType *lumped_mass = nullptr;
-    VectorType        diagonal_of_A;
 
     const SurfaceOperator<T> *surface = nullptr;
     /// Its product with the source; zero everywhere else.

@@ -9,6 +9,7 @@
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/mass.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -44,15 +45,23 @@ namespace corotet
     void
     update(const double c_K, const double c_M);
 
+    /// dst = A src. Collective.
+    void
+    vmult(Vector &dst, const Vector &src) const;
+
     /// A with the numbers of the last update(); they are computed by the first
     /// call after it. Collective.
     const BlockMatrix &
     matrix() const;
 
-    /// The object behind matrix(), for other numbers, which are gone when
-    /// matrix() is called again. Collective.
-    AssembledMatrix &
-    matrix_for_others() const;
+    /**
+     * The matrix of cells that @p update writes to the object that is behind
+     * matrix(), and @p stiffness_factor times the stiffness of the vertices'
+     * dilatation: gone when matrix() is called again. Collective.
+     */
+    const BlockMatrix &
+    other_matrix(const std::function<void(AssembledMatrix &)> &update,
+                 const double stiffness_factor) const;
 
     /// f += S v for owned entries. v has ghost values.
     void
@@ -157,6 +166,9 @@ namespace corotet
     std::unique_ptr<const ForceRoundOff>     noise;
     mutable std::unique_ptr<AssembledMatrix> assembled;
     mutable bool                             is_assembled = false;
+    /// What is multiplied, without prescribed entries; empty without a
+    /// dilatation of the vertices.
+    mutable Vector source;
 
     const SurfaceMatrix                     *surface_matrix  = nullptr;
     double                                   size_of_surface = 0;

@@ -8,6 +8,7 @@
 #include <corotet/base/vector.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
+#include <corotet/material/dilatation.h>
 #include <corotet/material/material_law.h>
 #include <corotet/operators/cell_loop.h>
 #include <corotet/operators/elastic_sweeps.h>
@@ -19,6 +20,8 @@
 
 namespace corotet
 {
+  class VertexDilatation;
+
   /**
    * Elastic energy and shape of a deformed body.
    */
@@ -71,11 +74,15 @@ namespace corotet
   class Elasticity
   {
   public:
-    /// @p materials by region id.
+    /// @p materials by region id. @p dilatation: that of vertices is for linear
+    /// and corotational laws and elements of degree 1.
     Elasticity(const Discretization                            &discretization,
                const ReferenceElement                          &reference,
                const std::map<unsigned int, IsotropicMaterial> &materials,
-               const std::shared_ptr<const MaterialLaw>        &law);
+               const std::shared_ptr<const MaterialLaw>        &law,
+               const Dilatation dilatation = Dilatation::cells);
+
+    ~Elasticity();
 
     /// Takes the rotation of every local cell from the displacement @p u. For
     /// linear elasticity it does nothing.
@@ -166,6 +173,19 @@ namespace corotet
         apply_linearization(f, v, 1., 0., nullptr, nullptr);
     }
 
+    /// The part of the law that is of the vertices' dilatation, not of the
+    /// cells; null if there is none. It takes the present rotations.
+    /// explicit_step() and coefficients() know nothing of it.
+    VertexDilatation *
+    vertex_dilatation() const
+    {
+      return dilatation.get();
+    }
+
+    /// What that part reads of the cells.
+    ElasticData
+    elastic_data() const;
+
     ElasticState
     state(const Vector &u) const;
 
@@ -233,11 +253,9 @@ namespace corotet
   private:
     void
     set_up_cells();
+    /// elastic_data() for sweeps that rotate.
     ElasticData
-    elastic_data() const;
-    /// The same, for sweeps that rotate.
-    ElasticData
-    elastic_data();
+    rotating_data();
     /// grad u at the centre of a cell.
     dealii::Tensor<2, 3>
     centre_gradient(const unsigned int cell, const Vector &u) const;
@@ -274,6 +292,8 @@ namespace corotet
     Tangent                       linearized_tangent = Tangent::frozen_rotation;
 
     RotationCounts counts;
+
+    std::unique_ptr<VertexDilatation> dilatation;
   };
 } // namespace corotet
 

@@ -6,6 +6,7 @@
 
 #include <corotet/base/vector.h>
 #include <corotet/discretization/discretization.h>
+#include <corotet/operators/node_numbers.h>
 
 #include <functional>
 #include <vector>
@@ -43,6 +44,11 @@ namespace corotet
     {
       return partitioner->locally_owned_size() / 6;
     }
+
+    /// Numbers of these nodes through all ranks; local ones are the same.
+    /// Collective.
+    NodeNumbers
+    numbers() const;
 
     /// The discretization's node and the material of each, ghosts included.
     struct Copy

@@ -13,6 +13,8 @@
 
 namespace corotet
 {
+  class VertexDilatation;
+
   /**
    * Error of the stress, estimated by its distance from a recovered stress
    * sigma* (Zienkiewicz, Zhu 1987, @cite zienkiewicz1987), that of one-sided
@@ -48,11 +50,13 @@ namespace corotet
   class StressField
   {
   public:
-    /// @p materials by region id.
+    /// @p materials by region id. @p dilatation: that of the vertices, which
+    /// must outlive this object; null if the law is that of cells.
     StressField(const Discretization                            &discretization,
                 const ReferenceElement                          &reference,
                 const std::map<unsigned int, IsotropicMaterial> &materials,
-                const std::shared_ptr<const MaterialLaw>        &law);
+                const std::shared_ptr<const MaterialLaw>        &law,
+                const VertexDilatation *dilatation = nullptr);
 
     /// From now on all is that of the displacement @p u, which must not change
     /// until the next call; its ghost entries must be up to date.
@@ -108,6 +112,11 @@ namespace corotet
     error();
 
   private:
+    /// At the points of a rule in a local cell.
+    void
+    evaluate(const unsigned int                   cell,
+             const ReferenceElement::PointValues &rule,
+             dealii::SymmetricTensor<2, 3>       *stresses) const;
     void
     set_up(std::unique_ptr<const StressPatches> &patches,
            Vector                               &vector,
@@ -121,6 +130,10 @@ namespace corotet
     const Discretization   &discretization;
     const ReferenceElement &reference;
     const PointStress       point_stress;
+    const VertexDilatation *dilatation;
+    const bool              has_rotations;
+    /// VertexDilatation::pressure_corrections(), if there is one.
+    std::vector<double> pressure_corrections;
 
     /// Made when they are first needed.
     std::unique_ptr<const MaterialNodes> nodes;

@@ -74,7 +74,11 @@ namespace corotet
     StressField
     stress_field() const
     {
-      return {discretization, reference, materials, law};
+      return {discretization,
+              reference,
+              materials,
+              law,
+              elasticity.vertex_dilatation()};
     }
 
     /// What the log says of it at the start.

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_material_dilatation_h
+#define corotet_material_dilatation_h
+
+#include <corotet/base/enumeration.h>
+
+namespace corotet
+{
+  /**
+   * Whose change of volume the elements of degree 1 resist.
+   */
+  enum class Dilatation
+  {
+    /// That of each cell, which locks in nearly incompressible bodies.
+    cells,
+    /// The mean of the cells around each vertex, see VertexDilatation.
+    vertices
+  };
+
+  inline const Enumeration<Dilatation> dilatations{{"cells", Dilatation::cells},
+                                                   {"vertices",
+                                                    Dilatation::vertices}};
+} // namespace corotet
+
+#endif

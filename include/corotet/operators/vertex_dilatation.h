@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_operators_vertex_dilatation_h
+#define corotet_operators_vertex_dilatation_h
+
+#include <corotet/base/vector.h>
+#include <corotet/discretization/discretization.h>
+#include <corotet/material/isotropic.h>
+#include <corotet/operators/block_matrix.h>
+#include <corotet/operators/material_nodes.h>
+#include <corotet/operators/sweep.h>
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Mean dilatation at the vertices, for elements of degree 1: what an
+   * isotropic law has with Lame's lambda, where the dilatation is the mean of
+   * the cells around a vertex (average nodal pressures: Bonet, Burton 1998,
+   * @cite bonet1998),
+   *
+   *   W = sum_a V_a lambda / 2 theta_a^2,
+   *   V_a theta_a = sum_c V_c / 4 theta_c,  V_a = sum_c V_c / 4,
+   *
+   * theta_c = tr(R^T F) - 3 with the rotation R of the cell, and div u without
+   * rotations. Cells have five or six times as many dilatations as there are
+   * vertices, and so next to no motions without any: they lock where lambda is
+   * large. Those of the vertices do not. Where theta is linear in space both
+   * energies differ by O(h^2), so orders of convergence stay.
+   *
+   * In a cell it is the stress p R with the mean p of the pressures lambda
+   * theta_a of its vertices. A vertex where materials meet has a dilatation for
+   * each of them.
+   *
+   * The force of a node so depends on two layers of cells around it. Sweeps run
+   * over ghost cells, too, and have to exchange the pressures only. The matrix
+   * is a sum over the vertices of V_a lambda b_a b_a^T, where b_a u = theta_a;
+   * rows b_a of ghosts come from their owners.
+   *
+   * Vectors are those of the discretization; those that are read must have
+   * ghost entries up to date, sums are added to owned entries. The ElasticData
+   * are those of the elasticity with its present rotations, also of ghost
+   * cells. @p discretization must outlive this object. All members are
+   * collective.
+   */
+  class VertexDilatation
+  {
+  public:
+    /// @p material_of_cell: of each local cell, among @p materials, which are
+    /// the same on all ranks.
+    VertexDilatation(const Discretization                 &discretization,
+                     const std::vector<IsotropicMaterial> &materials,
+                     const std::vector<unsigned int>      &material_of_cell);
+
+    /// f += the force [N] of the displacement @p u.
+    void
+    add_force(Vector &f, const Vector &u, const ElasticData &data);
+
+    /// The part of this rank of the energy of the displacement @p u [J]. Not
+    /// collective.
+    double
+    local_energy(const Vector &u, const ElasticData &data);
+
+    /// f += factor K v, the derivative of the force with frozen rotations.
+    void
+    add_product(Vector            &f,
+                const Vector      &v,
+                const double       factor,
+                const ElasticData &data);
+
+    /// Prepares what the derivative of the rotations has, p dR, at the
+    /// displacement @p u.
+    void
+    linearize(const Vector &u, const ElasticData &data);
+
+    /// f += (factor K + that) v.
+    void
+    add_tangent(Vector            &f,
+                const Vector      &v,
+                const double       factor,
+                const ElasticData &data);
+
+    /// @p sums += that of a batch alone, whose cells are those of @p data. Not
+    /// collective.
+    void
+    add_rotation_part(const ElasticData &data,
+                      const unsigned int batch,
+                      const double      *source,
+                      double            *sums) const;
+
+    /// What comes to the stress of each local cell, a multiple of the identity:
+    /// p - lambda theta_c [Pa]. Rotations are those of @p u itself.
+    std::vector<double>
+    pressure_corrections(const Vector &u, const bool has_rotations) const;
+
+    /// diagonal += factor times that of K.
+    void
+    add_diagonal(Vector            &diagonal,
+                 const double       factor,
+                 const ElasticData &data);
+
+    /// That of matrices with K: blocks of nodes that have a neighbour in
+    /// common. Throws ComputationError if they are too many for one rank.
+    const std::shared_ptr<const BlockPattern> &
+    block_pattern();
+
+    /// A += factor K, without the entries of prescribed unknowns off the
+    /// diagonal, which @p is_prescribed marks among the local ones. A has the
+    /// block_pattern().
+    void
+    add_to_matrix(BlockMatrix                      &A,
+                  const std::vector<unsigned char> &is_prescribed,
+                  const double                      factor,
+                  const ElasticData                &data);
+
+  private:
+    /// values[a] = V_a theta_a of owned copies.
+    template <bool of_displacement>
+    void
+    sum_dilatations(const double *source, const ElasticData &data);
+    /// Makes pressures of the values, those of ghosts, too.
+    void
+    make_pressures();
+    /// Adds p R, times @p factor, and the stored part, if wanted.
+    template <bool with_rotation_part>
+    void
+    add_stress(Vector            &f,
+               const double      *source,
+               const double       factor,
+               const ElasticData &data);
+    /// Mean of the four vertices of each cell of a batch.
+    Simd<double>
+    mean_pressure(const unsigned int batch) const;
+    void
+    make_rows();
+    void
+    update_rows(const ElasticData &data);
+    /// Calls @p function(copy, k, i) for entries k of the rows whose columns
+    /// are owned nodes i.
+    template <typename Function>
+    void
+    for_owned_columns(const Function &function) const;
+
+    const Discretization          &discretization;
+    std::vector<IsotropicMaterial> materials;
+    std::vector<unsigned int>      material_of_cell;
+    std::unique_ptr<MaterialNodes> copies;
+    GhostExchange                  exchange;
+    /// [batch][vertex][lane].
+    std::vector<unsigned int> copies_of_cells;
+    /// lambda / V_a of each copy.
+    std::vector<double> moduli;
+    /// Of each copy; see make_pressures().
+    std::vector<double> values;
+    /// Four numbers per local node; zero between sweeps.
+    dealii::AlignedVector<double> sums;
+    /// p V G^{-1} of all local batches, [6][lane] each.
+    dealii::AlignedVector<double> linearization;
+
+    /// V_a b_a of owned copies, then of ghosts: three numbers for each column,
+    /// the global number of a node.
+    NodeGraph                           rows;
+    GhostExchange                       exchange_of_rows;
+    std::vector<double>                 entries;
+    std::shared_ptr<const BlockPattern> pattern;
+    /// The entries of rows by owned nodes: their copies.
+    NodeGraph copies_of_nodes;
+  };
+} // namespace corotet
+
+#endif

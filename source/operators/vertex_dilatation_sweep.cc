@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/material/polar_decomposition.h>
+#include <corotet/operators/gather.h>
+#include <corotet/operators/rotated_frame.h>
+#include <corotet/operators/vertex_dilatation.h>
+
+#include <algorithm>
+
+namespace corotet
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    constexpr unsigned int n_vertices = 4;
+
+    using CellValues = Simd<double>[n_vertices][3];
+
+    // H = grad u R^T.
+    COROTET_ALWAYS_INLINE void
+    rotated_gradient(const Simd<double> (&g)[9],
+                     const CellValues &u,
+                     Tensor2Lanes     &H)
+    {
+      static_for<9>([&](auto ab) {
+        constexpr int a = ab / 3, b = ab % 3;
+        H[a][b] = u[1][a] * g[b] + u[2][a] * g[3 + b] + u[3][a] * g[6 + b];
+      });
+    }
+
+    // The first occurrence of each material.
+    std::vector<unsigned int>
+    without_repetition(std::vector<IsotropicMaterial> &materials)
+    {
+      std::vector<unsigned int>      index;
+      std::vector<IsotropicMaterial> different;
+      for (const IsotropicMaterial &material : materials)
+        {
+          unsigned int i = 0;
+          while (i < different.size() &&
+                 (different[i].lambda != material.lambda ||
+                  different[i].mu != material.mu))
+            ++i;
+          if (i == different.size())
+            different.push_back(material);
+          index.push_back(i);
+        }
+      materials = different;
+      return index;
+    }
+  } // namespace
+
+  VertexDilatation::VertexDilatation(
+    const Discretization                 &discretization,
+    const std::vector<IsotropicMaterial> &all_materials,
+    const std::vector<unsigned int>      &material_of_cell)
+    : discretization(discretization)
+    , materials(all_materials)
+    , material_of_cell(material_of_cell)
+  {
+    const std::vector<unsigned int> index = without_repetition(materials);
+    for (unsigned int &material : this->material_of_cell)
+      material = index[material];
+    copies                    = std::make_unique<MaterialNodes>(discretization,
+                                             materials.size(),
+                                             [this](const unsigned int c) {
+                                               return this->material_of_cell[c];
+                                             });
+    const NodeNumbers numbers = copies->numbers();
+    exchange = GhostExchange(discretization.communicator(), numbers);
+    values.resize(numbers.n_local());
+    moduli.resize(numbers.n_local());
+    sums.resize(4 * std::size_t(discretization.n_local_nodes()));
+
+    const CellBatches &batches = discretization.batches();
+    copies_of_cells.resize(std::size_t(n_vertices) * batch_size *
+                           batches.n_batches());
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+      {
+        const auto [batch, lane] = batches.place(c);
+        const auto own           = copies->cell_nodes(c);
+        for (unsigned int i = 0; i < n_vertices; ++i)
+          {
+            copies_of_cells[(n_vertices * batch + i) * batch_size + lane] =
+              own[i];
+            moduli[own[i]] += discretization.geometry(c).volume / n_vertices;
+          }
+      }
+    for (unsigned int a = 0; a < copies->n_owned(); ++a)
+      moduli[a] = materials[copies->copy(a).material].lambda / moduli[a];
+    exchange.update(moduli.data());
+  }
+
+  template <bool of_displacement>
+  void
+  VertexDilatation::sum_dilatations(const double      *source,
+                                    const ElasticData &data)
+  {
+    std::fill(values.begin(), values.end(), 0.);
+    const unsigned int *copy = copies_of_cells.data();
+    for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
+      {
+        CellValues   u;
+        Simd<double> g[9];
+        Tensor2Lanes H;
+        gather_differences<n_vertices>(data.batches, batch, source, u);
+        load_rotated(data, batch, g);
+        rotated_gradient(g, u, H);
+        Simd<double> dilatation = H[0][0] + H[1][1] + H[2][2];
+        if (of_displacement && data.has_rotations)
+          {
+            Tensor2Lanes R;
+            rotations_of(data, batch, R);
+            dilatation += R[0][0] + R[1][1] + R[2][2] - 3.;
+          }
+        // Zero in lanes without a cell.
+        dilatation *= lanes(data.constants[batch].volume) * (1. / n_vertices);
+        for (unsigned int i = 0; i < n_vertices; ++i, copy += batch_size)
+          for (unsigned int lane = 0; lane < batch_size; ++lane)
+            values[copy[lane]] += dilatation[lane];
+      }
+  }
+
+  void
+  VertexDilatation::make_pressures()
+  {
+    for (unsigned int a = 0; a < copies->n_owned(); ++a)
+      values[a] *= moduli[a];
+    exchange.update(values.data());
+  }
+
+  Simd<double>
+  VertexDilatation::mean_pressure(const unsigned int batch) const
+  {
+    const unsigned int *copy =
+      &copies_of_cells[std::size_t(n_vertices) * batch_size * batch];
+    Simd<double> sum{};
+    for (unsigned int i = 0; i < n_vertices; ++i, copy += batch_size)
+      for (unsigned int lane = 0; lane < batch_size; ++lane)
+        sum[lane] += values[copy[lane]];
+    return sum * (1. / n_vertices);
+  }
+
+  void
+  VertexDilatation::add_rotation_part(const ElasticData &data,
+                                      const unsigned int batch,
+                                      const double      *source,
+                                      double            *sums) const
+  {
+    CellValues   v, f;
+    Simd<double> g[9], T[6], a[3], w[3];
+    Tensor2Lanes H;
+    gather_differences<n_vertices>(data.batches, batch, source, v);
+    load_rotated(data, batch, g);
+    rotated_gradient(g, v, H);
+    axial_vector(H, a);
+    const double *const stored =
+      &linearization[std::size_t(6) * batch_size * batch];
+    static_for<6>([&](auto s) { T[s] = lanes(stored + s * batch_size); });
+    symmetric_times(T, a, w);
+    static_for<3>([&](auto k) {
+      const Simd<double> *const gradient = g + 3 * k;
+      static_for<3>([&](auto a) {
+        constexpr int b = (a + 1) % 3, c = (a + 2) % 3;
+        f[k + 1][a] = w[b] * gradient[c] - w[c] * gradient[b];
+      });
+    });
+    static_for<3>([&](auto a) { f[0][a] = -(f[1][a] + f[2][a] + f[3][a]); });
+    scatter_add<n_vertices>(f, data.batches.nodes(batch), sums);
+  }
+
+  template <bool with_rotation_part>
+  void
+  VertexDilatation::add_stress(Vector            &f,
+                               const double      *source,
+                               const double       factor,
+                               const ElasticData &data)
+  {
+    for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
+      {
+        CellValues   in_cell;
+        Simd<double> g[9];
+        load_rotated(data, batch, g);
+        const Simd<double> pressure =
+          factor * lanes(data.constants[batch].volume) * mean_pressure(batch);
+        static_for<3>([&](auto a) {
+          in_cell[0][a] = Simd<double>{};
+          static_for<3>([&](auto k) {
+            in_cell[k + 1][a] = pressure * g[3 * k + a];
+            in_cell[0][a] -= in_cell[k + 1][a];
+          });
+        });
+        scatter_add<n_vertices>(in_cell,
+                                data.batches.nodes(batch),
+                                sums.data());
+        if constexpr (with_rotation_part)
+          add_rotation_part(data, batch, source, sums.data());
+      }
+    take_sums(sums.data(),
+              0,
+              discretization.n_owned_nodes(),
+              [&](const unsigned int i, const auto y) {
+                using V = decltype(y + y);
+                store_to(load_as<V>(f.begin() + i) + y, f.begin() + i);
+              });
+    std::fill(sums.begin() + std::size_t(4) * discretization.n_owned_nodes(),
+              sums.end(),
+              0.);
+  }
+
+  void
+  VertexDilatation::add_force(Vector            &f,
+                              const Vector      &u,
+                              const ElasticData &data)
+  {
+    sum_dilatations<true>(u.begin(), data);
+    make_pressures();
+    add_stress<false>(f, nullptr, 1., data);
+  }
+
+  double
+  VertexDilatation::local_energy(const Vector &u, const ElasticData &data)
+  {
+    sum_dilatations<true>(u.begin(), data);
+    double energy = 0;
+    for (unsigned int a = 0; a < copies->n_owned(); ++a)
+      energy += moduli[a] / 2 * values[a] * values[a];
+    return energy;
+  }
+
+  void
+  VertexDilatation::add_product(Vector            &f,
+                                const Vector      &v,
+                                const double       factor,
+                                const ElasticData &data)
+  {
+    sum_dilatations<false>(v.begin(), data);
+    make_pressures();
+    add_stress<false>(f, nullptr, factor, data);
+  }
+
+  void
+  VertexDilatation::linearize(const Vector &u, const ElasticData &data)
+  {
+    sum_dilatations<true>(u.begin(), data);
+    make_pressures();
+    linearization.resize_fast(std::size_t(6) * batch_size *
+                              data.batches.n_batches());
+    double *stored = linearization.data();
+    for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
+      {
+        CellValues   values_of_u;
+        Simd<double> g[9], S[6], T[6];
+        Tensor2Lanes R, B;
+        gather_differences<n_vertices>(data.batches,
+                                       batch,
+                                       u.begin(),
+                                       values_of_u);
+        load_rotated(data, batch, g);
+        rotations_of(data, batch, R);
+        rotated_gradient(g, values_of_u, B);
+        add_transposed(R, B);
+        symmetric_part(B, S);
+        inverse_spin_tensor(S, T);
+        const Simd<double> volume = lanes(data.constants[batch].volume);
+        const Simd<double> factor = volume * mean_pressure(batch);
+        static_for<6>([&](auto s) {
+          // Lanes without a cell have no rotation.
+          const Simd<double> value =
+            volume > 0. ? T[s] * factor : broadcast(0.);
+          store_aligned(value, stored + s * batch_size);
+        });
+        stored += std::size_t(6) * batch_size;
+      }
+  }
+
+  void
+  VertexDilatation::add_tangent(Vector            &f,
+                                const Vector      &v,
+                                const double       factor,
+                                const ElasticData &data)
+  {
+    sum_dilatations<false>(v.begin(), data);
+    make_pressures();
+    add_stress<true>(f, v.begin(), factor, data);
+  }
+
+  std::vector<double>
+  VertexDilatation::pressure_corrections(const Vector &u,
+                                         const bool    has_rotations) const
+  {
+    const unsigned int  n_cells = discretization.n_local_cells();
+    std::vector<double> result(n_cells), pressures(values.size());
+    for (unsigned int c = 0; c < n_cells; ++c)
+      {
+        const auto          nodes    = discretization.cell_nodes(c);
+        const CellGeometry &geometry = discretization.geometry(c);
+        Tensor<2, 3>        by_xi;
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int a = 0; a < 3; ++a)
+            by_xi[a][k] = u.local_element(3 * nodes[k + 1] + a) -
+                          u.local_element(3 * nodes[0] + a);
+        const Tensor<2, 3> H          = by_xi * geometry.inverse_jacobian;
+        double             dilatation = trace(H);
+        if (has_rotations)
+          {
+            const Tensor<2, 3> R =
+              polar_decomposition(
+                H + Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()))
+                .rotation;
+            dilatation = scalar_product(R, H) + trace(R) - 3;
+          }
+        result[c] = -materials[material_of_cell[c]].lambda * dilatation;
+        for (const unsigned int copy : copies->cell_nodes(c))
+          pressures[copy] += geometry.volume / n_vertices * dilatation;
+      }
+    for (unsigned int a = 0; a < copies->n_owned(); ++a)
+      pressures[a] *= moduli[a];
+    exchange.update(pressures.data());
+    for (unsigned int c = 0; c < n_cells; ++c)
+      for (const unsigned int copy : copies->cell_nodes(c))
+        result[c] += pressures[copy] / n_vertices;
+    return result;
+  }
+} // namespace corotet
