@@ -157,11 +157,21 @@ namespace corotet
         // is known up to round-off.
         const double nu =
           material.lambda / (2 * (material.lambda + material.mu));
+        const bool locks = body.discretization.degree() == 1 &&
+                           body.elasticity.vertex_dilatation() == nullptr;
+        if (locks && nu > 0.49 - 1e-9)
+          log.warning(fmt::format(
+            "Material/Poisson's ratio: {:.9g} of region '{}' makes elements of "
+            "degree 1 too stiff: their volume changes cell by cell; Dilatation "
+            "= vertices takes the mean around each vertex, and elements of "
+            "degree 2 and 3 are more accurate",
+            nu,
+            body.mesh.regions().name(region)));
         if (nu > 0.499 + 1e-9)
           log.warning(fmt::format(
             "Material/Poisson's ratio: {:.9g} of region '{}' is almost that of "
-            "an incompressible material: cells become too stiff, and "
-            "iterations many or without end; 0.499 is in general close enough, "
+            "an incompressible material: iterations are many or without end, "
+            "and pressures inaccurate; 0.499 is in general close enough, "
             "and Linear solver/Type = direct needs no iterations",
             nu,
             body.mesh.regions().name(region)));

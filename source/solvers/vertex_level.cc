@@ -56,8 +56,9 @@ namespace corotet
       {
         // Larger aggregates take a third more iterations of half the work and
         // memory: for elements of degree 1 only, as on others iterations cost
-        // more.
-        if (quadratic == nullptr)
+        // more. The dilatation of vertices couples more nodes, which makes
+        // aggregates that large anyway.
+        if (quadratic == nullptr && !couples_further)
           result.n_joined = 3;
         return result;
       }
@@ -98,7 +99,8 @@ namespace corotet
                                     A.discretization())
     , finest_nodes(std::move(finest_nodes))
   {
-    is_thin_body = is_thin(A.discretization());
+    is_thin_body    = is_thin(A.discretization());
+    couples_further = A.elasticity().vertex_dilatation() != nullptr;
     aggregation.set_coarsening(coarsening_for(proportions));
     vertices.initialize_vector(x);
     vertices.initialize_vector(b);

@@ -63,6 +63,8 @@ class Combination:
         self.choose_integrator()
         self.choose_loads()
         self.choose_solvers()
+        if self.entries["Discretization/Degree"] == 1:
+            self.choose("Material/Dilatation", "cells", "vertices")
 
     def choose(self, entry, *values):
         self.entries[entry] = self.random.choice(values)

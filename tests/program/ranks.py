@@ -86,6 +86,24 @@ class Ranks(ProgramTest):
                 for ranks, end in found.items():
                     self.assertAlmostEqual(end["elastic_energy"] / found[1]["elastic_energy"], 1, delta=1e-9, msg=f"{degree} {solver} {ranks}")
 
+    def test_vertex_dilatation(self):
+        """What depends on two layers of cells around a node, in steps of either kind, with each solver."""
+        case = {"Mesh/Type": "box", "Mesh/box/Size": "4, 1, 1", "Mesh/box/Cells": "8, 2, 2", "Discretization/Degree": "1",
+                "Material/Dilatation": "vertices", "Material/Poisson's ratio": "0.49", "Boundary conditions/Fixed": "x-min",
+                "Loads/Gravity": "0; 0; -9.81", "Time integration/End time": "0.1", "Output/Probes": "tip: 4 1 1",
+                "Output/Overwrite": "true", "Linear solver/Tolerance": "1e-11", "Newton/Residual tolerance": "1e-10"}
+        explicit = {"Time integration/Type": "central difference", "Discretization/Mass": "diagonal scaling", "Time integration/Time step": "0"}
+        aggregation = {"Linear solver/Type": "p-multigrid", "Linear solver/p-multigrid/Coarse solver": "aggregation"}
+        for more in (explicit, aggregation, {"Linear solver/Type": "direct"}, {"Linear solver/Type": "jacobi"}):
+            (self.folder / "case.prm").write_text(parameter_text({**case, **more}), encoding="utf-8")
+            tips = {}
+            for ranks in (1, 3, 7):
+                run = run_on(ranks, ["case.prm", "--output", self.folder / "results", "--quiet"], self.folder, 120)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                tips[ranks] = float(read_history(self.folder / "results")[-1]["tip_z"])
+            for ranks, tip in tips.items():
+                self.assertAlmostEqual(tip / tips[1], 1, delta=1e-8, msg=f"{more} {ranks}")
+
     @unittest.skipUnless(has_preconditioner("amg"), "built without Epetra")
     def test_amg(self):
         self.check("amg")

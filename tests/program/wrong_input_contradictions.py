@@ -175,6 +175,13 @@ def solver_rows():
     yield wrong("modes: restart", MODES[::-1], "--restart", arguments=("--restart",), by_option=False)
 
 
+def dilatation_rows():
+    vertices = "Material/Dilatation = vertices"
+    yield wrong("vertices' dilatation, degree 2", ("Discretization/Degree = 2", vertices), "elements of degree 2", "allowed: 'cells', or degree 1")
+    for kind in ("neo-Hookean", "Saint Venant-Kirchhoff"):
+        yield wrong(f"vertices' dilatation, {kind}", ("Discretization/Degree = 1", f"Material/Type = {kind}", vertices), kind, "linear or corotational")
+
+
 def exact_rows():
     exact = "Exact solution/Displacement"
     free = f"{FIXED} ="
@@ -224,5 +231,5 @@ def check_rows():
 
 
 def contradiction_rows():
-    for rows in (formula_rows, boundary_rows, point_rows, material_rows, time_rows, solver_rows, exact_rows, study_rows, check_rows):
+    for rows in (formula_rows, boundary_rows, point_rows, material_rows, time_rows, solver_rows, dilatation_rows, exact_rows, study_rows, check_rows):
         yield from rows()

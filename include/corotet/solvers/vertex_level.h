@@ -117,6 +117,8 @@ namespace corotet
     /// Local unknowns of vertices.
     std::vector<unsigned int> prescribed;
     bool                      is_thin_body = false;
+    /// Whether the matrix couples more nodes than those that share a cell.
+    bool couples_further = false;
 
     /// One of them, or none where A is of degree 1.
     std::unique_ptr<AssembledMatrix> assembled;
