@@ -210,7 +210,7 @@ namespace corotet
                 const double *other = &entries[3 * std::size_t(k)];
                 for (int a = 0; a < 3; ++a)
                   {
-                    double *const row = A.row(i, a) + 3 * places[j];
+                    double *const row = A.row(i, a) + std::size_t(3) * places[j];
                     for (int b = 0; b < 3; ++b)
                       if ((i == j && a == b) ||
                           (!prescribed[3 * i + a] && !prescribed[3 * j + b]))
