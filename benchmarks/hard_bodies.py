@@ -151,9 +151,11 @@ def bent_iterations(options, folder, mesh, degree, poisson):
                      BENT.format(radius=2 * length / np.pi, middle=height / 2))
     for entry, value, wanted in (("Type", "linear", "corotational"),
                                  ("Type", "static", "backward Euler\n  set End time = 1e6\n  set Time step = 1e6")):
+        assert f"set {entry} = {value}\n" in case
         case = case.replace(f"set {entry} = {value}\n", f"set {entry} = {wanted}\n")
     try:
-        return solve(options.program, folder, case, options.ranks)[1]
+        run = solve(options.program, folder, case, options.ranks)
+        return "-" if run is None else run[1]
     except RuntimeError as error:
         if "inside out" not in str(error):
             raise

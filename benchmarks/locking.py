@@ -61,6 +61,9 @@ end
 subsection Time integration
   set Type = static
 end
+subsection Linear solver
+  set Type = p-multigrid
+end
 subsection Output
   set Overwrite = true
   set Stress    = both

@@ -8,19 +8,25 @@
 
 namespace corotet
 {
+  bool
+  allows_vertex_dilatation(const MaterialLaw &law)
+  {
+    // At degree 1 corotational laws take the rotations of cells.
+    return law.is_linear() || law.has_cell_rotation();
+  }
+
   Dilatation
-  MaterialParameters::dilatation_of(const unsigned int degree,
-                                    const MaterialLaw &law) const
+  MaterialParameters::dilatation_of(const unsigned int degree) const
   {
     const std::string entry = "Material/Dilatation";
-    if (dilatation == Dilatation::vertices && degree != 1)
+    if (dilatation == Dilatation::cells)
+      return dilatation;
+    if (degree != 1)
       throw InputError(entry,
                        fmt::format("found 'vertices' with elements of degree "
                                    "{}; allowed: 'cells', or degree 1",
                                    degree));
-    // At degree 1 corotational laws take the rotations of cells.
-    if (dilatation == Dilatation::vertices && !law.is_linear() &&
-        !law.has_cell_rotation())
+    if (!allows_vertex_dilatation(*law(degree)))
       throw InputError(entry,
                        "found 'vertices' with Material/Type = " + type.name() +
                          "; allowed: 'cells', or Type = linear or "

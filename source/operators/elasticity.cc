@@ -6,6 +6,7 @@
 #include <corotet/operators/elasticity.h>
 #include <corotet/operators/vertex_dilatation.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
@@ -37,6 +38,12 @@ namespace corotet
     material_of_cell.resize(discretization.n_local_cells());
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       material_of_cell[c] = index.at(discretization.region(c));
+    AssertThrow(whose_dilatation == Dilatation::cells ||
+                  (discretization.degree() == 1 &&
+                   (law->is_linear() || law->has_cell_rotation())),
+                dealii::ExcMessage(
+                  "The dilatation of vertices is for elements of degree 1 with "
+                  "linear or corotational laws."));
     if (whose_dilatation == Dilatation::vertices)
       dilatation = std::make_unique<VertexDilatation>(discretization,
                                                       cell_materials,
@@ -183,6 +190,7 @@ namespace corotet
                             const Vector &inverse_mass,
                             const double  dt)
   {
+    Assert(!dilatation, dealii::ExcNotImplemented());
     ElasticData data = rotating_data();
     cell_loop.run(
       u,

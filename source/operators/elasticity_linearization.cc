@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace corotet
@@ -34,7 +35,7 @@ namespace corotet
     data.new_linearization = linearization.data();
     work.linearize(
       data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
-    if (dilatation)
+    if (dilatation && tangent == Tangent::consistent)
       dilatation->linearize(u, data);
     return dealii::Utilities::MPI::sum(data.n_clamped,
                                        discretization.communicator());
@@ -49,16 +50,16 @@ namespace corotet
                                   const Vector             *lumped_mass) const
   {
     Assert(!linearization.empty(), dealii::ExcNotInitialized());
-    ElasticData data             = elastic_data();
-    data.linearization           = linearization.data();
-    data.linearized_displacement = linearized_displacement.begin();
-    data.frozen_factor           = frozen_factor;
-    data.masses                  = masses;
-    data.mass_factor             = c_M;
-    const ElasticSweep sweep     = sweeps.tangent(linearized_tangent).apply;
-    std::unique_ptr<const GhostsInUse> ghosts;
+    ElasticData data                 = elastic_data();
+    data.linearization               = linearization.data();
+    data.linearized_displacement     = linearized_displacement.begin();
+    data.frozen_factor               = frozen_factor;
+    data.masses                      = masses;
+    data.mass_factor                 = c_M;
+    const ElasticSweep         sweep = sweeps.tangent(linearized_tangent).apply;
+    std::optional<GhostsInUse> ghosts;
     if (dilatation)
-      ghosts = std::make_unique<const GhostsInUse>(v);
+      ghosts.emplace(v);
     cell_loop.run(
       v,
       [&](const auto    first,
@@ -73,8 +74,10 @@ namespace corotet
                     load_as<V>(v.begin() + i);
         store_to(result, f.begin() + i);
       });
-    if (dilatation)
+    if (dilatation && linearized_tangent == Tangent::consistent)
       dilatation->add_tangent(f, v, frozen_factor, data);
+    else if (dilatation)
+      dilatation->add_product(f, v, frozen_factor, data);
   }
 
   void
@@ -131,7 +134,7 @@ namespace corotet
               source[3 * lane * n + column] = 1;
             work.apply(
               data, batch, batch + 1, source.data(), &columns[column * size]);
-            if (dilatation)
+            if (dilatation && linearized_tangent == Tangent::consistent)
               dilatation->add_rotation_part(data,
                                             batch,
                                             source.data(),

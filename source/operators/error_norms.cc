@@ -3,6 +3,7 @@
 
 #include <corotet/discretization/point_geometry.h>
 #include <corotet/operators/error_norms.h>
+#include <corotet/operators/vertex_dilatation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -16,18 +17,23 @@ namespace corotet
 
   namespace
   {
-    // Squares of the norms.
+    // Squares of the norms. @p pressure comes to that of the gradient.
     void
     add(FieldNorms              &sums,
         const IsotropicMaterial &material,
         const Tensor<1, 3>      &value,
         const Tensor<2, 3>      &gradient,
-        const double             weight)
+        const double             weight,
+        const double             pressure = 0)
     {
       sums.L2 += weight * value.norm_square();
       sums.H1 += weight * gradient.norm_square();
       sums.energy +=
         weight * 2 * energy_density(material, symmetrize(gradient));
+      // lambda (theta + change)^2 in place of lambda theta^2.
+      if (pressure != 0)
+        sums.energy += weight * pressure *
+                       (2 * trace(gradient) + pressure / material.lambda);
     }
 
     FieldNorms
@@ -45,8 +51,12 @@ namespace corotet
     const Discretization                                     &discretization,
     const std::map<unsigned int, IsotropicMaterial>          &materials,
     const Vector                                             &u,
-    const std::function<PointDisplacement(const Point<3> &)> &reference)
+    const std::function<PointDisplacement(const Point<3> &)> &reference,
+    const VertexDilatation                                   *dilatation)
   {
+    const std::vector<double> pressures =
+      dilatation != nullptr ? dilatation->pressure_corrections(u, false) :
+                              std::vector<double>();
     const dealii::QWitherdenVincentSimplex<3> quadrature(5);
     const auto rule = ReferenceElement::tabulate(discretization.element(),
                                                  quadrature.get_points(),
@@ -77,7 +87,8 @@ namespace corotet
                 material,
                 value - exact.value,
                 gradient - exact.gradient,
-                geometry.volume);
+                geometry.volume,
+                dilatation != nullptr ? pressures[c] : 0.);
             add(sums.reference,
                 material,
                 exact.value,

@@ -3,10 +3,12 @@
 
 #include <corotet/operators/material_nodes.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace corotet
 {
@@ -117,6 +119,9 @@ namespace corotet
   NodeNumbers
   MaterialNodes::numbers() const
   {
+    AssertThrow(partitioner->size() / 6 <=
+                  static_cast<std::size_t>(std::numeric_limits<int>::max()),
+                dealii::ExcMessage("There are too many nodes."));
     NodeNumbers      result(discretization.communicator(), n_owned());
     std::vector<int> ghosts;
     for (unsigned int n = n_owned(); n < copies.size(); ++n)

@@ -178,7 +178,7 @@ namespace corotet
       {
         const IsotropicMaterial &material =
           point_stress.material(point_stress.material_index(c));
-        point_stress.evaluate(*displacement, c, rule, stresses.data());
+        evaluate(c, rule, stresses.data());
         double error_square = 0;
         for (unsigned int q = 0; q < stresses.size(); ++q)
           {

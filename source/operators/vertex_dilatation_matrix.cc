@@ -18,8 +18,9 @@ namespace corotet
   void
   VertexDilatation::make_rows()
   {
-    if (rows.n_rows() > 0 || pattern)
+    if (are_rows_made)
       return;
+    are_rows_made = true;
     // Pairs of owned copies and nodes that share a cell.
     std::vector<std::pair<unsigned int, int>> pairs;
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
@@ -43,6 +44,10 @@ namespace corotet
   void
   VertexDilatation::update_rows(const ElasticData &data)
   {
+    // Without rotations they never change.
+    if (are_entries_known && !data.has_rotations)
+      return;
+    are_entries_known = true;
     make_rows();
     std::fill(entries.begin(), entries.end(), 0.);
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
@@ -173,9 +178,9 @@ namespace corotet
     const ElasticData                &data)
   {
     update_rows(data);
-    const NodeNumbers &numbers = pattern->nodes();
-    const int          n_owned = numbers.n_owned();
-    Assert(A.pattern() == pattern, dealii::ExcInternalError());
+    Assert(pattern && A.pattern() == pattern, dealii::ExcInternalError());
+    const NodeNumbers         &numbers = pattern->nodes();
+    const int                  n_owned = numbers.n_owned();
     std::vector<unsigned char> prescribed(3 * std::size_t(numbers.n_local()));
     std::copy_n(is_prescribed.begin(),
                 3 * std::size_t(n_owned),
@@ -210,7 +215,8 @@ namespace corotet
                 const double *other = &entries[3 * std::size_t(k)];
                 for (int a = 0; a < 3; ++a)
                   {
-                    double *const row = A.row(i, a) + std::size_t(3) * places[j];
+                    double *const row =
+                      A.row(i, a) + std::size_t(3) * places[j];
                     for (int b = 0; b < 3; ++b)
                       if ((i == j && a == b) ||
                           (!prescribed[3 * i + a] && !prescribed[3 * j + b]))

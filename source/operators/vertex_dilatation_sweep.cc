@@ -6,6 +6,8 @@
 #include <corotet/operators/rotated_frame.h>
 #include <corotet/operators/vertex_dilatation.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 
 namespace corotet
@@ -95,9 +97,12 @@ namespace corotet
 
   template <bool of_displacement>
   void
-  VertexDilatation::sum_dilatations(const double      *source,
+  VertexDilatation::sum_dilatations(const Vector      &source,
                                     const ElasticData &data)
   {
+    Assert(source.has_ghost_elements() ||
+             source.get_partitioner()->n_ghost_indices() == 0,
+           dealii::ExcMessage("Ghost entries are not up to date."));
     std::fill(values.begin(), values.end(), 0.);
     const unsigned int *copy = copies_of_cells.data();
     for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
@@ -105,7 +110,7 @@ namespace corotet
         CellValues   u;
         Simd<double> g[9];
         Tensor2Lanes H;
-        gather_differences<n_vertices>(data.batches, batch, source, u);
+        gather_differences<n_vertices>(data.batches, batch, source.begin(), u);
         load_rotated(data, batch, g);
         rotated_gradient(g, u, H);
         Simd<double> dilatation = H[0][0] + H[1][1] + H[2][2];
@@ -147,7 +152,7 @@ namespace corotet
   VertexDilatation::add_rotation_part(const ElasticData &data,
                                       const unsigned int batch,
                                       const double      *source,
-                                      double            *sums) const
+                                      double            *target) const
   {
     CellValues   v, f;
     Simd<double> g[9], T[6], a[3], w[3];
@@ -168,7 +173,7 @@ namespace corotet
       });
     });
     static_for<3>([&](auto a) { f[0][a] = -(f[1][a] + f[2][a] + f[3][a]); });
-    scatter_add<n_vertices>(f, data.batches.nodes(batch), sums);
+    scatter_add<n_vertices>(f, data.batches.nodes(batch), target);
   }
 
   template <bool with_rotation_part>
@@ -215,7 +220,7 @@ namespace corotet
                               const Vector      &u,
                               const ElasticData &data)
   {
-    sum_dilatations<true>(u.begin(), data);
+    sum_dilatations<true>(u, data);
     make_pressures();
     add_stress<false>(f, nullptr, 1., data);
   }
@@ -223,7 +228,7 @@ namespace corotet
   double
   VertexDilatation::local_energy(const Vector &u, const ElasticData &data)
   {
-    sum_dilatations<true>(u.begin(), data);
+    sum_dilatations<true>(u, data);
     double energy = 0;
     for (unsigned int a = 0; a < copies->n_owned(); ++a)
       energy += moduli[a] / 2 * values[a] * values[a];
@@ -236,7 +241,7 @@ namespace corotet
                                 const double       factor,
                                 const ElasticData &data)
   {
-    sum_dilatations<false>(v.begin(), data);
+    sum_dilatations<false>(v, data);
     make_pressures();
     add_stress<false>(f, nullptr, factor, data);
   }
@@ -244,23 +249,20 @@ namespace corotet
   void
   VertexDilatation::linearize(const Vector &u, const ElasticData &data)
   {
-    sum_dilatations<true>(u.begin(), data);
+    sum_dilatations<true>(u, data);
     make_pressures();
     linearization.resize_fast(std::size_t(6) * batch_size *
                               data.batches.n_batches());
     double *stored = linearization.data();
     for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
       {
-        CellValues   values_of_u;
+        CellValues   in_cell;
         Simd<double> g[9], S[6], T[6];
         Tensor2Lanes R, B;
-        gather_differences<n_vertices>(data.batches,
-                                       batch,
-                                       u.begin(),
-                                       values_of_u);
+        gather_differences<n_vertices>(data.batches, batch, u.begin(), in_cell);
         load_rotated(data, batch, g);
         rotations_of(data, batch, R);
-        rotated_gradient(g, values_of_u, B);
+        rotated_gradient(g, in_cell, B);
         add_transposed(R, B);
         symmetric_part(B, S);
         inverse_spin_tensor(S, T);
@@ -282,7 +284,7 @@ namespace corotet
                                 const double       factor,
                                 const ElasticData &data)
   {
-    sum_dilatations<false>(v.begin(), data);
+    sum_dilatations<false>(v, data);
     make_pressures();
     add_stress<true>(f, v.begin(), factor, data);
   }

@@ -65,8 +65,7 @@ namespace corotet
                  reference,
                  materials,
                  law,
-                 parameters.material.dilatation_of(discretization.degree(),
-                                                   *law))
+                 parameters.material.dilatation_of(discretization.degree()))
     , motion(discretization,
              reference,
              conditions,

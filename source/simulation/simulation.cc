@@ -271,15 +271,16 @@ namespace corotet
     const ExactSolution *exact = the_body.problem.solution();
     if (exact == nullptr)
       return {};
-    const double     t = stepper.time();
-    const ErrorNorms norms =
-      error_norms(the_body.discretization,
-                  the_body.materials,
-                  displacement(),
-                  [&](const dealii::Point<3> &x) {
-                    return PointDisplacement{exact->displacement(x, t),
-                                             exact->gradient(x, t)};
-                  });
+    const double     t     = stepper.time();
+    const ErrorNorms norms = error_norms(
+      the_body.discretization,
+      the_body.materials,
+      displacement(),
+      [&](const dealii::Point<3> &x) {
+        return PointDisplacement{exact->displacement(x, t),
+                                 exact->gradient(x, t)};
+      },
+      the_body.elasticity.vertex_dilatation());
     const auto text = [](const double error, const double reference) {
       return fmt::format("{:.4g} ({:.3g} %)", error, 100 * error / reference);
     };

@@ -152,29 +152,32 @@ namespace corotet
   {
     for (const auto &[region, material] : body.materials)
       {
-        // With 0.499 displacements of degree 2 and 3 are good to some percent,
-        // and solvers need a few times more iterations. That it is this number
-        // is known up to round-off.
+        // That it is a round number is known up to round-off.
         const double nu =
           material.lambda / (2 * (material.lambda + material.mu));
-        const bool locks = body.discretization.degree() == 1 &&
-                           body.elasticity.vertex_dilatation() == nullptr;
-        if (locks && nu > 0.49 - 1e-9)
-          log.warning(fmt::format(
-            "Material/Poisson's ratio: {:.9g} of region '{}' makes elements of "
-            "degree 1 too stiff: their volume changes cell by cell; Dilatation "
-            "= vertices takes the mean around each vertex, and elements of "
-            "degree 2 and 3 are more accurate",
-            nu,
-            body.mesh.regions().name(region)));
-        if (nu > 0.499 + 1e-9)
-          log.warning(fmt::format(
-            "Material/Poisson's ratio: {:.9g} of region '{}' is almost that of "
-            "an incompressible material: iterations are many or without end, "
-            "and pressures inaccurate; 0.499 is in general close enough, "
-            "and Linear solver/Type = direct needs no iterations",
-            nu,
-            body.mesh.regions().name(region)));
+        const std::string found =
+          fmt::format("Material/Poisson's ratio: {:.9g} of region '{}' ",
+                      nu,
+                      body.mesh.regions().name(region));
+        const bool of_vertices = body.elasticity.vertex_dilatation() != nullptr;
+        if (body.discretization.degree() == 1 && !of_vertices &&
+            nu > 0.49 - 1e-9)
+          log.warning(
+            found +
+            "makes elements of degree 1 too stiff, as the volume of each of "
+            "their cells can hardly change; elements of degree 2 and 3 hardly "
+            "lock" +
+            (allows_vertex_dilatation(*body.law) ?
+               ", nor do those of degree 1 with Dilatation = vertices" :
+               ""));
+        // With 0.499 displacements of degree 2 and 3 are good to some percent,
+        // and solvers need a few times more iterations.
+        else if (nu > 0.499 + 1e-9)
+          log.warning(found + "is almost that of an incompressible material: " +
+                      (of_vertices ? "" : "pressures are inaccurate, and ") +
+                      "solvers need many iterations; 0.499 is in general close "
+                      "enough, and Linear solver/Type = direct needs no "
+                      "iterations");
       }
     if (!parameters.time_integrator.selected().is_dynamic())
       return;

@@ -31,7 +31,7 @@ namespace
   stress_field(const MovingBody                         &body,
                const std::shared_ptr<const MaterialLaw> &law)
   {
-    return {body.discretization, body.reference, body.materials, law};
+    return {body.discretization, body.reference, body.materials, law, nullptr};
   }
 
   // A box of two materials, stiff for x < 1, soft beyond, of distorted cells.
@@ -215,7 +215,8 @@ TEST(StressField, RanksMakeNoDifference)
     }
   w.update_ghost_values();
   const auto  materials = body.materials;
-  StressField alone(discretization, reference, materials, linear_law());
+  StressField alone(
+    discretization, reference, materials, linear_law(), nullptr);
   StressField together = stress_field(body, linear_law());
   alone.set_displacement(w);
   const Vector u =

@@ -25,7 +25,11 @@ namespace
   StressField
   stress_field(const MovingBody &body)
   {
-    return {body.discretization, body.reference, body.materials, linear_law()};
+    return {body.discretization,
+            body.reference,
+            body.materials,
+            linear_law(),
+            nullptr};
   }
 
   // The mean of the cells' stresses at the owned nodes of a body.

@@ -69,10 +69,8 @@ TEST(StressProbes, ExactInEachMaterial)
     {
       ModelBody              body(degree);
       const ReferenceElement reference(degree);
-      StressField            field(body.discretization,
-                        reference,
-                        materials,
-                        linear_law());
+      StressField            field(
+        body.discretization, reference, materials, linear_law(), nullptr);
       set_displacement(body);
       field.set_displacement(body.displacement);
       const auto left  = stress(materials.at(7), strain()),
@@ -91,7 +89,8 @@ TEST(StressProbes, Raw)
 {
   ModelBody              body(1);
   const ReferenceElement reference(1);
-  StressField field(body.discretization, reference, materials, linear_law());
+  StressField            field(
+    body.discretization, reference, materials, linear_law(), nullptr);
   for (unsigned int n = 0; n < body.discretization.n_local_nodes(); ++n)
     {
       const auto x = body.discretization.node_position(n);
@@ -117,7 +116,8 @@ TEST(StressProbes, ColumnsOfTheHistory)
 {
   ModelBody              body(1);
   const ReferenceElement reference(1);
-  StressField field(body.discretization, reference, materials, linear_law());
+  StressField            field(
+    body.discretization, reference, materials, linear_law(), nullptr);
   set_displacement(body);
   field.set_displacement(body.displacement);
   nlohmann::ordered_json row;

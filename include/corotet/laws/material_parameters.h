@@ -16,6 +16,11 @@
 
 namespace corotet
 {
+  /// Whether elements of degree 1 with that law may have the dilatation of
+  /// vertices: whether it is linear or corotational.
+  bool
+  allows_vertex_dilatation(const MaterialLaw &law);
+
   /**
    * The parameters of section Material. A value is one number for the whole
    * body or a list "region: number, region: number" that names every region.
@@ -39,10 +44,10 @@ namespace corotet
     std::map<unsigned int, IsotropicMaterial>
     materials(const MeshNames &regions) const;
 
-    /// Whose dilatation elements of that degree take, with that law. Throws
-    /// InputError if they have no choice and it is not that of cells.
+    /// Whose dilatation elements of that degree take. Throws InputError if they
+    /// or the law have no choice and it is not that of cells.
     Dilatation
-    dilatation_of(const unsigned int degree, const MaterialLaw &law) const;
+    dilatation_of(const unsigned int degree) const;
 
     Selectable<LawKind> type;
     Rotation            rotation       = Rotation::cell_centre;

@@ -19,7 +19,8 @@ namespace corotet
 
   /**
    * The linear operator of implicit steps, A = c_K K + c_M M + S: a
-   * CellwiseOperator with the numbers of a body, with the frozen rotations that
+   * CellwiseOperator with the numbers of a body and the dilatation of its
+   * vertices, if it has that, with the frozen rotations that
    * the elasticity has at the moment of update(), and a matrix S of the
    * surface, if there is one. A is symmetric and positive definite if c_M > 0
    * or if enough is prescribed or supported by S.
@@ -27,9 +28,12 @@ namespace corotet
    * A is assembled for those who ask for the matrix. The arguments of the
    * constructor must outlive this object.
    */
-  class EffectiveOperator : public CellwiseOperator<double>
+  class EffectiveOperator : private CellwiseOperator<double>
   {
   public:
+    using CellwiseOperator<double>::diagonal;
+    using CellwiseOperator<double>::prescribed_unknowns;
+
     /// @p is_prescribed: for each local unknown, ghosts included. @p surface:
     /// S, null if there is none. Collective.
     EffectiveOperator(const Discretization             &discretization,

@@ -13,6 +13,8 @@
 
 namespace corotet
 {
+  class VertexDilatation;
+
   /**
    * Norms of a displacement field v over the body at rest.
    */
@@ -23,7 +25,8 @@ namespace corotet
     /// sqrt(int |grad v|^2), the seminorm [m^{3/2}].
     double H1 = 0;
     /// sqrt(int eps : C : eps) with eps = sym(grad v) [J^{1/2}]: the energy
-    /// norm of linear elasticity, whatever the material's law.
+    /// norm of linear elasticity, whatever the material's law, with the
+    /// dilatation of the vertices where a body has it.
     double energy = 0;
   };
 
@@ -47,14 +50,16 @@ namespace corotet
   /**
    * Norms of u - reference, by a rule that is exact for polynomials of degree
    * 9, with @p u's ghosts up to date. Collective; @p reference is called for
-   * points of the body at rest.
+   * points of the body at rest. @p dilatation: that of the vertices of @p u,
+   * null if it is that of cells.
    */
   ErrorNorms
-  error_norms(const Discretization                            &discretization,
-              const std::map<unsigned int, IsotropicMaterial> &materials,
-              const Vector                                    &u,
-              const std::function<PointDisplacement(const dealii::Point<3> &)>
-                &reference);
+  error_norms(
+    const Discretization                            &discretization,
+    const std::map<unsigned int, IsotropicMaterial> &materials,
+    const Vector                                    &u,
+    const std::function<PointDisplacement(const dealii::Point<3> &)> &reference,
+    const VertexDilatation *dilatation = nullptr);
 } // namespace corotet
 
 #endif

@@ -56,7 +56,7 @@ namespace corotet
                 const ReferenceElement                          &reference,
                 const std::map<unsigned int, IsotropicMaterial> &materials,
                 const std::shared_ptr<const MaterialLaw>        &law,
-                const VertexDilatation *dilatation = nullptr);
+                const VertexDilatation                          *dilatation);
 
     /// From now on all is that of the displacement @p u, which must not change
     /// until the next call; its ghost entries must be up to date.

@@ -28,13 +28,13 @@ namespace corotet
    *   V_a theta_a = sum_c V_c / 4 theta_c,  V_a = sum_c V_c / 4,
    *
    * theta_c = tr(R^T F) - 3 with the rotation R of the cell, and div u without
-   * rotations. Cells have five or six times as many dilatations as there are
-   * vertices, and so next to no motions without any: they lock where lambda is
-   * large. Those of the vertices do not. Where theta is linear in space both
-   * energies differ by O(h^2), so orders of convergence stay.
+   * rotations. There are five or six times as many cells as vertices, and so
+   * next to no motions in which no cell changes its volume: where lambda is
+   * large, elements with the dilatation of cells lock. With that of the
+   * vertices they keep their orders of convergence.
    *
-   * In a cell it is the stress p R with the mean p of the pressures lambda
-   * theta_a of its vertices. A vertex where materials meet has a dilatation for
+   * In a cell it is the stress p R with the mean p of lambda theta_a at its
+   * vertices. A vertex where materials meet has a dilatation for
    * each of them.
    *
    * The force of a node so depends on two layers of cells around it. Sweeps run
@@ -45,8 +45,8 @@ namespace corotet
    * Vectors are those of the discretization; those that are read must have
    * ghost entries up to date, sums are added to owned entries. The ElasticData
    * are those of the elasticity with its present rotations, also of ghost
-   * cells. @p discretization must outlive this object. All members are
-   * collective.
+   * cells. @p discretization must outlive this object. Members but those marked
+   * are collective.
    */
   class VertexDilatation
   {
@@ -85,13 +85,13 @@ namespace corotet
                 const double       factor,
                 const ElasticData &data);
 
-    /// @p sums += that of a batch alone, whose cells are those of @p data. Not
-    /// collective.
+    /// @p target += that of a batch alone, four numbers for each node of the
+    /// cells of @p data. Not collective.
     void
     add_rotation_part(const ElasticData &data,
                       const unsigned int batch,
                       const double      *source,
-                      double            *sums) const;
+                      double            *target) const;
 
     /// What comes to the stress of each local cell, a multiple of the identity:
     /// p - lambda theta_c [Pa]. Rotations are those of @p u itself.
@@ -122,7 +122,7 @@ namespace corotet
     /// values[a] = V_a theta_a of owned copies.
     template <bool of_displacement>
     void
-    sum_dilatations(const double *source, const ElasticData &data);
+    sum_dilatations(const Vector &source, const ElasticData &data);
     /// Makes pressures of the values, those of ghosts, too.
     void
     make_pressures();
@@ -167,6 +167,8 @@ namespace corotet
     NodeGraph                           rows;
     GhostExchange                       exchange_of_rows;
     std::vector<double>                 entries;
+    bool                                are_rows_made     = false;
+    bool                                are_entries_known = false;
     std::shared_ptr<const BlockPattern> pattern;
     /// The entries of rows by owned nodes: their copies.
     NodeGraph copies_of_nodes;
