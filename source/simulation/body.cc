@@ -140,10 +140,13 @@ namespace corotet
     const unsigned int n_ranks =
       dealii::Utilities::MPI::n_mpi_processes(discretization.communicator());
     log.line(
-      fmt::format("Discretization: degree {}{}, {} cells, {} nodes, {} "
+      fmt::format("Discretization: degree {}{}{}, {} cells, {} nodes, {} "
                   "unknowns on {} rank{}",
                   discretization.degree(),
                   discretization.element().has_bubbles() ? " with bubbles" : "",
+                  elasticity.vertex_dilatation() != nullptr ?
+                    " with dilatations of vertices" :
+                    "",
                   discretization.n_global_cells(),
                   discretization.n_global_nodes(),
                   3 * discretization.n_global_nodes(),
