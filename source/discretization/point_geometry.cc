@@ -28,4 +28,25 @@ namespace corotet
             rule.weights[q] * geometry.volume,
             position};
   }
+
+  Tensor<2, 3>
+  displacement_gradient(const Discretization                &discretization,
+                        const Vector                        &u,
+                        const unsigned int                   cell,
+                        const ReferenceElement::PointValues &rule,
+                        const unsigned int                   q)
+  {
+    const auto   nodes = discretization.cell_nodes(cell);
+    Tensor<2, 3> by_xi;
+    for (unsigned int i = 1; i < nodes.size(); ++i)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          const double difference = u.local_element(3 * nodes[i] + a) -
+                                    u.local_element(3 * nodes[0] + a);
+          for (unsigned int k = 0; k < 3; ++k)
+            by_xi[a][k] += difference * rule.gradients(q, i, k);
+        }
+    return by_xi *
+           point_geometry(discretization, rule, cell, q).inverse_jacobian;
+  }
 } // namespace corotet

@@ -8,13 +8,6 @@
 
 namespace corotet
 {
-  bool
-  allows_vertex_dilatation(const MaterialLaw &law)
-  {
-    // At degree 1 corotational laws take the rotations of cells.
-    return law.is_linear() || law.has_cell_rotation();
-  }
-
   Dilatation
   MaterialParameters::dilatation_of(const unsigned int degree) const
   {

@@ -40,7 +40,7 @@ namespace corotet
       material_of_cell[c] = index.at(discretization.region(c));
     AssertThrow(whose_dilatation == Dilatation::cells ||
                   (discretization.degree() == 1 &&
-                   (law->is_linear() || law->has_cell_rotation())),
+                   allows_vertex_dilatation(*law)),
                 dealii::ExcMessage(
                   "The dilatation of vertices is for elements of degree 1 with "
                   "linear or corotational laws."));

@@ -8,32 +8,6 @@ namespace corotet
   using dealii::SymmetricTensor;
   using dealii::Tensor;
 
-  namespace
-  {
-    // grad u at point q of a rule. Values relative to the first node: a common
-    // translation costs no digits.
-    Tensor<2, 3>
-    displacement_gradient(const Discretization                &discretization,
-                          const Vector                        &u,
-                          const unsigned int                   cell,
-                          const ReferenceElement::PointValues &rule,
-                          const unsigned int                   q)
-    {
-      const auto   nodes = discretization.cell_nodes(cell);
-      Tensor<2, 3> by_xi;
-      for (unsigned int i = 1; i < nodes.size(); ++i)
-        for (unsigned int a = 0; a < 3; ++a)
-          {
-            const double difference = u.local_element(3 * nodes[i] + a) -
-                                      u.local_element(3 * nodes[0] + a);
-            for (unsigned int k = 0; k < 3; ++k)
-              by_xi[a][k] += difference * rule.gradients(q, i, k);
-          }
-      return by_xi *
-             point_geometry(discretization, rule, cell, q).inverse_jacobian;
-    }
-  } // namespace
-
   PointStress::PointStress(
     const Discretization                            &discretization,
     const ReferenceElement                          &reference,
@@ -44,16 +18,7 @@ namespace corotet
     , law(law)
   {
     for (const auto &[region, material] : materials)
-      {
-        unsigned int index = 0;
-        while (index < this->materials.size() &&
-               (this->materials[index].lambda != material.lambda ||
-                this->materials[index].mu != material.mu))
-          ++index;
-        if (index == this->materials.size())
-          this->materials.push_back(material);
-        material_of_region[region] = index;
-      }
+      material_of_region[region] = index_of(material, this->materials);
   }
 
   void

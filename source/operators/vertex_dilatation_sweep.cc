@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/point_geometry.h>
 #include <corotet/material/polar_decomposition.h>
 #include <corotet/operators/gather.h>
 #include <corotet/operators/rotated_frame.h>
@@ -31,27 +32,6 @@ namespace corotet
         H[a][b] = u[1][a] * g[b] + u[2][a] * g[3 + b] + u[3][a] * g[6 + b];
       });
     }
-
-    // The first occurrence of each material.
-    std::vector<unsigned int>
-    without_repetition(std::vector<IsotropicMaterial> &materials)
-    {
-      std::vector<unsigned int>      index;
-      std::vector<IsotropicMaterial> different;
-      for (const IsotropicMaterial &material : materials)
-        {
-          unsigned int i = 0;
-          while (i < different.size() &&
-                 (different[i].lambda != material.lambda ||
-                  different[i].mu != material.mu))
-            ++i;
-          if (i == different.size())
-            different.push_back(material);
-          index.push_back(i);
-        }
-      materials = different;
-      return index;
-    }
   } // namespace
 
   VertexDilatation::VertexDilatation(
@@ -59,10 +39,11 @@ namespace corotet
     const std::vector<IsotropicMaterial> &all_materials,
     const std::vector<unsigned int>      &material_of_cell)
     : discretization(discretization)
-    , materials(all_materials)
     , material_of_cell(material_of_cell)
   {
-    const std::vector<unsigned int> index = without_repetition(materials);
+    std::vector<unsigned int> index;
+    for (const IsotropicMaterial &material : all_materials)
+      index.push_back(index_of(material, materials));
     for (unsigned int &material : this->material_of_cell)
       material = index[material];
     copies                    = std::make_unique<MaterialNodes>(discretization,
@@ -293,19 +274,14 @@ namespace corotet
   VertexDilatation::pressure_corrections(const Vector &u,
                                          const bool    has_rotations) const
   {
+    const auto &centre = ReferenceElement::of(discretization.element()).centre;
     const unsigned int  n_cells = discretization.n_local_cells();
     std::vector<double> result(n_cells), pressures(values.size());
     for (unsigned int c = 0; c < n_cells; ++c)
       {
-        const auto          nodes    = discretization.cell_nodes(c);
-        const CellGeometry &geometry = discretization.geometry(c);
-        Tensor<2, 3>        by_xi;
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int a = 0; a < 3; ++a)
-            by_xi[a][k] = u.local_element(3 * nodes[k + 1] + a) -
-                          u.local_element(3 * nodes[0] + a);
-        const Tensor<2, 3> H          = by_xi * geometry.inverse_jacobian;
-        double             dilatation = trace(H);
+        const Tensor<2, 3> H =
+          displacement_gradient(discretization, u, c, centre, 0);
+        double dilatation = trace(H);
         if (has_rotations)
           {
             const Tensor<2, 3> R =
@@ -316,7 +292,8 @@ namespace corotet
           }
         result[c] = -materials[material_of_cell[c]].lambda * dilatation;
         for (const unsigned int copy : copies->cell_nodes(c))
-          pressures[copy] += geometry.volume / n_vertices * dilatation;
+          pressures[copy] +=
+            discretization.geometry(c).volume / n_vertices * dilatation;
       }
     for (unsigned int a = 0; a < copies->n_owned(); ++a)
       pressures[a] *= moduli[a];

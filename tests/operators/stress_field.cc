@@ -17,6 +17,7 @@
 
 #include "../all_laws.h"
 #include "../body.h"
+#include "../two_regions.h"
 #include "../wave.h"
 
 using namespace corotet;
@@ -43,15 +44,7 @@ namespace
     for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
       if (std::abs(straight.vertices[v][0] - 1) < 1e-10)
         mesh.vertices[v][0] = 1;
-    for (auto &cell : mesh.cells)
-      {
-        double x = 0;
-        for (const unsigned int v : cell.vertices)
-          x += mesh.vertices[v][0] / 4;
-        cell.region = x < 1 ? 1 : 2;
-      }
-    mesh.regions.names = {{1, "stiff"}, {2, "soft"}};
-    return mesh;
+    return in_two_regions(mesh, 1, "stiff", "soft");
   }
 
   const std::string two_laws =

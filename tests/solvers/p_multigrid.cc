@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "../two_regions.h"
 #include "preconditioner_names.h"
 
 using namespace corotet;
@@ -38,16 +39,7 @@ namespace
   SerialMesh
   mesh(const std::string &cells)
   {
-    SerialMesh mesh = box("10, 1, 1", cells, 0.1);
-    for (SerialMesh::Cell &cell : mesh.cells)
-      {
-        double x = 0;
-        for (const unsigned int v : cell.vertices)
-          x += mesh.vertices[v][0] / 4;
-        cell.region = x < 5 ? 1 : 2;
-      }
-    mesh.regions.names = {{1, "left"}, {2, "right"}};
-    return mesh;
+    return in_two_regions(box("10, 1, 1", cells, 0.1), 5, "left", "right");
   }
 
   std::string

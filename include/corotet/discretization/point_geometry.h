@@ -4,6 +4,7 @@
 #ifndef corotet_discretization_point_geometry_h
 #define corotet_discretization_point_geometry_h
 
+#include <corotet/base/vector.h>
 #include <corotet/discretization/discretization.h>
 #include <corotet/discretization/reference_element.h>
 
@@ -27,6 +28,15 @@ namespace corotet
                  const ReferenceElement::PointValues &rule,
                  const unsigned int                   cell,
                  const unsigned int                   q);
+
+  /// grad u [component][direction] [-] at point @p q of a rule in a local cell,
+  /// with @p u's ghosts up to date. A translation costs it no digits.
+  dealii::Tensor<2, 3>
+  displacement_gradient(const Discretization                &discretization,
+                        const Vector                        &u,
+                        const unsigned int                   cell,
+                        const ReferenceElement::PointValues &rule,
+                        const unsigned int                   q);
 } // namespace corotet
 
 #endif

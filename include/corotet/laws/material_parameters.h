@@ -16,11 +16,6 @@
 
 namespace corotet
 {
-  /// Whether elements of degree 1 with that law may have the dilatation of
-  /// vertices: whether it is linear or corotational.
-  bool
-  allows_vertex_dilatation(const MaterialLaw &law);
-
   /**
    * The parameters of section Material. A value is one number for the whole
    * body or a list "region: number, region: number" that names every region.

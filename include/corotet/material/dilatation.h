@@ -5,6 +5,7 @@
 #define corotet_material_dilatation_h
 
 #include <corotet/base/enumeration.h>
+#include <corotet/material/material_law.h>
 
 namespace corotet
 {
@@ -22,6 +23,15 @@ namespace corotet
   inline const Enumeration<Dilatation> dilatations{{"cells", Dilatation::cells},
                                                    {"vertices",
                                                     Dilatation::vertices}};
+
+  /// Whether elements of degree 1 with that law may have the dilatation of
+  /// vertices: whether it is linear or, with the rotations of cells,
+  /// corotational.
+  inline bool
+  allows_vertex_dilatation(const MaterialLaw &law)
+  {
+    return law.is_linear() || law.has_cell_rotation();
+  }
 } // namespace corotet
 
 #endif

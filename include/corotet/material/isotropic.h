@@ -7,6 +7,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <map>
+#include <vector>
 
 namespace corotet
 {
@@ -46,6 +47,12 @@ namespace corotet
       result[region] = material.density;
     return result;
   }
+
+  /// The number of the material among @p known ones that has the same elastic
+  /// constants, whatever its density; @p known gets it if there is none.
+  unsigned int
+  index_of(const IsotropicMaterial        &material,
+           std::vector<IsotropicMaterial> &known);
 
   /**
    * Stress of a small strain [Pa].

@@ -20,9 +20,9 @@ namespace corotet
   /**
    * The linear operator of implicit steps, A = c_K K + c_M M + S: a
    * CellwiseOperator with the numbers of a body and the dilatation of its
-   * vertices, if it has that, with the frozen rotations that
-   * the elasticity has at the moment of update(), and a matrix S of the
-   * surface, if there is one. A is symmetric and positive definite if c_M > 0
+   * vertices, if it has that, with the frozen rotations that the elasticity has
+   * at the moment of update(), and a matrix S of the surface, if there is one.
+   * A is symmetric and positive definite if c_M > 0
    * or if enough is prescribed or supported by S.
    *
    * A is assembled for those who ask for the matrix. The arguments of the

@@ -25,8 +25,8 @@ namespace corotet
     /// sqrt(int |grad v|^2), the seminorm [m^{3/2}].
     double H1 = 0;
     /// sqrt(int eps : C : eps) with eps = sym(grad v) [J^{1/2}]: the energy
-    /// norm of linear elasticity, whatever the material's law, with the
-    /// dilatation of the vertices where a body has it.
+    /// norm of linear elasticity, whatever the material's law; of an error with
+    /// the dilatation of vertices, if error_norms() gets one.
     double energy = 0;
   };
 

@@ -34,8 +34,8 @@ namespace corotet
    * vertices they keep their orders of convergence.
    *
    * In a cell it is the stress p R with the mean p of lambda theta_a at its
-   * vertices. A vertex where materials meet has a dilatation for
-   * each of them.
+   * vertices. A vertex where materials meet has a dilatation for each of them:
+   * regions with equal elastic constants are of one material.
    *
    * The force of a node so depends on two layers of cells around it. Sweeps run
    * over ghost cells, too, and have to exchange the pressures only. The matrix
