@@ -21,13 +21,6 @@ namespace corotet
   {
     namespace MPI = dealii::Utilities::MPI;
 
-    // Work of a curved cell, if that of a straight one is 1: the matrix-free
-    // product takes about three times as long, that with the exact tangent as
-    // long as on straight cells.
-    constexpr std::uint64_t work_of_curved_cell = 2;
-
-
-
     // What cells are sorted by: the place on the curve and, for cells at the
     // same place, their numbers.
     struct CurvePlace
@@ -153,10 +146,7 @@ namespace corotet
       {
         for (std::size_t i = 0; i < cells.size(); ++i)
           work_before[i + 1] =
-            work_before[i] +
-            (part.cells[cells[i].cell].curve == SerialMesh::straight ?
-               1 :
-               work_of_curved_cell);
+            work_before[i] + work_of(part.cells[cells[i].cell]);
       }
 
       std::uint64_t

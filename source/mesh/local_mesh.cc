@@ -195,8 +195,9 @@ namespace corotet
         Messages received =
           exchange_messages(cells_for_others(part, shared), comm);
         received.try_emplace(mesh.rank);
-        const unsigned int    degree = part.geometry_degree;
-        std::vector<MeshPart> parts;
+        const unsigned int        degree = part.geometry_degree;
+        std::vector<MeshPart>     parts;
+        std::vector<unsigned int> owners;
         std::vector<std::pair<unsigned int, unsigned int>> order;
         for (auto &[rank, message] : received)
           {
@@ -204,12 +205,22 @@ namespace corotet
             parts.push_back(rank == mesh.rank ? std::move(part) :
                                                 unpacked(message, position));
             message = {};
+            owners.push_back(rank);
             for (unsigned int c = 0; c < parts.back().cells.size(); ++c)
-              {
-                order.emplace_back(parts.size() - 1, c);
-                mesh.owners.push_back(rank);
-              }
+              order.emplace_back(parts.size() - 1, c);
           }
+        const auto number = [&](const auto &place) {
+          return parts[place.first].numbers[place.second];
+        };
+        const auto is_before = [&](const auto &a, const auto &b) {
+          return number(a) < number(b);
+        };
+        // Pieces of the curve are.
+        if (!std::is_sorted(order.begin(), order.end(), is_before))
+          std::sort(order.begin(), order.end(), is_before);
+        mesh.owners.reserve(order.size());
+        for (const auto &[p, c] : order)
+          mesh.owners.push_back(owners[p]);
         static_cast<MeshPart &>(mesh) = merged(parts, order);
         mesh.geometry_degree          = degree;
         sort_vertices(mesh);

@@ -11,6 +11,7 @@
 #include <corotet/mesh/check_names.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/distributed_triangulation.h>
+#include <corotet/mesh/graph_partition.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 #include <corotet/mesh/mesh_sources.h>
@@ -199,6 +200,7 @@ namespace corotet
 
   MeshParameters::MeshParameters()
     : source(mesh_sources(), "box")
+    , partitioner(Partitioner::hilbert_curve)
   {}
 
 
@@ -217,6 +219,15 @@ namespace corotet
                       scale,
                       "Factor on all coordinates [-]: 0.001 for a mesh in mm.",
                       dealii::Patterns::Double(1e-30, 1e30));
+    add_enumeration(prm,
+                    "Partitioner",
+                    partitioner,
+                    partitioners(),
+                    "How ranks get their cells, of equal work: 'Hilbert "
+                    "curve', a piece of the curve along which cells are "
+                    "sorted, which takes no time; 'PT-Scotch', parts with few "
+                    "faces between them, if corotet was built with it. "
+                    "Results are the same but for round-off.");
   }
 
 
@@ -255,6 +266,7 @@ namespace corotet
     set_up(std::move(*mesh),
            n_refinements,
            parameters.selections.are_given() ? 1. : parameters.scale,
+           parameters.partitioner,
            comm,
            log,
            element_degree);
@@ -274,7 +286,13 @@ namespace corotet
     unsigned int n_left = n_refinements;
     SpreadMesh   spread =
       scattered(std::move(mesh), n_left, scale, comm, log, element_degree, {});
-    set_up(std::move(spread), n_left, scale, comm, log, element_degree);
+    set_up(std::move(spread),
+           n_left,
+           scale,
+           Partitioner::hilbert_curve,
+           comm,
+           log,
+           element_degree);
   }
 
 
@@ -283,6 +301,7 @@ namespace corotet
   Mesh::set_up(SpreadMesh       &&mesh,
                const unsigned int n_refinements,
                const double       scale,
+               const Partitioner  partitioner,
                const MPI_Comm     comm,
                Log               &log,
                const unsigned int element_degree)
@@ -325,6 +344,26 @@ namespace corotet
         log_remarks(mesh.remarks, log);
       }
     log_names(region_names, place_names, log);
+    if (partitioner == Partitioner::pt_scotch)
+      share_out_by_graph(mesh.origin, log);
+  }
+
+
+
+  void
+  Mesh::share_out_by_graph(const std::string &origin, Log &log)
+  {
+    const MPI_Comm comm = communicator();
+    if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
+      return;
+    const std::uint64_t before = n_faces_between_ranks(local_mesh);
+    MeshPart            part   = partition_graph(local_mesh);
+    local_mesh                 = {};
+    local_mesh = with_cells_beside(std::move(part), origin, comm);
+    log.line(fmt::format("  PT-Scotch: {} faces between ranks, along the curve "
+                         "{}",
+                         n_faces_between_ranks(local_mesh),
+                         before));
   }
 
 

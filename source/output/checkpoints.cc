@@ -36,6 +36,7 @@ namespace corotet
       {"Checkpoint/",
        "Convergence study/",
        "Linear solver/",
+       "Mesh/Partitioner",
        "Mesh/file/File",
        "Mesh/file/Time limit",
        "Mesh/gmsh/File",

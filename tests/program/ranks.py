@@ -12,7 +12,7 @@ must accept both time series, which two ranks write together.
 import re
 import unittest
 
-from support import ProgramTest, has_preconditioner, parameter_text, read_history, read_summary, run_on
+from support import ProgramTest, has_preconditioner, has_pt_scotch, parameter_text, read_history, read_summary, run_on
 
 STRICT = ("Linear solver/Tolerance = 1e-11", "Newton/Residual tolerance = 1e-10", "Newton/Increment tolerance = 1e-10")
 MAY_DIFFER = {"newton_iterations", "linear_iterations", "wall_time"}
@@ -36,11 +36,11 @@ class Ranks(ProgramTest):
         self.run_case("cantilever", "page1", "Time integration/End time = 0.02", "Output/Overwrite = true")
         self.assertFalse((self.folder / "page1" / "report.html").exists())
 
-    def check(self, preconditioner):
+    def check(self, preconditioner, *of_others, ranks=2):
         settings = (*STRICT, "Time integration/End time = 0.03", f"Linear solver/Type = {preconditioner}")
         one = self.run_case("cantilever", "one", *settings)
-        two = self.run_case("cantilever", "two", *settings, ranks=2)
-        self.assertEqual((read_summary(one)["ranks"], read_summary(two)["ranks"]), (1, 2))
+        two = self.run_case("cantilever", "two", *settings, *of_others, ranks=ranks)
+        self.assertEqual((read_summary(one)["ranks"], read_summary(two)["ranks"]), (1, ranks))
         histories = [[{name: float(value) for name, value in row.items() if name not in MAY_DIFFER} for row in read_history(directory)]
                      for directory in (one, two)]
         self.assertEqual(len(histories[0]), len(histories[1]))
@@ -56,6 +56,12 @@ class Ranks(ProgramTest):
 
     def test_direct(self):
         self.check("direct")
+
+    @unittest.skipUnless(has_pt_scotch(), "built without PT-Scotch")
+    def test_graph_partition(self):
+        self.check("p-multigrid", "Mesh/Partitioner = PT-Scotch", ranks=3)
+        log = (self.folder / "two" / "log.txt").read_text(encoding="utf-8")
+        self.assertRegex(log, r"PT-Scotch: \d+ faces between ranks, along the curve \d+")
 
     def solutions(self, all_ranks, degree, cells, solver):
         """Of linear statics of a beam: what summaries say about the end, by ranks."""

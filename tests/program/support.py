@@ -133,12 +133,20 @@ def run_on(ranks, arguments, folder, timeout=600, **environment):
 
 
 @functools.cache
-def has_preconditioner(name):
-    """Whether this program has it: some need optional parts of the build."""
+def is_allowed(section, entry, value):
+    """Whether this program knows that value: some need optional parts of the build."""
     program = [os.environ["COROTET_PROGRAM"], "--print-parameters", "markdown"]
     parameters = subprocess.run(program, capture_output=True, text=True, check=True).stdout
-    allowed = re.search(r"## Linear solver\n.*?\| Type \| [^|]* \| one of ([^|]*) \|", parameters, re.DOTALL).group(1)
-    return name in allowed.split(", ")
+    allowed = re.search(rf"## {section}\n.*?\| {entry} \| [^|]* \| one of ([^|]*) \|", parameters, re.DOTALL).group(1)
+    return value in allowed.split(", ")
+
+
+def has_preconditioner(name):
+    return is_allowed("Linear solver", "Type", name)
+
+
+def has_pt_scotch():
+    return is_allowed("Mesh", "Partitioner", "PT-Scotch")
 
 
 class ProgramTest(unittest.TestCase):

@@ -8,6 +8,15 @@
 
 namespace corotet
 {
+  /// Work of a cell, if that of a straight one is 1: on a curved one the
+  /// matrix-free product takes about three times as long, that with the exact
+  /// tangent as long as on a straight one.
+  inline unsigned int
+  work_of(const MeshCells::Cell &cell)
+  {
+    return cell.curve == MeshCells::straight ? 1 : 2;
+  }
+
   /**
    * Sorts the cells of all ranks along a Hilbert curve, so that neighbours are
    * close in memory, and gives each rank a piece of the sequence, all with

@@ -71,8 +71,8 @@ namespace corotet
 
   /**
    * Adds the cells beside those of this rank to a part that sort_along_curve()
-   * has made. Throws an InputError if cells overlap, as check_mesh() does.
-   * Collective.
+   * or partition_graph() has made. Throws an InputError if cells overlap, as
+   * check_mesh() does. Collective.
    */
   LocalMesh
   with_cells_beside(MeshPart         &&part,

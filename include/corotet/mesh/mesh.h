@@ -19,9 +19,12 @@
 
 namespace corotet
 {
+  enum class Partitioner;
+
   /**
-   * The parameters of section Mesh: the source, uniform refinements and a
-   * scale; and those of section Selections, which declares its own.
+   * The parameters of section Mesh: the source, uniform refinements, a scale
+   * and how cells are shared out; and those of section Selections, which
+   * declares its own.
    */
   struct MeshParameters
   {
@@ -33,6 +36,7 @@ namespace corotet
     Selectable<MeshSource> source;
     unsigned int           n_refinements = 0;
     double                 scale         = 1;
+    Partitioner            partitioner;
     SelectionParameters    selections;
   };
 
@@ -163,9 +167,14 @@ namespace corotet
     set_up(SpreadMesh       &&mesh,
            const unsigned int n_refinements,
            const double       scale,
+           const Partitioner  partitioner,
            const MPI_Comm     comm,
            Log               &log,
            const unsigned int element_degree);
+
+    /// Gives cells to ranks by PT-Scotch.
+    void
+    share_out_by_graph(const std::string &origin, Log &log);
 
     /// Named boundaries must be on the surface. Throws InputError. Collective.
     void
