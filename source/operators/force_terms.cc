@@ -65,7 +65,15 @@ namespace corotet
     : discretization(discretization)
   {
     discretization.initialize_vector(constant_load);
-    discretization.initialize_vector(scratch);
+  }
+
+  Vector &
+  ForceTerms::zero_vector() const
+  {
+    if (scratch.size() == 0)
+      discretization.initialize_vector(scratch);
+    scratch = 0;
+    return scratch;
   }
 
   void
@@ -74,10 +82,11 @@ namespace corotet
     if (is_constant_load(*term))
       {
         // It looks at no motion: any vector will do.
-        scratch = 0;
-        term->add_force(scratch, {0., constant_load, constant_load});
-        scratch.compress(dealii::VectorOperation::add);
-        constant_load += scratch;
+        Vector f;
+        discretization.initialize_vector(f);
+        term->add_force(f, {0., constant_load, constant_load});
+        f.compress(dealii::VectorOperation::add);
+        constant_load += f;
       }
     terms.push_back(std::move(term));
     names.push_back(name);
@@ -97,12 +106,12 @@ namespace corotet
     f *= load_factor;
     if (!any_of(terms, is_support))
       return;
-    scratch = 0;
+    Vector &of_supports = zero_vector();
     for (const auto &term : terms)
       if (is_support(*term))
-        term->add_force(scratch, motion);
-    scratch.compress(dealii::VectorOperation::add);
-    f += scratch;
+        term->add_force(of_supports, motion);
+    of_supports.compress(dealii::VectorOperation::add);
+    f += of_supports;
   }
 
   bool
@@ -261,6 +270,8 @@ namespace corotet
                                    const PrescribedMotion    &supports) const
   {
     std::vector<std::string> result;
+    Vector                   f;
+    discretization.initialize_vector(f);
     for (std::size_t i = 0; i < terms.size(); ++i)
       {
         if (names[i].empty())
@@ -272,12 +283,12 @@ namespace corotet
         };
         for (const Motion &motion : motions)
           {
-            scratch = 0;
-            terms[i]->add_force(scratch, motion);
-            scratch.compress(dealii::VectorOperation::add);
-            on_all += scratch.norm_sqr();
-            supports.set_zero(scratch);
-            on_free += scratch.norm_sqr();
+            f = 0;
+            terms[i]->add_force(f, motion);
+            f.compress(dealii::VectorOperation::add);
+            on_all += f.norm_sqr();
+            supports.set_zero(f);
+            on_free += f.norm_sqr();
             if (has_effect())
               break;
           }
@@ -339,12 +350,12 @@ namespace corotet
         };
         if (!any_of(terms, belongs))
           continue;
-        scratch = 0;
+        Vector &derivative = zero_vector();
         for (const auto &term : terms)
           if (belongs(*term))
-            term->add_linearized(scratch, w, velocity_factor);
-        scratch.compress(dealii::VectorOperation::add);
-        f.add(are_loads ? -load_factor : -1., scratch);
+            term->add_linearized(derivative, w, velocity_factor);
+        derivative.compress(dealii::VectorOperation::add);
+        f.add(are_loads ? -load_factor : -1., derivative);
       }
   }
 

@@ -136,8 +136,15 @@ namespace corotet
     , discretization(discretization)
     , comm(discretization.communicator())
     , log(log)
-    , order(FileOrder::of_nodes(discretization, discretization))
   {}
+
+  const FileOrder &
+  Checkpoints::order_of_nodes() const
+  {
+    if (!order)
+      order = FileOrder::of_nodes(discretization, discretization);
+    return *order;
+  }
 
   std::string
   Checkpoints::path_of(const unsigned int step) const
@@ -173,7 +180,7 @@ namespace corotet
           {
             reader = std::make_unique<CheckpointReader>(path_of(step),
                                                         discretization,
-                                                        order);
+                                                        order_of_nodes());
           }
         catch (const InputError &error)
           {
@@ -317,7 +324,7 @@ namespace corotet
     // What the checkpoint counts on is there before it is.
     if (durable)
       on_all_ranks(comm, [&] { sync_file_system(directory); });
-    CheckpointWriter writer(path_of(step), discretization, order);
+    CheckpointWriter writer(path_of(step), discretization, order_of_nodes());
     std::int64_t     log_size = log.size();
     writer.transfer("log_size", log_size);
     simulation.save_state(writer);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace corotet
 {
@@ -80,7 +81,7 @@ namespace corotet
     MPI_Alltoall(
       n_sent.data(), 1, MPI_INT, n_received.data(), 1, MPI_INT, comm);
     const std::vector<std::int64_t> received =
-      exchange(sent, n_sent, n_received, 1);
+      exchange(std::move(sent), n_sent, n_received, 1);
 
     std::vector<unsigned int> order(received.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -99,11 +100,13 @@ namespace corotet
 
   template <typename Number>
   std::vector<Number>
-  FileOrder::exchange(const std::vector<Number> &source,
-                      const std::vector<int>    &n_to,
-                      const std::vector<int>    &n_from,
-                      const std::size_t          n_columns) const
+  FileOrder::exchange(std::vector<Number>     source,
+                      const std::vector<int> &n_to,
+                      const std::vector<int> &n_from,
+                      const std::size_t       n_columns) const
   {
+    if (n_to.size() == 1)
+      return source;
     const std::size_t n =
       std::accumulate(n_from.begin(), n_from.end(), std::size_t(0));
     std::vector<Number> target(n * n_columns);
@@ -135,7 +138,7 @@ namespace corotet
                   values + i * n_columns,
                   values + (i + 1) * n_columns);
     const std::vector<Number> received =
-      exchange(sent, n_sent, n_received, n_columns);
+      exchange(std::move(sent), n_sent, n_received, n_columns);
     std::vector<Number> rows(received.size());
     for (std::size_t k = 0; k < row_of_received.size(); ++k)
       std::copy_n(received.begin() + k * n_columns,
@@ -157,7 +160,7 @@ namespace corotet
                   rows + row * n_columns,
                   rows + (row + 1) * n_columns);
     const std::vector<Number> received =
-      exchange(sent, n_received, n_sent, n_columns);
+      exchange(std::move(sent), n_received, n_sent, n_columns);
     for (std::size_t k = 0; k < by_rank.size(); ++k)
       std::copy_n(received.begin() + k * n_columns,
                   n_columns,

@@ -38,19 +38,16 @@ namespace corotet
     , dt(staggered_step)
   {
     const std::size_t n_prescribed = body.motion.unknowns().size();
-    for (StepForces *forces : {&last, &now})
-      {
-        body.discretization.initialize_vector(forces->external);
-        if (force_terms.has_damping())
-          body.discretization.initialize_vector(forces->damping);
-        body.discretization.initialize_vector(forces->displacement);
-        forces->carried.resize(n_prescribed);
-        forces->velocity.resize(n_prescribed);
-      }
+    body.discretization.initialize_vector(last.external);
+    if (force_terms.has_damping())
+      body.discretization.initialize_vector(last.damping);
+    body.discretization.initialize_vector(last.displacement);
+    last.carried.resize(n_prescribed);
+    last.velocity.resize(n_prescribed);
     if (equation.is_dynamic)
       body.discretization.initialize_vector(momentum);
     equation.evaluate(initial_state, time, load_factor);
-    take_forces(last, initial_state);
+    end_step(initial_state);
     initial_changing_energy = force_terms.changing_energy(
       {time, equation.displacement(), equation.velocity()});
     record(initial, initial_state, time);
@@ -64,24 +61,30 @@ namespace corotet
            (terms.damping.size() > 0 ? terms.damping.local_element(i) : 0.);
   }
 
-  void
-  EnergyBudget::take_forces(StepForces &forces, const State &state) const
+  double
+  EnergyBudget::external(const unsigned int i) const
   {
     const EquationOfMotion::Forces &terms = equation.last_forces();
-    forces.time                           = equation.last_time();
-    forces.external                       = terms.external;
-    forces.displacement                   = state.u;
+    if (body.motion.is_prescribed()[i] == 0)
+      return terms.external.local_element(i);
+    return terms.internal.local_element(i) +
+           (force_terms.has_elastic() ? terms.elastic.local_element(i) : 0.);
+  }
+
+  void
+  EnergyBudget::end_step(const State &state)
+  {
+    last.time = equation.last_time();
+    for (unsigned int i = 0; i < state.u.locally_owned_size(); ++i)
+      last.external.local_element(i) = external(i);
+    last.displacement = state.u;
     if (force_terms.has_damping())
-      forces.damping = terms.damping;
+      last.damping = equation.last_forces().damping;
     const auto &prescribed = body.motion.unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
-        const unsigned int i             = prescribed[k];
-        forces.external.local_element(i) = terms.internal.local_element(i);
-        if (force_terms.has_elastic())
-          forces.external.local_element(i) += terms.elastic.local_element(i);
-        forces.carried[k]  = carried(i);
-        forces.velocity[k] = state.v.local_element(i);
+        last.carried[k]  = carried(prescribed[k]);
+        last.velocity[k] = state.v.local_element(prescribed[k]);
       }
   }
 
@@ -122,34 +125,37 @@ namespace corotet
   }
 
   void
-  EnergyBudget::account(const State &state, const double time, const double dt)
+  EnergyBudget::add_work(const State &state, const double time, const double dt)
   {
-    take_forces(now, state);
     // Forces at the middle: c of now, 1 - c of last.
-    const double c = (time - 0.5 * dt - last.time) / (now.time - last.time);
-    const auto   middle = [&](const Vector &f, const Vector &g, const auto i) {
-      return c * f.local_element(i) + (1 - c) * g.local_element(i);
+    const double c =
+      (time - 0.5 * dt - last.time) / (equation.last_time() - last.time);
+    const Vector &damping        = equation.last_forces().damping;
+    const auto    middle_damping = [&](const unsigned int i) {
+      return c * damping.local_element(i) +
+             (1 - c) * last.damping.local_element(i);
     };
     const auto du = [&](const unsigned int i) {
-      return now.displacement.local_element(i) -
-             last.displacement.local_element(i);
+      return state.u.local_element(i) - last.displacement.local_element(i);
     };
     Tensor<1, 2>       sums;
     const unsigned int n = state.u.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
-      sums[0] += middle(now.external, last.external, i) * du(i);
+      sums[0] +=
+        (c * external(i) + (1 - c) * last.external.local_element(i)) * du(i);
     if (force_terms.has_damping())
       for (unsigned int i = 0; i < n; ++i)
-        sums[1] += middle(now.damping, last.damping, i) * du(i);
+        sums[1] += middle_damping(i) * du(i);
     // What is prescribed moves with its own velocity.
     const auto &prescribed = body.motion.unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
-        const double dv = 0.5 * dt * (now.velocity[k] + last.velocity[k]);
-        sums[0] += (c * now.carried[k] + (1 - c) * last.carried[k]) * dv;
+        const unsigned int i = prescribed[k];
+        const double       dv =
+          0.5 * dt * (state.v.local_element(i) + last.velocity[k]);
+        sums[0] += (c * carried(i) + (1 - c) * last.carried[k]) * dv;
         if (force_terms.has_damping())
-          sums[1] += middle(now.damping, last.damping, prescribed[k]) *
-                     (dv - du(prescribed[k]));
+          sums[1] += middle_damping(i) * (dv - du(i));
       }
     sums =
       dealii::Utilities::MPI::sum(sums, body.discretization.communicator());
@@ -162,13 +168,11 @@ namespace corotet
     work += sums[0];
     dissipation += sums[1];
     this->dt = dt;
-    std::swap(last, now);
   }
 
   void
   EnergyBudget::take_back()
   {
-    std::swap(last, now);
     dt          = before[0];
     work        = before[1];
     dissipation = before[2];

@@ -326,8 +326,10 @@ namespace corotet
   ImplicitSolver::add(const double factor, const Vector &dx)
   {
     stage_state->u.add(factor, dx);
-    stage_state->v.add(factor * stage.velocity_factor, dx);
-    stage_state->a.add(factor * stage.acceleration_factor, dx);
+    if (stage.velocity_factor != 0)
+      stage_state->v.add(factor * stage.velocity_factor, dx);
+    if (stage.acceleration_factor != 0)
+      stage_state->a.add(factor * stage.acceleration_factor, dx);
     const auto [size, increment] = norms<2>({{&stage_state->u, &dx}});
     return {std::abs(factor) * increment, size, 4 * machine_precision * size};
   }
@@ -335,13 +337,21 @@ namespace corotet
   void
   ImplicitSolver::keep()
   {
-    kept = *stage_state;
+    kept.u = stage_state->u;
+    if (stage.velocity_factor != 0)
+      kept.v = stage_state->v;
+    if (stage.acceleration_factor != 0)
+      kept.a = stage_state->a;
   }
 
   void
   ImplicitSolver::restore()
   {
-    *stage_state = kept;
+    stage_state->u = kept.u;
+    if (stage.velocity_factor != 0)
+      stage_state->v = kept.v;
+    if (stage.acceleration_factor != 0)
+      stage_state->a = kept.a;
   }
 
   bool

@@ -140,7 +140,7 @@ namespace corotet
         0.);
     const StepRecord &record = budget->initial_record();
     energy_supply            = record.kinetic_energy + record.elastic_energy;
-    good_state               = present;
+    keep_state();
     return record;
   }
 
@@ -187,8 +187,8 @@ namespace corotet
           {
             if (integrator->is_explicit())
               {
-                present = good_state;
-                done    = good_done;
+                restore_state();
+                done = good_done;
               }
             else if (next.parts > 0)
               {
@@ -216,6 +216,32 @@ namespace corotet
   }
 
   void
+  TimeLoop::keep_state()
+  {
+    good_state.u = present.u;
+    if (!integrator->is_dynamic())
+      return;
+    good_state.v = present.v;
+    good_state.a = present.a;
+  }
+
+  void
+  TimeLoop::restore_state()
+  {
+    present.u = good_state.u;
+    if (integrator->is_dynamic())
+      {
+        present.v = good_state.v;
+        present.a = good_state.a;
+      }
+    else
+      {
+        present.v = 0;
+        present.a = 0;
+      }
+  }
+
+  void
   TimeLoop::advance_explicitly(StepRecord &record)
   {
     // If the work of many steps is as easy to tell as that of one: all steps up
@@ -233,12 +259,13 @@ namespace corotet
       }
     integrate(done, to, record, n);
     account(done, to, record, n);
+    budget->end_step(present);
     if (is_recorded(record.step, from, done))
       {
         complete(record);
         check_growth(record);
-        good_state = present;
-        good_done  = done;
+        keep_state();
+        good_done = done;
       }
   }
 
@@ -248,7 +275,7 @@ namespace corotet
                     const unsigned int halvings,
                     StepRecord        &record)
   {
-    good_state   = present;
+    keep_state();
     bool is_made = false;
     try
       {
@@ -259,7 +286,7 @@ namespace corotet
     catch (const ComputationError &error)
       {
         const bool is_final = is_singular_for_good(error);
-        present             = good_state;
+        restore_state();
         if (halvings == 0 || is_final)
           {
             if (parameters.max_halvings == 0 || is_final)
@@ -282,7 +309,7 @@ namespace corotet
   TimeLoop::advance_adaptively(StepRecord &record)
   {
     const double duration = parameters.end_time - parameters.start_time;
-    good_state            = present;
+    keep_state();
     for (;;)
       {
         const double to = end_of_step(record.step);
@@ -313,12 +340,12 @@ namespace corotet
             adaptive = std::make_unique<AdaptiveStep>(known);
             if (!adaptive->reduce(dt))
               {
-                present = good_state;
+                restore_state();
                 throw;
               }
             announce_half(to, error);
           }
-        present = good_state;
+        restore_state();
         warn_of_steps(record.step + (1 - done) * duration / adaptive->length(),
                       adaptive->length());
       }
@@ -345,7 +372,7 @@ namespace corotet
                     const unsigned int n)
   {
     const double dt = duration((to - from) / n);
-    budget->account(present, time(to), dt);
+    budget->add_work(present, time(to), dt);
     done = to;
     record.dt += dt;
     ++record.parts;
@@ -366,6 +393,7 @@ namespace corotet
         done = from;
         throw;
       }
+    budget->end_step(present);
     record = finished;
   }
 

@@ -31,8 +31,8 @@ namespace corotet
     transfer(archive);
     if (!is_between_records)
       {
-        good_state = present;
-        good_done  = done;
+        keep_state();
+        good_done = done;
       }
     if (end_time == parameters.end_time && time_step == parameters.time_step)
       return;
@@ -97,7 +97,9 @@ namespace corotet
       {
         archive.within("unrecorded", [&] { unrecorded.transfer(archive); });
         archive.transfer("good_done", good_done);
-        archive.within("good_state", [&] { good_state.transfer(archive); });
+        // Others keep one at each step.
+        if (integrator->is_explicit())
+          archive.within("good_state", [&] { good_state.transfer(archive); });
       }
   }
 } // namespace corotet

@@ -103,9 +103,8 @@ namespace corotet
   /// P^T A P / unit. Motions that an aggregate lacks get a 1 on the diagonal.
   template <int d>
   void
-  AggregationLevel<d>::fill_coarse(
-    const BlockMatrix                            &A,
-    const std::vector<ProlongationBlock<double>> &exact)
+  AggregationLevel<d>::fill_coarse(const BlockMatrix                    &A,
+                                   const std::vector<ModeBlock<double>> &exact)
   {
     problem.matrix = std::make_unique<BlockMatrix>(coarse_matrix_pattern);
     const NodeGraph &graph  = points->graph();

@@ -77,10 +77,10 @@ namespace corotet
   /// each aggregate, zero where A has a prescribed unknown, or where an
   /// aggregate is too small to have six. Fills the frames of aggregates.
   template <int d>
-  std::vector<std::array<Modes, d>>
+  std::vector<typename AggregationLevel<d>::template ModeBlock<double>>
   AggregationLevel<d>::rigid_motions(const std::vector<PointFrame<d>> &frames)
   {
-    std::vector<std::array<Modes, d>> motions(points->exchange().n_items());
+    std::vector<ModeBlock<double>> motions(points->exchange().n_items());
     problem.frames.assign(points_of_aggregates.n_rows(), PointFrame<6>());
     std::vector<Modes> rows, rigid_rows;
     for (int g = 0; g < points_of_aggregates.n_rows(); ++g)
@@ -103,7 +103,11 @@ namespace corotet
         rows = rigid_rows;
         make_orthonormal(rows);
         for (int i = 0; i < n; ++i)
-          std::copy_n(&rows[offset(i)], d, motions[begin[i]].begin());
+          {
+            std::array<Modes, d> of_point;
+            std::copy_n(&rows[offset(i)], d, of_point.begin());
+            motions[begin[i]] = ModeBlock<double>(of_point);
+          }
         for (int i = 0; i < d * n; ++i)
           for (int m = 0; m < 6; ++m)
             for (int l = 0; l < 6; ++l)
@@ -118,11 +122,11 @@ namespace corotet
   template <int d>
   void
   AggregationLevel<d>::multiply_by_motions(
-    std::array<Modes, d>                    *product,
-    const int                                i,
-    const BlockMatrix                       &A,
-    const std::vector<std::array<Modes, d>> &motions,
-    std::vector<int>                        &place) const
+    std::array<Modes, d>                 *product,
+    const int                             i,
+    const BlockMatrix                    &A,
+    const std::vector<ModeBlock<double>> &motions,
+    std::vector<int>                     &place) const
   {
     const NodeGraph &graph = points->graph();
     const int        first = prolongation_pattern.starts[i];
@@ -137,7 +141,7 @@ namespace corotet
       add_product(product[place[aggregates[graph.columns[k]]]],
                   rows,
                   d * (k - graph.starts[i]),
-                  motions[graph.columns[k]]);
+                  motions[graph.columns[k]].rows());
     for (int k = 0; k < n; ++k)
       for (Modes &row : product[k])
         row /= the_unit;
@@ -167,14 +171,13 @@ namespace corotet
   /// I - omega D^-1 A / unit and the motions, omega = 4/3 over the largest
   /// eigenvalue.
   template <int d>
-  std::vector<typename AggregationLevel<d>::template ProlongationBlock<double>>
+  std::vector<typename AggregationLevel<d>::template ModeBlock<double>>
   AggregationLevel<d>::smoothed_motions(
-    const BlockMatrix                       &A,
-    const std::vector<std::array<Modes, d>> &motions)
+    const BlockMatrix                    &A,
+    const std::vector<ModeBlock<double>> &motions)
   {
-    std::vector<ProlongationBlock<double>> result(
-      prolongation_pattern.columns.size());
-    const double                      omega = 4. / 3 / largest_eigenvalue;
+    std::vector<ModeBlock<double>> result(prolongation_pattern.columns.size());
+    const double                   omega = 4. / 3 / largest_eigenvalue;
     std::vector<std::array<Modes, d>> products;
     std::vector<int>                  place(known_aggregates.n_local());
     // Points of one block have the same columns in the prolongation.
@@ -196,15 +199,13 @@ namespace corotet
             const int            entry = starts[own[i]] + k;
             std::array<Modes, d> rows{};
             if (prolongation_pattern.columns[entry] == aggregates[own[i]])
-              rows = motions[own[i]];
+              rows = motions[own[i]].rows();
             for (int j = 0; j < n; ++j)
               for (int b = 0; b < d; ++b)
                 for (int a = 0; a < d; ++a)
                   rows[a] -= omega * inverse[d * n * (d * j + b) + d * i + a] *
                              products[n_columns * j + k][b];
-            for (int a = 0; a < d; ++a)
-              for (int m = 0; m < 6; ++m)
-                result[entry].values[a][m] = rows[a][m];
+            result[entry] = ModeBlock<double>(rows);
           }
     });
     prolongation_ghosts.update(result.data());
@@ -212,16 +213,16 @@ namespace corotet
   }
 
   // One member at a time, as others are in files of their own.
-  template std::vector<std::array<Modes, 3>>
+  template std::vector<AggregationLevel<3>::ModeBlock<double>>
   AggregationLevel<3>::rigid_motions(const std::vector<PointFrame<3>> &);
-  template std::vector<std::array<Modes, 6>>
+  template std::vector<AggregationLevel<6>::ModeBlock<double>>
   AggregationLevel<6>::rigid_motions(const std::vector<PointFrame<6>> &);
-  template std::vector<AggregationLevel<3>::ProlongationBlock<double>>
+  template std::vector<AggregationLevel<3>::ModeBlock<double>>
   AggregationLevel<3>::smoothed_motions(
     const BlockMatrix &,
-    const std::vector<std::array<Modes, 3>> &);
-  template std::vector<AggregationLevel<6>::ProlongationBlock<double>>
+    const std::vector<AggregationLevel<3>::ModeBlock<double>> &);
+  template std::vector<AggregationLevel<6>::ModeBlock<double>>
   AggregationLevel<6>::smoothed_motions(
     const BlockMatrix &,
-    const std::vector<std::array<Modes, 6>> &);
+    const std::vector<AggregationLevel<6>::ModeBlock<double>> &);
 } // namespace corotet

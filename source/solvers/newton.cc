@@ -214,12 +214,14 @@ namespace corotet
           --newton.n_without_exact;
           use_definite_tangent();
         }
+      if (n_without_progress > 0 && std::exchange(is_from_best, false))
+        best_dx = dx;
       find_direction();
       if (n_without_progress == 0)
         {
           // This is the best point so far.
           problem.keep();
-          best_dx = dx;
+          is_from_best = true;
         }
       const double              previous  = residual.value;
       const NewtonProblem::Norm increment = problem.add(1., dx);
@@ -254,10 +256,10 @@ namespace corotet
       increment_is_round_off = false;
       problem.restore();
       residual = problem.residual(r);
-      if (dx_is_known)
-        dx = best_dx;
-      else
+      if (!dx_is_known)
         find_direction();
+      else if (!is_from_best)
+        dx = best_dx;
       const double value = residual.value;
       const double slope = r * dx;
       if (!problem.has_energy() || slope > 0)
@@ -363,6 +365,8 @@ namespace corotet
     double              error    = std::numeric_limits<double>::infinity();
     double              size     = 1;
     bool                definite = false;
+    /// Whether dx is the direction at the best point; best_dx is it otherwise.
+    bool is_from_best = false;
     /// Of the last full increment.
     bool         increment_is_round_off = false;
     unsigned int linear_iterations      = 0;
@@ -385,7 +389,7 @@ namespace corotet
   {
     // Of another problem vectors may have the same size on other ranks.
     if (r.get_partitioner() != prototype.get_partitioner())
-      for (Vector *vector : {&r, &dx, &best_dx})
+      for (Vector *vector : {&r, &dx})
         vector->reinit(prototype);
     Iteration(*this, problem, report).run();
   }

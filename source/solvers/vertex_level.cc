@@ -102,8 +102,6 @@ namespace corotet
     is_thin_body    = is_thin(A.discretization());
     couples_further = A.elasticity().vertex_dilatation() != nullptr;
     aggregation.set_coarsening(coarsening_for(proportions));
-    vertices.initialize_vector(x);
-    vertices.initialize_vector(b);
     if (quadratic == nullptr)
       return;
     const std::vector<unsigned char> marks = coarser->marks(is_prescribed);
@@ -197,19 +195,23 @@ namespace corotet
         aggregation.build(motions->aggregates());
         return;
       }
+    Vector places;
+    vertices.initialize_vector(places);
     for (unsigned int n = 0; n < vertices.n_owned_nodes(); ++n)
       for (unsigned int a = 0; a < 3; ++a)
-        x.local_element(3 * n + a) =
+        places.local_element(3 * n + a) =
           positions.local_element(3 * finest_nodes[n] + a);
     if (solver == "aggregation")
       {
-        aggregation.build(level_matrix, x.begin());
+        aggregation.build(level_matrix, places.begin());
         return;
       }
+    for (Vector *vector : {&x, &b})
+      vertices.initialize_vector(*vector);
     for (const auto &candidate : parameters.further)
       if (candidate.name == solver && !other)
         other = candidate.make();
-    other->build(level_matrix, x);
+    other->build(level_matrix, places);
   }
 
   VertexLevel::Factorization

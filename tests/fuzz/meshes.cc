@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What looks at mesh files before gmsh does, and what takes from gmsh's process
-// the bytes that it hands back: whatever the file did to that process.
+// What reads mesh files, or looks at them before gmsh does, and what takes from
+// gmsh's process the bytes that it hands back: whatever the file did to that
+// process.
 
 #include <corotet/base/log.h>
 #include <corotet/mesh/abaqus_file.h>
@@ -10,6 +11,7 @@
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
+#include <corotet/mesh/hdf5_mesh.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_format.h>
 #include <corotet/mesh/triangle_surface.h>
@@ -85,6 +87,16 @@ namespace fuzz
     if (is_accepted([&] {
           mesh = corotet::serial_mesh(corotet::read_abaqus_file(path));
         }))
+      use(mesh, 0, 2);
+  }
+
+  // A mesh of our own, as one rank reads it whole.
+  void
+  read_hdf5_file(const std::string &input)
+  {
+    const std::string   path = write("mesh.h5", input);
+    corotet::SerialMesh mesh;
+    if (is_accepted([&] { mesh = corotet::read_hdf5_mesh(path); }))
       use(mesh, 0, 2);
   }
 

@@ -25,6 +25,7 @@ namespace fuzz
       {"expressions", read_expression},
       {"geometries", read_geometry},
       {"gmsh_models", read_gmsh_model},
+      {"hdf5_meshes", read_hdf5_file},
       {"lists", read_list},
       {"mesh_files", read_mesh_file},
       {"parameters", read_parameters},

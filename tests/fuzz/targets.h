@@ -44,6 +44,8 @@ namespace fuzz
   void
   read_gmsh_model(const std::string &input);
   void
+  read_hdf5_file(const std::string &input);
+  void
   read_list(const std::string &input);
   void
   read_mesh_file(const std::string &input);

@@ -156,12 +156,17 @@ namespace corotet
               const ForceRoundOff &noise) const;
 
   private:
+    /// For one sum at a time.
+    Vector &
+    zero_vector() const;
+
     const Discretization                   &discretization;
     std::vector<std::unique_ptr<ForceTerm>> terms;
     /// Of each term, or empty.
     std::vector<std::string> names;
     /// Sum of the loads that depend on neither time nor motion.
-    Vector         constant_load;
+    Vector constant_load;
+    /// See zero_vector(); empty before its first call.
     mutable Vector scratch;
   };
 } // namespace corotet

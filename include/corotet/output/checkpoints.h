@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -109,6 +110,10 @@ namespace corotet
     steps() const;
     std::string
     path_of(const unsigned int step) const;
+    /// Of tables in files; found when the first one is read or written.
+    /// Collective.
+    const FileOrder &
+    order_of_nodes() const;
     void
     check_entries(const CheckpointReader &checkpoint) const;
 
@@ -121,9 +126,10 @@ namespace corotet
     const Discretization         &discretization;
     const MPI_Comm                comm;
     Log                          &log;
-    const FileOrder               order;
-    Clock::time_point             written      = Clock::now();
-    unsigned int                  written_step = 0;
+    /// See order_of_nodes().
+    mutable std::optional<FileOrder> order;
+    Clock::time_point                written      = Clock::now();
+    unsigned int                     written_step = 0;
   };
 } // namespace corotet
 

@@ -90,10 +90,10 @@ namespace corotet
     /// the order of the ranks that they go to, to where they belong.
     template <typename Number>
     std::vector<Number>
-    exchange(const std::vector<Number> &source,
-             const std::vector<int>    &n_to,
-             const std::vector<int>    &n_from,
-             const std::size_t          n_columns) const;
+    exchange(std::vector<Number>     source,
+             const std::vector<int> &n_to,
+             const std::vector<int> &n_from,
+             const std::size_t       n_columns) const;
 
     MPI_Comm comm;
     hsize_t  first         = 0;

@@ -44,19 +44,32 @@ namespace corotet
 
     /**
      * Accounts for the work of the step of length @p dt that led to @p state at
-     * @p time, with the forces of the last evaluation. Throws
-     * ComputationError, and accounts for nothing, if they are not finite.
+     * @p time, with the forces of the last evaluation: add_work() and
+     * end_step().
      */
     void
-    account(const State &state, const double time, const double dt);
+    account(const State &state, const double time, const double dt)
+    {
+      add_work(state, time, dt);
+      end_step(state);
+    }
 
-    /// Takes the last call of account() back, as if it had not been made. Not
-    /// twice in a row.
+    /// Adds the work of that step. Throws ComputationError, and adds nothing,
+    /// if it is not finite.
+    void
+    add_work(const State &state, const double time, const double dt);
+
+    /// Takes the last call of add_work() back. Not after end_step().
     void
     take_back();
 
+    /// The next step begins at @p state, with the forces of the last
+    /// evaluation.
+    void
+    end_step(const State &state);
+
     /**
-     * Fills in the budget of the state that was accounted for last. Throws
+     * Fills in the budget of the state whose work was added last. Throws
      * ComputationError if an energy is not finite. The fields of the record
      * that only the driver knows (step, dt, iterations, wall time) are left as
      * they are. The equation is left with the displacement and rotations of
@@ -95,11 +108,12 @@ namespace corotet
       std::vector<double> carried, velocity;
     };
 
-    /// Inertia and damping of the last evaluation, of an owned unknown.
+    /// Of the last evaluation, of an owned unknown: inertia and damping, and
+    /// what works along the displacement.
     double
     carried(const unsigned int i) const;
-    void
-    take_forces(StepForces &forces, const State &state) const;
+    double
+    external(const unsigned int i) const;
     void
     transfer_forces(Archive &archive, StepForces &forces) const;
 
@@ -109,7 +123,7 @@ namespace corotet
     const bool        is_staggered;
     /// Of the last step.
     double     dt;
-    StepForces last, now;
+    StepForces last;
     /// Empty in statics.
     Vector momentum;
     double work = 0;
@@ -117,7 +131,7 @@ namespace corotet
     double     initial_changing_energy = 0;
     double     dissipation             = 0;
     StepRecord initial;
-    /// What dt, work and dissipation were before the last step.
+    /// What dt, work and dissipation were before work was added.
     std::array<double, 3> before{};
   };
 } // namespace corotet

@@ -208,21 +208,27 @@ namespace corotet
     void
     advance_explicitly(StepRecord &record);
 
+    /// The present state becomes the good one, or the other way round: in
+    /// statics its displacement, as nothing moves.
+    void
+    keep_state();
+    void
+    restore_state();
     /// The part (from, to] in @p n steps, without any account of it.
     void
     integrate(const double       from,
               const double       to,
               StepRecord        &record,
               const unsigned int n = 1);
-    /// Accounts for what integrate() has done.
+    /// Adds the work of what integrate() has done to the budget.
     void
     account(const double       from,
             const double       to,
             StepRecord        &record,
             const unsigned int n = 1);
     /// Accounts for what integrate() has done and fills in the record of the
-    /// present state. If that throws a ComputationError, all is as before but
-    /// the state itself.
+    /// present state, at which the next step begins. If that throws a
+    /// ComputationError, all is as before but the state itself.
     void
     finish_step(const double from, const double to, StepRecord &record);
     /// Fills in the record of the present state.

@@ -152,8 +152,17 @@ namespace corotet
   private:
     /// Six values for each unknown of a point.
     template <typename Number>
-    struct ProlongationBlock
+    struct ModeBlock
     {
+      ModeBlock() = default;
+
+      explicit ModeBlock(const std::array<Modes, d> &rows)
+      {
+        for (int a = 0; a < d; ++a)
+          for (int m = 0; m < 6; ++m)
+            values[a][m] = rows[a][m];
+      }
+
       std::array<Modes, d>
       rows() const
       {
@@ -164,7 +173,7 @@ namespace corotet
         return result;
       }
 
-      Number values[d][6];
+      Number values[d][6]{};
     };
     /// Parts of rows of the coarse matrix: of each, the number at its owner and
     /// the entries.
@@ -239,20 +248,20 @@ namespace corotet
     void
     build_coarse(const BlockMatrix                &A,
                  const std::vector<PointFrame<d>> &frames);
-    std::vector<std::array<Modes, d>>
+    std::vector<ModeBlock<double>>
     rigid_motions(const std::vector<PointFrame<d>> &frames);
     void
-    multiply_by_motions(std::array<Modes, d>                    *product,
-                        const int                                i,
-                        const BlockMatrix                       &A,
-                        const std::vector<std::array<Modes, d>> &motions,
-                        std::vector<int>                        &place) const;
-    std::vector<ProlongationBlock<double>>
-    smoothed_motions(const BlockMatrix                       &A,
-                     const std::vector<std::array<Modes, d>> &motions);
+    multiply_by_motions(std::array<Modes, d>                 *product,
+                        const int                             i,
+                        const BlockMatrix                    &A,
+                        const std::vector<ModeBlock<double>> &motions,
+                        std::vector<int>                     &place) const;
+    std::vector<ModeBlock<double>>
+    smoothed_motions(const BlockMatrix                    &A,
+                     const std::vector<ModeBlock<double>> &motions);
     void
-    fill_coarse(const BlockMatrix                            &A,
-                const std::vector<ProlongationBlock<double>> &exact);
+    fill_coarse(const BlockMatrix                    &A,
+                const std::vector<ModeBlock<double>> &exact);
     std::vector<int>
     coarse_numbers() const;
     void
@@ -312,7 +321,7 @@ namespace corotet
     std::vector<std::size_t> starts_of_inverses;
     double                   largest_eigenvalue = 0;
     /// Rows of owned points.
-    std::vector<ProlongationBlock<float>> prolongation;
+    std::vector<ModeBlock<float>> prolongation;
 
     /// The first two with entries of ghosts.
     mutable std::vector<float> x, direction, rhs, residual, product, scaled;

@@ -73,10 +73,12 @@ namespace corotet
     bool
     solve(const Matrix &A, Vector &x, const Vector &b, const Preconditioner &P)
     {
-      dealii::GrowingVectorMemory<Vector>          memory;
-      dealii::GrowingVectorMemory<Vector>::Pointer r(memory), z(memory),
-        p(memory), Ap(memory);
-      for (Vector *vector : {&*r, &*z, &*p, &*Ap})
+      dealii::GrowingVectorMemory<Vector> memory;
+      // One for z = P r and A p: z is part of p by then.
+      dealii::GrowingVectorMemory<Vector>::Pointer r(memory), p(memory),
+        z(memory);
+      const auto &Ap = z;
+      for (Vector *vector : {&*r, &*p, &*z})
         vector->reinit(x, true);
       *r = b;
       if (!x.all_zero())

@@ -130,6 +130,7 @@ namespace corotet
     /// One of the further ones, once it is asked for.
     std::unique_ptr<CoarseSolver> other;
 
+    /// For that one; empty without it.
     mutable Vector             x, b;
     mutable FloatVector        float_x, float_b;
     mutable std::vector<float> unknowns;
