@@ -36,46 +36,6 @@ namespace corotet
     choose_step();
   }
 
-  double
-  TimeLoop::end_of_step(const unsigned int step, const unsigned int ahead) const
-  {
-    if (n_steps > 0)
-      return first_done + (1 - first_done) *
-                            (static_cast<double>(step - first_step) / n_steps);
-
-    const double duration = parameters.end_time - parameters.start_time;
-    const double interval = recording.time_between_results;
-    const double now      = time(done);
-    // A multiple that is reached but for round-off is reached.
-    const double target =
-      interval > 0 ?
-        std::min((std::floor(now / interval + 1e-6) + 1) * interval,
-                 parameters.end_time) :
-        parameters.end_time;
-    const double end = target >= parameters.end_time - 1e-6 * interval ?
-                         1. :
-                         (target - parameters.start_time) / duration;
-    const double dt  = adaptive ? adaptive->length() : step_length;
-    const double n   = std::ceil((end - done) * duration / dt * (1 - 1e-10));
-    if (n <= ahead)
-      return end;
-    // Steps of stability are all equal; those of an error keep their length,
-    // and none is left over that is very short.
-    return adaptive && n > 2 ? done + dt / duration :
-                               done + ahead * (end - done) / n;
-  }
-
-  double
-  TimeLoop::duration(const double part) const
-  {
-    if (n_steps == 0)
-      return part * (parameters.end_time - parameters.start_time);
-    // The same number for each step, whatever round-off makes of its ends:
-    // matrices depend on it.
-    return std::ldexp(
-      step_length, std::lround(std::log2(part * n_steps / (1 - first_done))));
-  }
-
   bool
   TimeLoop::is_recorded(const unsigned int step,
                         const double       from,
