@@ -66,15 +66,17 @@ namespace corotet
       for (std::size_t i = 0; i < text.size();)
         {
           std::size_t end  = i + 1;
-          const auto  find = [&](const std::string &what) {
-            const std::size_t found = text.find(what, i + 1);
+          const auto  find = [&](const std::string &what,
+                                const std::size_t  length = 1) {
+            const std::size_t found = text.find(what, i + length);
             return found == std::string::npos ? text.size() :
                                                  found + what.size();
           };
           if (text.compare(i, 2, "//") == 0)
             end = find("\n");
           else if (text.compare(i, 2, "/*") == 0)
-            end = find("*/");
+            // "/*/" is an open one.
+            end = find("*/", 2);
           else if (text[i] == '"' || text[i] == '\'')
             {
               end = find(std::string(1, text[i]));
@@ -144,8 +146,13 @@ namespace corotet
                                        "{} deep",
                                        path,
                                        max_include_depth));
-        file                                   = path;
-        const std::vector<Token>       tokens  = tokens_of(content_of(path));
+        file                   = path;
+        const std::string text = content_of(path);
+        // It ends comments for gmsh.
+        if (text.find('\0') != std::string::npos)
+          throw InputError("",
+                           path + ": is no text: found a byte that is zero");
+        const std::vector<Token>       tokens  = tokens_of(text);
         const std::vector<std::size_t> closing = closing_brackets(tokens);
         for (std::size_t i = 0; i < tokens.size(); ++i)
           if (tokens[i].kind == Kind::word)

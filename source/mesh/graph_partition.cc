@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/exchange.h>
+#include <corotet/base/mpi.h>
 #include <corotet/mesh/cell_order.h>
 #include <corotet/mesh/graph_partition.h>
 #include <corotet/mesh/mesh_part.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #ifdef COROTET_WITH_PT_SCOTCH
@@ -33,7 +35,7 @@ namespace corotet
 
 
 
-    // Its functions return zero if all is well.
+    // Its functions return zero if all is well. On one rank.
     void
     require(const int status, const char *function)
     {
@@ -50,12 +52,9 @@ namespace corotet
     class Scoped
     {
     public:
-      template <typename... Arguments>
-      Scoped(int (*init)(Type *, Arguments...),
-             const char *function,
-             Arguments... arguments)
+      Scoped(int (*init)(Type *), const char *function)
       {
-        require(init(&object, arguments...), function);
+        require(init(&object), function);
       }
 
       Scoped(const Scoped &) = delete;
@@ -78,8 +77,39 @@ namespace corotet
     };
 
     using Context  = Scoped<SCOTCH_Context, SCOTCH_contextExit>;
-    using Graph    = Scoped<SCOTCH_Dgraph, SCOTCH_dgraphExit>;
     using Strategy = Scoped<SCOTCH_Strat, SCOTCH_stratExit>;
+
+
+
+    // A graph that all ranks have a part of.
+    class Graph
+    {
+    public:
+      explicit Graph(const MPI_Comm comm)
+      {
+        on_all_ranks(comm, [&, status = SCOTCH_dgraphInit(&graph, comm)] {
+          require(status, "SCOTCH_dgraphInit");
+        });
+      }
+
+      Graph(const Graph &) = delete;
+      Graph &
+      operator=(const Graph &) = delete;
+
+      ~Graph()
+      {
+        SCOTCH_dgraphExit(&graph);
+      }
+
+      SCOTCH_Dgraph *
+      get()
+      {
+        return &graph;
+      }
+
+    private:
+      SCOTCH_Dgraph graph{};
+    };
 
 
 
@@ -106,47 +136,55 @@ namespace corotet
           first_edges.push_back(edges.size());
         }
 
-      // One thread, and chance that is always the same.
-      Context context(SCOTCH_contextInit, "SCOTCH_contextInit");
-      require(SCOTCH_contextThreadSpawn(context.get(), 1, nullptr),
-              "SCOTCH_contextThreadSpawn");
-      require(SCOTCH_contextRandomClone(context.get()),
-              "SCOTCH_contextRandomClone");
-      SCOTCH_contextRandomReset(context.get());
-      require(SCOTCH_contextOptionSetNum(context.get(),
-                                         SCOTCH_OPTIONNUMDETERMINISTIC,
-                                         1),
-              "SCOTCH_contextOptionSetNum");
-      Graph cells(SCOTCH_dgraphInit, "SCOTCH_dgraphInit", mesh.communicator);
-      require(SCOTCH_dgraphBuild(cells.get(),
-                                 0,
-                                 works.size(),
-                                 works.size(),
-                                 first_edges.data(),
-                                 nullptr,
-                                 works.data(),
-                                 nullptr,
-                                 edges.size(),
-                                 edges.size(),
-                                 edges.data(),
-                                 nullptr,
-                                 nullptr),
-              "SCOTCH_dgraphBuild");
-      Graph graph(SCOTCH_dgraphInit, "SCOTCH_dgraphInit", mesh.communicator);
-      require(SCOTCH_contextBindDgraph(context.get(), cells.get(), graph.get()),
-              "SCOTCH_contextBindDgraph");
-
-      const SCOTCH_Num n_ranks = MPI::n_mpi_processes(mesh.communicator);
-      Strategy         strategy(SCOTCH_stratInit, "SCOTCH_stratInit");
-      require(SCOTCH_stratDgraphMapBuild(strategy.get(),
-                                         SCOTCH_STRATQUALITY,
-                                         n_ranks,
-                                         n_ranks,
-                                         inequality),
-              "SCOTCH_stratDgraphMapBuild");
+      const SCOTCH_Num        n_ranks = MPI::n_mpi_processes(mesh.communicator);
+      std::optional<Context>  context;
+      std::optional<Strategy> strategy;
+      on_all_ranks(mesh.communicator, [&] {
+        context.emplace(SCOTCH_contextInit, "SCOTCH_contextInit");
+        // One thread, and chance that is always the same.
+        require(SCOTCH_contextThreadSpawn(context->get(), 1, nullptr),
+                "SCOTCH_contextThreadSpawn");
+        require(SCOTCH_contextRandomClone(context->get()),
+                "SCOTCH_contextRandomClone");
+        SCOTCH_contextRandomReset(context->get());
+        require(SCOTCH_contextOptionSetNum(context->get(),
+                                           SCOTCH_OPTIONNUMDETERMINISTIC,
+                                           1),
+                "SCOTCH_contextOptionSetNum");
+        strategy.emplace(SCOTCH_stratInit, "SCOTCH_stratInit");
+        require(SCOTCH_stratDgraphMapBuild(strategy->get(),
+                                           SCOTCH_STRATQUALITY,
+                                           n_ranks,
+                                           n_ranks,
+                                           inequality),
+                "SCOTCH_stratDgraphMapBuild");
+      });
+      // Collective ones.
+      const auto require_on_all = [&](const int status, const char *function) {
+        on_all_ranks(mesh.communicator, [&] { require(status, function); });
+      };
+      Graph cells(mesh.communicator), graph(mesh.communicator);
+      require_on_all(SCOTCH_dgraphBuild(cells.get(),
+                                        0,
+                                        works.size(),
+                                        works.size(),
+                                        first_edges.data(),
+                                        nullptr,
+                                        works.data(),
+                                        nullptr,
+                                        edges.size(),
+                                        edges.size(),
+                                        edges.data(),
+                                        nullptr,
+                                        nullptr),
+                     "SCOTCH_dgraphBuild");
+      require_on_all(SCOTCH_contextBindDgraph(context->get(),
+                                              cells.get(),
+                                              graph.get()),
+                     "SCOTCH_contextBindDgraph");
       std::vector<SCOTCH_Num> ranks(works.size());
-      require(
-        SCOTCH_dgraphPart(graph.get(), n_ranks, strategy.get(), ranks.data()),
+      require_on_all(
+        SCOTCH_dgraphPart(graph.get(), n_ranks, strategy->get(), ranks.data()),
         "SCOTCH_dgraphPart");
       return ranks;
     }

@@ -196,6 +196,12 @@ namespace corotet
   }
 
   void
+  check_output_place(const std::string &directory, const MPI_Comm comm)
+  {
+    on_root_with_directory(directory, comm, check_place);
+  }
+
+  void
   prepare_output_directory(const std::string &directory,
                            const bool         overwrite,
                            const MPI_Comm     comm)

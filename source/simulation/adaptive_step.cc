@@ -57,11 +57,12 @@ namespace corotet
                              const double                  first_step)
     : parameters(parameters)
   {
-    smallest = parameters.smallest_step > 0 ? parameters.smallest_step :
-                                              1e-6 * first_step;
     largest  = parameters.largest_step > 0 ?
                  parameters.largest_step :
                  std::numeric_limits<double>::infinity();
+    smallest = parameters.smallest_step > 0 ?
+                 parameters.smallest_step :
+                 1e-6 * std::min(first_step, largest);
     set_length(first_step);
   }
 

@@ -49,6 +49,8 @@ namespace corotet
   {
     if (!effective_operator)
       make_operators();
+    // The run may go on with another tangent, which needs no operator.
+    built_with_tangent = built_with_tangent && tangent_operator != nullptr;
     State state;
     for (Vector *vector : {&state.u, &state.v, &state.a})
       body.discretization.initialize_vector(*vector);

@@ -213,7 +213,7 @@ namespace corotet
     stress_is_present = false;
     ScopedTimer timer(wall_times.output);
     for (const auto &observer : *observers)
-      if (stepper.has_partial_step())
+      if (stepper.has_new_record())
         observer->step(snapshot(true));
       else
         observer->save(snapshot(true));

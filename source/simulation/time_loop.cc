@@ -110,6 +110,8 @@ namespace corotet
   {
     StepRecord next    = is_between_records ? unrecorded : record;
     is_between_records = false;
+    // Of the state that a step that fails leaves.
+    StepRecord good = integrator->is_explicit() ? record : next;
     for (bool is_first = true; is_first || !is_recorded(next.step, from, done);
          is_first      = false)
       {
@@ -119,10 +121,6 @@ namespace corotet
             is_between_records = true;
             return false;
           }
-        if (next.step == largest_number_of_steps)
-          throw ComputationError(
-            fmt::format("found {} steps already; allowed are no more",
-                        next.step));
         ++next.step;
         next.dt                = 0;
         next.parts             = 0;
@@ -131,6 +129,10 @@ namespace corotet
         from                   = done;
         try
           {
+            if (next.step > largest_number_of_steps)
+              throw ComputationError(
+                fmt::format("found {} steps already; allowed are no more",
+                            largest_number_of_steps));
             if (integrator->is_explicit())
               advance_explicitly(next);
             else if (adaptive)
@@ -140,6 +142,9 @@ namespace corotet
                       end_of_step(next.step),
                       parameters.max_halvings,
                       next);
+            if (!integrator->is_explicit() ||
+                is_recorded(next.step, from, done))
+              good = next;
             if (is_stable_step_due(next.step))
               follow_stable_step();
           }
@@ -150,12 +155,14 @@ namespace corotet
                 restore_state();
                 done = good_done;
               }
-            else if (next.parts > 0)
+            else if (next.step > good.step && next.parts > 0)
               {
-                // Part of the step is done: what is saved has its record.
-                record     = next;
+                // Part of the step is done.
+                good       = next;
                 is_partial = true;
               }
+            is_new = good.step > record.step;
+            record = good;
             throw;
           }
       }

@@ -34,7 +34,9 @@ namespace corotet
         keep_state();
         good_done = done;
       }
-    if (end_time == parameters.end_time && time_step == parameters.time_step)
+    // Load steps know no time step.
+    if (end_time == parameters.end_time &&
+        (time_step == parameters.time_step || !integrator->is_dynamic()))
       return;
     if (end_time != parameters.end_time)
       {

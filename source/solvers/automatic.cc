@@ -89,12 +89,28 @@ namespace corotet
   void
   AutomaticPreconditioner::find_costs(const EffectiveOperator &A)
   {
-    has_costs                            = true;
-    const Discretization &discretization = A.discretization();
-    const double          n              = 3. * discretization.n_global_nodes();
-    const auto            degree_1 = multigrid.lowest_level().factorization(A);
-    const double          r        = n / degree_1.n_unknowns;
-    const double          n_operations =
+    has_costs                                 = true;
+    const Discretization      &discretization = A.discretization();
+    const double               n = 3. * discretization.n_global_nodes();
+    VertexLevel::Factorization degree_1;
+    try
+      {
+        degree_1 = multigrid.lowest_level().factorization(A);
+      }
+    // Too large, for the memory or for the library: all the more that of the
+    // whole matrix.
+    catch (const ComputationError &)
+      {
+        is_settled = true;
+        return;
+      }
+    catch (const MachineError &)
+      {
+        is_settled = true;
+        return;
+      }
+    const double r = n / degree_1.n_unknowns;
+    const double n_operations =
       degree_1.n_operations * std::pow(r, power_of_operations);
     const double n_entries = degree_1.n_entries * std::pow(r, power_of_entries);
     if (n_entries > most_entries)

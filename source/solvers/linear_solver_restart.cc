@@ -10,6 +10,11 @@ namespace corotet
   void
   LinearSolver::transfer(Archive &archive)
   {
+    std::string saved = type();
+    archive.transfer("type", saved);
+    if (saved != type())
+      // The run goes on with another solver, which has no past.
+      return;
     archive.transfer("is_built", is_built);
     archive.transfer("built_mass_ratio", built_mass_ratio);
     archive.transfer("built_surface", built_surface);

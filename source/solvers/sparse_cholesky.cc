@@ -10,9 +10,11 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -123,6 +125,15 @@ namespace corotet
     , is_alone(dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
   {
     const NodeGraph &graph = pattern->graph();
+    // Before any of them is counted in int: those of the lower triangle.
+    const std::int64_t n_unknowns =
+      std::int64_t(3) * pattern->nodes().n_global();
+    const double n_entries = dealii::Utilities::MPI::sum(
+      9. * static_cast<double>(graph.columns.size()), comm);
+    if ((n_entries + n_unknowns) / 2 > std::numeric_limits<int>::max())
+      throw ComputationError("the matrix with " + std::to_string(n_unknowns) +
+                             " unknowns is too large to be factorised: it has "
+                             "more than 2^31 entries");
     std::vector<int> columns;
     for (int node = 0; node < pattern->n_owned(); ++node)
       for (int a = 0; a < 3; ++a)

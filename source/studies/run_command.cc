@@ -102,7 +102,11 @@ namespace corotet
         directory = parameters.output.directory_of_run(command.parameter_file);
         // Before the work starts; nothing is removed before all input is
         // checked.
-        check_output_directory(directory, may_overwrite(), comm);
+        if (command.restart)
+          // What is there stays, if there is a checkpoint.
+          check_output_place(directory, comm);
+        else
+          check_output_directory(directory, parameters.output.overwrite, comm);
       }
 
       void

@@ -77,6 +77,8 @@ TEST(GmshProcess, GeometryMayNotDoHarm)
      "found 'ExternalProcess', which runs a command"},
     {"/* Exit; */ Save \"" + marker + "\";",
      "found 'Save', which writes a file"},
+    {"/*/ ' */ Save \"" + marker + "\"; //'",
+     "found 'Save', which writes a file"},
     {"Print \"" + marker + "\";", "found 'Print', which writes a file"},
     {"Printf(\"%g\", Sin(1)) > \"" + marker + "\";",
      "found 'Printf', which writes a file here"},
@@ -103,6 +105,11 @@ TEST(GmshProcess, GeometryMayNotDoHarm)
       EXPECT_EQ(message_of(file),
                 file + ":" + std::to_string(line) + ": " + what + end);
     }
+  // What ends a comment for gmsh, and not for who reads lines.
+  const std::string with_zero =
+    folder.write("x.geo", std::string("// \0 Exit;\n", 11));
+  EXPECT_EQ(message_of(with_zero),
+            with_zero + ": is no text: found a byte that is zero");
   // In a file that is included, with its own name and line; a folder is left
   // through a link, too.
   const std::string part = folder.write("part.geo", "x = 1;\nExit;\n");
@@ -129,6 +136,7 @@ TEST(GmshProcess, HarmlessGeometry)
     folder.write("x.geo",
                  box_geometry + "// SystemCall \"x\";\nPrint.Background = 0;\n"
                                 "Printf(\"2 > 1\");\nIf (2 > 1)\nEndIf\n"
+                                "/*/ Save \"x\"; /*/\n"
                                 "Include \"part.geo\";\n"));
   EXPECT_EQ(mesh.regions.names.at(3), "Exit");
   EXPECT_NEAR(mesh_quality(mesh).volume, 6, 1e-12);

@@ -9,11 +9,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <limits>
+#include <map>
 
 #include "support.h"
 
@@ -227,16 +229,40 @@ TEST_F(CheckpointFile, AnyFlippedBitIsFound)
 
 TEST_F(CheckpointFile, OtherMeshIsRefused)
 {
-  SerialMesh other = distorted_box();
-  other.vertices[3][1] += 1e-15;
-  Log                  log(MPI_COMM_WORLD, true);
-  const Mesh           mesh(other, 0, 1, MPI_COMM_WORLD, log);
-  const Discretization discretization(mesh, Element(2));
-  CheckpointReader     reader(path, discretization, order);
-  EXPECT_TRUE(
-    message_of<InputError>([&] {
-      reader.check_mesh();
-    }).starts_with("--restart: found a mesh of 96 cells that is not"));
+  SerialMesh moved = distorted_box();
+  moved.vertices[3][1] += 1e-15;
+  // What supports, loads and materials go by.
+  SerialMesh other_boundary = distorted_box();
+  // A triangle that only one cell has.
+  std::map<std::array<unsigned int, 3>, unsigned int> n_cells;
+  for (const SerialMesh::Cell &cell : other_boundary.cells)
+    for (const auto &[i, j, k] : corners_of_faces)
+      {
+        std::array<unsigned int, 3> face{
+          {cell.vertices[i], cell.vertices[j], cell.vertices[k]}};
+        std::sort(face.begin(), face.end());
+        ++n_cells[face];
+      }
+  const auto on_surface =
+    std::find_if(n_cells.begin(), n_cells.end(), [](const auto &face) {
+      return face.second == 1;
+    });
+  ASSERT_NE(on_surface, n_cells.end());
+  other_boundary.boundaries.names[7] = "foot";
+  other_boundary.faces.push_back({on_surface->first, 7});
+  SerialMesh other_region = distorted_box();
+  other_region.regions.names[other_region.cells[0].region] += "'";
+  for (const SerialMesh &other : {moved, other_boundary, other_region})
+    {
+      Log                  log(MPI_COMM_WORLD, true);
+      const Mesh           mesh(other, 0, 1, MPI_COMM_WORLD, log);
+      const Discretization discretization(mesh, Element(2));
+      CheckpointReader     reader(path, discretization, order);
+      EXPECT_TRUE(
+        message_of<InputError>([&] {
+          reader.check_mesh();
+        }).starts_with("--restart: found a mesh of 96 cells that is not"));
+    }
 }
 
 // A checksum is no secret: what has a right one is read with the same care.
@@ -264,8 +290,8 @@ TEST_F(CheckpointFile, WrongContentWithARightChecksum)
   EXPECT_EQ(refusal_with("cells", -1), damaged);
   EXPECT_EQ(refusal_with("values", {{"number", 3}}), damaged);
   EXPECT_EQ(refusal_with("parameters", {{"Mesh", {{"Type", 3}}}}), damaged);
-  EXPECT_EQ(refusal_with("format", 2),
-            path + ".json: found a checkpoint of format 2; allowed: 1, that of "
+  EXPECT_EQ(refusal_with("format", 1),
+            path + ".json: found a checkpoint of format 1; allowed: 2, that of "
                    "this program");
   Json deep = 1;
   for (unsigned int i = 0; i < 40; ++i)

@@ -286,6 +286,26 @@ class Checkpoints(ProgramTest):
                 self.assertEqual(run.finish("--restart")[0], 0)
                 self.compare(read_history(run.output), read_history(long.output))
 
+    def test_changes_that_are_allowed(self):
+        """Solvers and tolerances, and what has no effect: all lead to the same results."""
+        strict = {"Linear solver/Tolerance": "1e-11", "Newton/Residual tolerance": "1e-10", "Newton/Increment tolerance": "1e-10"}
+        reference, _ = self.undisturbed("static", 1, strict)
+        for before, change in (("automatic", "Linear solver/Type = p-multigrid"), ("p-multigrid", "Linear solver/Type = automatic"),
+                               ("direct", "Linear solver/Type = automatic"), ("automatic", "Newton/Tangent = frozen rotation"),
+                               ("automatic", "Newton/Maximum iterations = 90"), ("automatic", "Time integration/Time step = 0.25"),
+                               ("automatic", "Mesh/Partitioner = Hilbert curve")):
+            with self.subTest(before=before, change=change):
+                run = Run(self.folder / "allowed", "static", 1, {**strict, "Linear solver/Type": before})
+                self.stop_at(run, 9)
+                # What users keep beside their results.
+                (run.output / "view.pvsm").write_text("<ParaView/>", encoding="utf-8")
+                status, out, errors = run.finish("--restart", "--set", "Newton/Maximum iterations = 100", "--set", change)
+                self.assertEqual(status, 0, out + errors)
+                self.assertNotIn("begins anew", out)
+                self.compare(read_history(run.output), read_history(reference.output))
+                self.assertTrue((run.output / "view.pvsm").exists())
+                shutil.rmtree(run.folder)
+
     def test_changes_that_are_refused(self):
         run = Run(self.folder / "changed", "static", 1)
         self.assertEqual(run.finish()[0], 0)

@@ -127,6 +127,16 @@ TEST(AdaptiveStep, Bounds)
       EXPECT_LE(steps[i].dt, 0.04 * (1 + 1e-12));
     }
   EXPECT_GE(steps.size(), 190u);
+  // A largest step far below the first one: without a smallest one, the error
+  // still counts, and steps are repeated.
+  CompleteRun tiny(beam(time_integration(
+    "Newmark",
+    2e-3,
+    1e4,
+    {section("Adaptive step", {{"Enabled", true}, {"Target error", 1e-12}}),
+     section("Adaptive step", {{"Largest step", 1e-3}})})));
+  ASSERT_EQ(tiny.run(), "");
+  EXPECT_LT(tiny.recorder().steps.front().dt, 0.9e-3);
   const auto text = refusal([] {
     CompleteRun(beam(adaptive(
       "Newmark", 1e-3, {{"Smallest step", 0.2}, {"Largest step", 0.1}})));

@@ -144,6 +144,32 @@ TEST(Halving, GivesUp)
             1e-10 * good.recorder().displacement.linfty_norm());
 }
 
+// Rows are rarer than steps: the last good step, which had no row, gets one
+// before the run ends.
+TEST(Halving, FailsBetweenRows)
+{
+  CompleteRun run(
+    bar(statics(4, 0), 50, "if(t > 0.55 && t < 0.9, 1/(t-t), 100)"));
+  const std::string message = run.run({.steps_between_rows = 4});
+  EXPECT_EQ(message.find("step 3 (t = 0.5): the forces are not finite"), 0u)
+    << message;
+  const Recorder &recorder = run.recorder();
+  ASSERT_EQ(recorder.steps.size(), 1u);
+  EXPECT_EQ(recorder.steps[0].step, 2u);
+  EXPECT_EQ(recorder.steps[0].time, 0.5);
+  EXPECT_TRUE(recorder.last);
+  EXPECT_EQ(recorder.saved.size(), 0u);
+  EXPECT_EQ(recorder.summary.steps, 2u);
+  EXPECT_EQ(recorder.summary.end_time, 0.5);
+  const FinishedRun good(bar(statics(1, 0), 50, "50"));
+  EXPECT_NEAR(recorder.steps[0].elastic_energy,
+              good.recorder().steps[0].elastic_energy,
+              1e-9 * good.recorder().steps[0].elastic_energy);
+  EXPECT_LE(largest_difference(recorder.displacement,
+                               good.recorder().displacement),
+            1e-10 * good.recorder().displacement.linfty_norm());
+}
+
 // Nothing of the third step can be made: the second, which has been shown, is
 // what is saved.
 TEST(Halving, FailsAtOnceWithoutHalvings)

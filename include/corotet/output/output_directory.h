@@ -35,6 +35,10 @@ namespace corotet
                          const bool         overwrite,
                          const MPI_Comm     comm);
 
+  /// The same about where it is, whatever it holds. Collective.
+  void
+  check_output_place(const std::string &directory, const MPI_Comm comm);
+
   /// @p directory, or if there is none the innermost folder (or what else)
   /// that it would be made in. On this rank.
   std::filesystem::path

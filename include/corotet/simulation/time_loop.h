@@ -69,7 +69,8 @@ namespace corotet
      * @p is_interrupted, which is asked after each (or after some, if they are
      * made together), says so; then it returns false. @p record, that of the
      * last one, becomes its record, but for the wall time. Throws
-     * ComputationError; then record, state and time are the last good ones.
+     * ComputationError; then record, state and time are the last good ones, and
+     * has_new_record() says whether @p record has changed.
      */
     bool
     next(StepRecord &record, const std::function<bool()> &is_interrupted = {});
@@ -80,7 +81,15 @@ namespace corotet
       return done == 1;
     }
 
-    /// Whether the last record is that of a part of a step that then failed.
+    /// Whether a call of next() that threw has left a record of a later state
+    /// than the one it got.
+    bool
+    has_new_record() const
+    {
+      return is_new;
+    }
+
+    /// Whether that is the record of a part of a step that then failed.
     bool
     has_partial_step() const
     {
@@ -280,6 +289,7 @@ namespace corotet
     StepRecord unrecorded;
     bool       is_between_records = false;
 
+    bool   is_new     = false;
     bool   is_partial = false;
     bool   has_warned = false;
     double n_planned  = 0;

@@ -26,9 +26,7 @@ namespace corotet
    * is computed in double precision; patterns are kept while that of A is the
    * same.
    *
-   * Aggregates stay within a rank, and so do their smoothed motions: the step
-   * of damped Jacobi takes a neighbour on another rank to move with the
-   * aggregate, so that rigid motions of the body remain what they are.
+   * Aggregates stay within a rank; their smoothed motions go on behind it.
    */
   class SmoothedAggregation
   {
