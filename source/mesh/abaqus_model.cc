@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <regex>
 #include <set>
+#include <typeinfo>
 
 #include "abaqus_lines.h"
 

@@ -4,6 +4,7 @@
 #include "nearest_triangle.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace corotet
 {

@@ -8,7 +8,6 @@
 
 #include <deal.II/numerics/rtree.h>
 
-#include <limits>
 
 namespace corotet
 {

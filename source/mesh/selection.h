@@ -10,7 +10,6 @@
 #include <deal.II/base/point.h>
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -4,8 +4,6 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/mesh/triangle_surface.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>

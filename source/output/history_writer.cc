@@ -8,7 +8,6 @@
 #include <corotet/output/history_writer.h>
 #include <corotet/output/stress_tables.h>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cerrno>

@@ -5,9 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace corotet
 {

@@ -56,13 +56,6 @@ namespace corotet
     void
     progress(const std::string &text, const double share = -1);
 
-    /// Whether a live line can be shown.
-    bool
-    on_terminal() const
-    {
-      return terminal;
-    }
-
     /// From now on lines go to @p path too, those shown so far first. Throws
     /// MachineError if it cannot be written. Collective.
     void

@@ -9,9 +9,7 @@
 
 #include <deal.II/lac/solver_control.h>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace corotet
