@@ -153,8 +153,3 @@ def unit_normals(points, triangles):
     a, b, c = (points[triangles[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     return normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-
-
-def enclosed_volume(points, triangles):
-    a, b, c = (points[triangles[:, i]] for i in range(3))
-    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6

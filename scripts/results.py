@@ -32,7 +32,7 @@ class Run:
     """A folder of results, as they were when it was opened. Numbers are those of the files, in their units.
 
     `points` [m] are those of the body at rest, `cells` the nodes of each cell in VTK's order, `times` those of the states (for modes their
-    numbers, in statics the share of the loads), `point_fields` and `cell_fields` the numbers of components by name.
+    numbers), `point_fields` and `cell_fields` the numbers of components by name.
     """
 
     def __init__(self, folder):

@@ -63,7 +63,7 @@ def body(run):
             text += f", elements of {value(entry(f'Mesh/{kind}/Element size'), 'm')}"
         if entry(f"Mesh/{kind}/Geometry degree") not in ("1", ""):
             text += f", curved cells of degree {value(entry(f'Mesh/{kind}/Geometry degree'))}"
-    if not is_zero(entry("Mesh/Scale").replace("1", "0", 1)):
+    if float(entry("Mesh/Scale") or 1) != 1:
         text += f", scaled by {value(entry('Mesh/Scale'))}"
     if run.kind != "study" and not is_zero(entry("Mesh/Refinements")):
         text += f", refined {count(int(entry('Mesh/Refinements')), 'time')}"

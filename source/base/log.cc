@@ -76,7 +76,7 @@ namespace corotet
     if (file.is_open())
       file << text << std::endl;
     else
-      kept += text + '\n';
+      kept.push_back(text);
   }
 
   void
@@ -132,7 +132,9 @@ namespace corotet
   {
     on_root(comm, [&] {
       file.open(path);
-      file << kept << std::flush;
+      for (const std::string &text : kept)
+        file << text << '\n';
+      file << std::flush;
       if (!file)
         {
           // A new run must not find this alone, which nobody can overwrite.
@@ -150,6 +152,10 @@ namespace corotet
   {
     on_root(comm, [&] {
       continue_file(path, size, "the log file", file);
+      // The others are those of the first start again.
+      for (const std::string &text : kept)
+        if (text.starts_with("warning: "))
+          file << text << std::endl;
       kept.clear();
     });
   }

@@ -8,12 +8,15 @@
 #include <corotet/forces/point_forces.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/types.h>
 #include <deal.II/base/utilities.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace corotet
 {
@@ -55,6 +58,40 @@ namespace corotet
         }
       return false;
     }
+
+    // Of the nodes at that distance, but for round-off, the one with the lowest
+    // coordinates, which is the same on any number of ranks: an owned one, or
+    // an invalid number on other ranks; and how many there are. Collective.
+    std::pair<unsigned int, unsigned int>
+    nearest_node(const Discretization &discretization,
+                 const Point<3>       &target,
+                 const double          distance)
+    {
+      constexpr double          round_off = 1e-9;
+      const MPI_Comm            comm      = discretization.communicator();
+      std::vector<unsigned int> nodes;
+      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+        if (discretization.node_position(n).distance(target) <=
+            (1 + round_off) * distance)
+          nodes.push_back(n);
+      const unsigned int n_nearest =
+        dealii::Utilities::MPI::sum<unsigned int>(nodes.size(), comm);
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          const auto coordinate = [&](const unsigned int n) {
+            return discretization.node_position(n)[a];
+          };
+          double lowest = std::numeric_limits<double>::infinity();
+          for (const unsigned int n : nodes)
+            lowest = std::min(lowest, coordinate(n));
+          lowest = dealii::Utilities::MPI::min(lowest, comm);
+          std::erase_if(nodes, [&](const unsigned int n) {
+            return coordinate(n) > lowest + round_off * distance;
+          });
+        }
+      return {nodes.empty() ? dealii::numbers::invalid_unsigned_int : nodes[0],
+              n_nearest};
+    }
   } // namespace
 
   PointForce::PointForce(const Discretization &discretization,
@@ -63,22 +100,19 @@ namespace corotet
                          Log                  &log)
     : value(value)
   {
-    // The nearest node; of several the one with the lowest number.
-    double distance = std::numeric_limits<double>::infinity();
+    const MPI_Comm comm     = discretization.communicator();
+    double         distance = std::numeric_limits<double>::infinity();
     for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-      if (discretization.node_position(n).distance(target) < distance)
-        {
-          node     = n;
-          distance = discretization.node_position(n).distance(target);
-        }
-    const MPI_Comm     comm    = discretization.communicator();
-    const double       minimum = dealii::Utilities::MPI::min(distance, comm);
-    const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
+      distance =
+        std::min(distance, discretization.node_position(n).distance(target));
+    const double minimum = dealii::Utilities::MPI::min(distance, comm);
+    const auto [found, n_nearest] =
+      nearest_node(discretization, target, minimum);
+    const unsigned int none = dealii::numbers::invalid_unsigned_int;
+    node                    = found == none ? 0 : found;
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
     const unsigned int owner =
-      dealii::Utilities::MPI::min(distance == minimum ?
-                                    rank :
-                                    std::numeric_limits<unsigned int>::max(),
-                                  comm);
+      dealii::Utilities::MPI::min(found == none ? none : rank, comm);
     position =
       dealii::Utilities::MPI::broadcast(comm,
                                         rank == owner ?
@@ -102,14 +136,19 @@ namespace corotet
           position[2]));
     log.line(fmt::format(
       "Point force at node ({:.6g}, {:.6g}, {:.6g}), {:.3g} m from ({:.6g}, "
-      "{:.6g}, {:.6g})",
+      "{:.6g}, {:.6g}){}",
       position[0],
       position[1],
       position[2],
       minimum,
       target[0],
       target[1],
-      target[2]));
+      target[2],
+      n_nearest > 1 ?
+        fmt::format(": of {} that are as near, the one with the lowest "
+                    "coordinates",
+                    n_nearest) :
+        ""));
     is_owned = rank == owner;
   }
 

@@ -122,7 +122,9 @@ namespace corotet
     const ElasticSweep rotate  = rotation_sweep(discretization.element());
     ElasticData        data    = rotating_data();
     rotate(data, 0, batches.n_owned_batches(), u.begin(), nullptr);
-    counts = data.counts;
+    // Those of other laws are of their own points, with the force.
+    if (material_law->has_cell_rotation())
+      counts = data.counts;
     rotate(
       data, batches.n_owned_batches(), batches.n_batches(), u.begin(), nullptr);
   }

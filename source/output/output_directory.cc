@@ -81,16 +81,22 @@ namespace corotet
                          });
     }
 
-    // Everything below the directory, folders after what they hold. Throws if
-    // any of it is not a result.
-    std::vector<fs::path>
-    old_results(const fs::path &directory)
+    void
+    check_mark(const fs::path &directory)
     {
       if (!DirectoryLock::has_marked(directory.string()))
         throw InputError(directory_entry,
                          "the output directory '" + directory.string() +
                            "' is not empty and holds no results of corotet; "
                            "only a directory of results can be overwritten");
+    }
+
+    // Everything below the directory, folders after what they hold. Throws if
+    // any of it is not a result.
+    std::vector<fs::path>
+    old_results(const fs::path &directory)
+    {
+      check_mark(directory);
       std::vector<fs::path> results;
       for (const fs::directory_entry &entry :
            fs::recursive_directory_iterator(directory))
@@ -196,9 +202,13 @@ namespace corotet
   }
 
   void
-  check_output_place(const std::string &directory, const MPI_Comm comm)
+  check_directory_of_restart(const std::string &directory, const MPI_Comm comm)
   {
-    on_root_with_directory(directory, comm, check_place);
+    on_root_with_directory(directory, comm, [](const fs::path &path) {
+      check_place(path);
+      if (fs::exists(path) && !has_no_files(path))
+        check_mark(path);
+    });
   }
 
   void

@@ -33,16 +33,20 @@ namespace corotet
                                      shortened(name)));
     }
 
-    // NAME_x must not be two columns of the history.
+    // NAME_x must not be two columns of the history, or of modes.
     void
     check_not_taken(const std::string &entry, const std::string &name)
     {
-      const std::array<std::string, 4> taken{
-        {"momentum", "angular_momentum", "reaction", "internal_moment"}};
+      const std::array<std::string, 6> taken{{"momentum",
+                                              "angular_momentum",
+                                              "reaction",
+                                              "internal_moment",
+                                              "mass_share",
+                                              "effective_mass"}};
       if (std::find(taken.begin(), taken.end(), name) != taken.end())
         throw InputError(entry,
                          fmt::format("'{}' cannot be a probe's name; {} are "
-                                     "columns of the history already",
+                                     "columns of tables already",
                                      name,
                                      join({taken.begin(), taken.end()})));
     }

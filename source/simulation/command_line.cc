@@ -218,6 +218,9 @@ namespace corotet
             command_line.print_parameters->empty())
           command_line.print_parameters = styles.front();
         separate_style_from_file(command_line);
+        if (command_line.parameter_file.empty() &&
+            !command_line.overrides.empty())
+          fail("--set: a parameter file is needed, whose entries it overrides");
       }
     else if (command_line.parameter_file.empty() && !command_line.list)
       fail("a parameter file is needed: corotet [OPTIONS] FILE.prm (--help "

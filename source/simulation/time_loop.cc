@@ -327,7 +327,17 @@ namespace corotet
     TimeStep first = {time(from), duration((to - from) / n), to};
     if (n == 1)
       first.end = time(to);
-    const StageReport report = integrator->steps(system, first, n, present);
+    StageReport report;
+    try
+      {
+        report = integrator->steps(system, first, n, present);
+      }
+    // Of supports, which only some times have been tried for before the start.
+    catch (const InputError &error)
+      {
+        throw ComputationError((error.entry.empty() ? "" : error.entry + ": ") +
+                               error.what());
+      }
     record.newton_iterations += report.newton_iterations;
     record.linear_iterations += report.linear_iterations;
   }

@@ -4,7 +4,6 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
-#include <corotet/base/programs.h>
 #include <corotet/base/unused_entries.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
@@ -21,13 +20,14 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "page_of_run.h"
 
 namespace corotet
 {
@@ -104,7 +104,7 @@ namespace corotet
         // checked.
         if (command.restart)
           // What is there stays, if there is a checkpoint.
-          check_output_place(directory, comm);
+          check_directory_of_restart(directory, comm);
         else
           check_output_directory(directory, parameters.output.overwrite, comm);
       }
@@ -175,35 +175,16 @@ namespace corotet
           }
       }
 
-      // As it is to be typed: the libraries of scripts may be elsewhere.
-      std::string
-      command_for_page() const
-      {
-        const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
-        const bool        is_named = toolchain != nullptr && *toolchain != '\0';
-        return (is_named ? toolchain + std::string(" ") : "") +
-               "scripts/report " + directory;
-      }
-
       void
       write_report()
       {
         if (!command.report || command.validate)
           return;
-        const bool is_written = from_root(comm, [&] {
-          const std::string script =
-            find_installed("share/corotet/scripts/report");
-          if (script.empty())
-            return false;
-          constexpr double hour = 3600;
-          const ProgramEnd end  = run_for_output(script, {directory}, hour);
-          return end.status == 0 && end.signal == 0 && !end.has_exceeded;
-        });
-        if (is_written)
+        if (from_root(comm, [&] { return write_page_of_run(directory); }))
           log.line("The page of the run is " + directory + "/report.html");
         else
           log.warning("the page of the run could not be written; " +
-                      command_for_page() + " says why");
+                      command_for_page(directory) + " says why");
       }
 
       // A restart without anything to go on from begins anew.
@@ -211,6 +192,18 @@ namespace corotet
       may_overwrite() const
       {
         return parameters.output.overwrite || command.restart;
+      }
+
+      // Whether one of these is in the directory.
+      bool
+      holds_any(const std::vector<std::string> &names) const
+      {
+        return from_root(comm, [&] {
+          return std::any_of(
+            names.begin(), names.end(), [&](const std::string &name) {
+              return std::filesystem::exists(directory + "/" + name);
+            });
+        });
       }
 
       // The checkpoint to go on from, null if there is none. Then the results
@@ -223,9 +216,8 @@ namespace corotet
         auto checkpoint = checkpoints.newest();
         if (checkpoint)
           return checkpoint;
-        if (!parameters.output.overwrite && from_root(comm, [&] {
-              return std::filesystem::exists(directory + "/summary.json");
-            }))
+        if (!parameters.output.overwrite &&
+            holds_any({"summary.json", "modes.csv", "study.csv", "rows"}))
           throw InputError("Output/Directory",
                            "--restart: found the results of a run that has "
                            "ended in '" +
@@ -243,7 +235,16 @@ namespace corotet
       {
         ConvergenceStudy study(command, parameters.study, comm, log);
         parameters.verification.initialize(study.columns());
-        record("study.csv", command.restart, [&] {
+        const bool is_other =
+          holds_any({"history.csv", "modes.csv", "summary.json"});
+        if (command.restart && is_other && !parameters.output.overwrite)
+          throw InputError("Output/Directory",
+                           "--restart: found results of a run that is no "
+                           "study in '" +
+                             directory +
+                             "'; allowed: another directory, or "
+                             "Output/Overwrite = true to begin anew");
+        record("study.csv", command.restart && !is_other, [&] {
           log.open(directory + "/log.txt");
           write_parameters();
           study.run(directory);
@@ -298,7 +299,15 @@ namespace corotet
                                 output.time_between_results};
         record("history.csv", checkpoint != nullptr, [&] {
           if (checkpoint)
-            checkpoints.resume(simulation, observers, times, *checkpoint);
+            {
+              checkpoints.resume(simulation, observers, times, *checkpoint);
+              // The run has not ended any more.
+              on_root(comm, [&] {
+                for (const char *const name :
+                     {"summary.json", "verification.csv"})
+                  std::filesystem::remove(directory + "/" + name);
+              });
+            }
           else
             log.open(directory + "/log.txt");
           write_parameters();
@@ -340,9 +349,9 @@ namespace corotet
           parameters.simulation.type == RunType::convergence_study;
         log.line("Results are in " + directory + ": " + table +
                  (is_study ? "" : ", solution.vtkhdf for ParaView") +
-                 (command.report ?
-                    "" :
-                    ("; " + command_for_page() + " makes a page of them")));
+                 (command.report ? "" :
+                                   ("; " + command_for_page(directory) +
+                                    " makes a page of them")));
         const std::string counts = log.counts();
         if (!counts.empty())
           log.line("Worth a look above, or in log.txt: " + counts);
@@ -373,7 +382,12 @@ namespace corotet
     RunParameters parameters;
     parameters.declare_parameters(file.handler());
     if (command.print_parameters)
-      on_root(comm, [&] { file.print(std::cout, *command.print_parameters); });
+      {
+        if (!command.parameter_file.empty())
+          file.read(command.parameter_file, command.overrides, comm);
+        on_root(comm,
+                [&] { file.print(std::cout, *command.print_parameters); });
+      }
     else
       Command(command, file, parameters, comm).run();
   }

@@ -204,11 +204,7 @@ namespace corotet
                                                comm,
                                                log);
     // Before the work starts.
-    pick(simulated ? history_row({},
-                                 names_of(parameters.output.probe_points()),
-                                 {parameters.output.probe_points().size(),
-                                  dealii::Tensor<1, 3>()}) :
-                     frequencies());
+    pick(simulated ? history_example(parameters.output) : frequencies());
   }
 
   StudyRun::~StudyRun() = default;
@@ -219,8 +215,10 @@ namespace corotet
     Json entries = file.values();
     entries.erase("Convergence study");
     entries.erase("Verification");
+    entries.erase("Checkpoint");
     entries["Output"] = {parameters.output.probes,
-                         parameters.output.stress_probes};
+                         parameters.output.stress_probes,
+                         parameters.output.raw_stress_at_probes};
     return entries;
   }
 
@@ -255,10 +253,15 @@ namespace corotet
       StressProbes(parameters.output.stress_probe_points(),
                    simulated->body().discretization,
                    parameters.output.raw_stress_at_probes)));
-    const auto       &last = static_cast<const LastRow &>(*observers.front());
-    const OutputTimes times{parameters.output.steps_between_rows, 0.};
-    const Json        values = file.values();
-    Checkpoints       checkpoints(parameters.checkpoint,
+    const auto &last = static_cast<const LastRow &>(*observers.front());
+    // Iterations are those of all steps; explicit ones have none to speak of.
+    const bool is_explicit =
+      parameters.simulation.time_integrator.selected().is_explicit();
+    const OutputTimes times{is_explicit ? parameters.output.steps_between_rows :
+                                          1,
+                            0.};
+    const Json                        values = file.values();
+    Checkpoints                       checkpoints(parameters.checkpoint,
                             path,
                             path + ".log",
                             values,

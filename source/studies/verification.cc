@@ -72,8 +72,16 @@ namespace corotet
       };
       std::ofstream file(path);
       file << csv_line("case", header);
+      std::string first = name;
+      if (first.find_first_of(",\"\n") != std::string::npos)
+        {
+          for (std::size_t i = first.find('"'); i != std::string::npos;
+               i             = first.find('"', i + 2))
+            first.insert(i, 1, '"');
+          first = '"' + first + '"';
+        }
       for (const CheckResult &result : results)
-        file << csv_line(name, cells_of(result));
+        file << csv_line(first, cells_of(result));
       file.close();
       if (!file)
         throw MachineError(path + ": the comparison cannot be written (is the "

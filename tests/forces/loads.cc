@@ -101,6 +101,47 @@ TEST_P(LoadsTest, PointForce)
   EXPECT_EQ(dealii::Utilities::MPI::sum(n_loaded, MPI_COMM_WORLD), 2u);
 }
 
+// The middle of a body has several nearest nodes: it is the one with the lowest
+// coordinates, on any number of ranks. Of the box of one cuboid these are the
+// corners, with elements of higher degree nodes inside.
+TEST_P(LoadsTest, PointForceBetweenNodes)
+{
+  MovingBody body(
+    box("1, 2, 1", "2, 3, 2"),
+    element_text(GetParam()) +
+      section("Loads", {{"Point forces", "0.25 0.3333333333 0.25: 1; 2; 3"}}));
+  const Vector &f =
+    body.system.equation().evaluate(body.state, 0., 1.).external;
+  const Point<3> target(0.25, 0.3333333333, 0.25);
+  const auto     position = [&](const unsigned int n) {
+    return body.discretization.node_position(n);
+  };
+  double                distance = std::numeric_limits<double>::infinity();
+  std::array<double, 3> loaded{{-1, -1, -1}};
+  for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+    {
+      distance = std::min(distance, position(n).distance(target));
+      if (f.local_element(3 * n) != 0)
+        for (unsigned int a = 0; a < 3; ++a)
+          loaded[a] = position(n)[a];
+    }
+  distance = dealii::Utilities::MPI::min(distance, MPI_COMM_WORLD);
+  for (double &x : loaded)
+    x = dealii::Utilities::MPI::max(x, MPI_COMM_WORLD);
+  const Point<3> found(loaded[0], loaded[1], loaded[2]);
+  EXPECT_NEAR(found.distance(target), distance, 1e-9);
+  // None that is as near has lower coordinates, the first that differs.
+  constexpr double round_off = 1e-9;
+  for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+    if (position(n).distance(target) < (1 + round_off) * distance)
+      {
+        unsigned int a = 0;
+        while (a < 2 && std::abs(position(n)[a] - found[a]) < round_off)
+          ++a;
+        EXPECT_GE(position(n)[a], found[a] - round_off);
+      }
+}
+
 // A pressure on the whole surface exerts no net force and no net torque,
 // however the body is deformed; the rule is exact for it.
 TEST_P(LoadsTest, PressureOnClosedSurface)

@@ -221,6 +221,31 @@ TEST_P(ElasticityTest, DegenerateCellsAreCounted)
   EXPECT_EQ(state.inverted_cells, 0u);
 }
 
+// The rotations that preconditioners use change nothing of what the law's own
+// points have counted with the force.
+TEST_P(ElasticityTest, CountsAreThoseOfTheForce)
+{
+  for (const std::string type : {"corotational", "Saint Venant-Kirchhoff"})
+    {
+      MovingBody body(box("1, 1, 1", "1, 1, 1"),
+                      law_text(GetParam(), type) +
+                        (type == "corotational" ?
+                           rotation_at("quadrature points") :
+                           ""));
+      body.state.u.copy_locally_owned_data_from(body.interpolate(
+        [](const Point<3> &x) { return Tensor<1, 3>({0., 0., -x[2]}); }));
+      EquationOfMotion &equation = body.system.equation();
+      equation.evaluate(body.state, 0., 1.);
+      const ElasticState before =
+        body.elasticity.state(equation.displacement());
+      EXPECT_EQ(before.degenerate_cells, type == "corotational" ? 5u : 0u);
+      equation.set_state(body.state);
+      const ElasticState after = body.elasticity.state(equation.displacement());
+      EXPECT_EQ(after.degenerate_cells, before.degenerate_cells);
+      EXPECT_EQ(after.robust_rotations, before.robust_rotations);
+    }
+}
+
 // The sweep of explicit dynamics does what its parts do one after another, to
 // the round-off of sums in another order.
 TEST_P(ElasticityTest, ExplicitStep)

@@ -204,6 +204,7 @@ class Checkpoints(ProgramTest):
                 self.assertEqual((status, errors), (0, ""), out)
                 self.assertIn(f"warning: run/checkpoint/{newest}", out)
                 self.assertIn("the checkpoint before it is used", out)
+                self.assertIn(f"warning: run/checkpoint/{newest}", (run.output / "log.txt").read_text(encoding="utf-8"))
                 self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
                 shutil.rmtree(run.folder)
 
@@ -224,6 +225,40 @@ class Checkpoints(ProgramTest):
                                  "ended in 'run', and no checkpoint to go on from; allowed: .*\n$")
         self.assertEqual((run.output / "history.csv").read_bytes(), history)
         self.assertEqual(run.finish("--restart", "--set", "Output/Overwrite = true")[0], 0)
+
+    def test_restart_keeps_files_of_others(self):
+        # Names like those of results, in a folder that no run has marked.
+        run = Run(self.folder / "others", "static", 1)
+        run.output.mkdir()
+        for name in ("report.html", "log.txt", "study_notes.csv"):
+            (run.output / name).write_text("mine", encoding="utf-8")
+        for kind in ("simulation", "convergence study"):
+            status, _, errors = run.finish("--restart", "--set", f"Type = {kind}")
+            self.assertEqual(status, 1)
+            self.assertRegex(errors, "^corotet: error: .*Output/Directory.*'run' is not empty and holds no results of corotet.*\n$")
+        self.assertEqual({file.name: file.read_text(encoding="utf-8") for file in run.output.iterdir()},
+                         {name: "mine" for name in ("report.html", "log.txt", "study_notes.csv")})
+        # Results of another kind.
+        run = Run(self.folder / "simulation", "static", 1)
+        self.assertEqual(run.finish()[0], 0)
+        before = (run.output / "history.csv").read_bytes()
+        status, _, errors = run.finish("--restart", "--set", "Type = convergence study", "--set", "Convergence study/Reference = none",
+                                      "--set", "Convergence study/Quantities = elastic_energy")
+        self.assertEqual(status, 1)
+        self.assertIn("--restart: found results of a run that is no study in 'run'", errors)
+        self.assertEqual((run.output / "history.csv").read_bytes(), before)
+
+    def test_killed_run_that_was_finished_before(self):
+        run = Run(self.folder / "longer", "generalized-alpha", 1)
+        self.assertEqual(run.finish()[0], 0)
+        self.assertTrue((run.output / "summary.json").exists())
+        process = run.start("--restart", "--set", "Time integration/End time = 1e4")
+        while (run.output / "summary.json").exists() and process.poll() is None:
+            time.sleep(0.002)
+        out, errors = run.kill(process)
+        # "Without summary.json, the run was killed."
+        self.assertFalse((run.output / "summary.json").exists(), out + errors)
+        self.assertEqual(process.returncode, -signal.SIGKILL)
 
     def test_unreadable_checkpoint_loses_nothing(self):
         run = Run(self.folder / "unreadable", "static", 1)

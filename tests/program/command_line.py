@@ -81,6 +81,19 @@ class CommandLine(ProgramTest):
             (self.folder / name).write_text(text, encoding="utf-8")
             self.run_program(name, "--validate", "--quiet")
 
+    def test_print_parameters_of_a_file(self):
+        # Its values, and those of --set.
+        (self.folder / "beam.prm").write_text("subsection Mesh\n  subsection box\n    set Cells = 4, 1, 1\n  end\nend\n", encoding="utf-8")
+        for style in ("prm", "json"):
+            text = self.run_program("beam.prm", "--set", "Discretization/Degree = 3", "--print-parameters", style).stdout
+            (self.folder / f"all.{style}").write_text(text, encoding="utf-8")
+            again = self.run_program(f"all.{style}", "--print-parameters", "json").stdout
+            tree = json.loads(again)
+            self.assertEqual(tree["Mesh"]["box"]["Cells"]["value"], "4, 1, 1")
+            self.assertEqual(tree["Discretization"]["Degree"]["value"], "3")
+        self.assertIn("nothing.prm", self.run_program("nothing.prm", "--print-parameters", status=1).stderr)
+        self.assertIn("--set: a parameter file is needed", self.run_program("--print-parameters", "prm", "--set", "Type = modes", status=1).stderr)
+
     def test_validate(self):
         for case in CASES:
             run = self.run_program(case, "--validate")

@@ -47,6 +47,14 @@ class ExitStatus(ProgramTest):
         self.assertGreater(summary["final"]["time"], 0.02)
         self.assertLess(summary["final"]["time"], 0.025)
 
+    def test_supports_that_disagree_on_the_way(self):
+        # At the times that are tried before the start they do not.
+        run = self.run_small("Boundary conditions/Displacement = z-max: 0; 0.01*sin(2*pi*t/0.04); 0", "Time integration/End time = 0.04",
+                             "Time integration/Maximum halvings = 0", status=2)
+        self.check_message(run, "step 1 (t = 0): Boundary conditions/")
+        summary = read_summary(self.folder / "results")
+        self.assertEqual((summary["status"], summary["steps"]), ("failed", 0))
+
     def test_failed_check(self):
         # The run is complete, and the comparison says what is wrong; so on one rank and on two.
         checks = ("Verification/Source = none", "Verification/Tolerance reason = none", "Time integration/End time = 0.02",

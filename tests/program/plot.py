@@ -37,6 +37,12 @@ class Plot(ProgramTest):
                 is_line = abs(picture[:, :, :3] * 255 - colour).max(axis=2) < 1
                 self.assertGreater(is_line.sum(), 20, colour)
 
+    def test_runs_with_other_columns(self):
+        for name, probe in (("one", "tip"), ("other", "end")):
+            self.run_case("cantilever", name, *CASE, f"Output/Probes = {probe}: 1 0.05 0.05")
+        self.plot("one", "other", "tip_z", "end_z", "--out", "both.png")
+        self.assertIn("no column 'middle_z' in any history.csv", self.plot("one", "other", "middle_z", status=1).stderr)
+
     def test_mistakes(self):
         self.run_case("cantilever", "one", *CASE)
         (self.folder / "empty").mkdir()

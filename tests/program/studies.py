@@ -96,6 +96,19 @@ class Studies(ProgramTest):
         self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2")
         self.assertNotEqual(float(self.rows()[0]["L2_error"]), 0.125)
 
+    def test_quantities_of_stress_and_iterations(self):
+        """Stress at probes is a quantity, and iterations are those of all steps, however few have a row."""
+        text = EXACT.replace("set Type      = static", "set Type      = static\n  subsection static\n    set Load steps = 3\n  end")
+        probes = ("--set", "Output/Stress probes = mid: 0.4 0.04 0.04", "--set", "Convergence study/Quantities = mid_von_mises",
+                  "--set", "Convergence study/Reference = none")
+        self.study(text, *probes)
+        rows = self.rows()
+        self.assertTrue(all(float(row["mid_von_mises"]) > 0 for row in rows))
+        self.study(text, *probes, "--set", "Output/Steps between rows = 3", "--set", "Output/Overwrite = true")
+        for name in ("newton_iterations", "linear_iterations"):
+            self.assertEqual([row[name] for row in self.rows()], [row[name] for row in rows], name)
+        self.assertTrue(all(int(row["newton_iterations"]) >= 3 for row in rows))
+
     def test_damaged_result(self):
         """A kept result that is none is named, and the run is made again."""
         self.study(EXACT, "--set", "Convergence study/Refinements = 0")

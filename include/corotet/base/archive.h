@@ -7,9 +7,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/vector.h>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include <array>
 #include <charconv>
 #include <string>
 #include <string_view>
@@ -52,7 +50,7 @@ namespace corotet
     void
     transfer(const std::string &name, Number &number)
     {
-      std::string text = fmt::format("{}", number);
+      std::string text = written(number);
       transfer(name, text);
       if (!is_reading())
         return;
@@ -66,7 +64,9 @@ namespace corotet
     void
     transfer(const std::string &name, std::vector<Number> &numbers)
     {
-      std::string text = fmt::format("{}", fmt::join(numbers, " "));
+      std::string text;
+      for (const Number number : numbers)
+        text += (text.empty() ? "" : " ") + written(number);
       transfer(name, text);
       if (!is_reading())
         return;
@@ -97,6 +97,22 @@ namespace corotet
     std::string section;
 
   private:
+    /// As few digits as give the same number again.
+    template <typename Number>
+    static std::string
+    written(const Number number)
+    {
+      if constexpr (std::is_same_v<Number, bool>)
+        return number ? "true" : "false";
+      else
+        {
+          std::array<char, 64> text;
+          const auto           result =
+            std::to_chars(text.data(), text.data() + text.size(), number);
+          return {text.data(), result.ptr};
+        }
+    }
+
     /// Reads a number from [begin, end). Returns where it ends; null if there
     /// is none.
     template <typename Number>
@@ -120,11 +136,8 @@ namespace corotet
     fail(const std::string &name, const std::string &text) const
     {
       throw InputError("",
-                       fmt::format("a checkpoint has '{}' for '{}{}', which is "
-                                   "no such number",
-                                   text,
-                                   section,
-                                   name));
+                       "a checkpoint has '" + text + "' for '" + section +
+                         name + "', which is no such number");
     }
   };
 } // namespace corotet

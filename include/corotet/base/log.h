@@ -75,13 +75,13 @@ namespace corotet
     void
     clear_progress();
 
-    MPI_Comm      comm;
-    bool          root;
-    bool          quiet;
-    bool          terminal;
-    bool          progress_shown = false;
-    std::string   kept;
-    std::ofstream file;
+    MPI_Comm                 comm;
+    bool                     root;
+    bool                     quiet;
+    bool                     terminal;
+    bool                     progress_shown = false;
+    std::vector<std::string> kept;
+    std::ofstream            file;
     struct Count
     {
       std::string  one, several;

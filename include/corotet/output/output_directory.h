@@ -35,9 +35,10 @@ namespace corotet
                          const bool         overwrite,
                          const MPI_Comm     comm);
 
-  /// The same about where it is, whatever it holds. Collective.
+  /// What a run that is restarted needs: a place, and results of corotet if
+  /// there is anything. Throws InputError or MachineError. Collective.
   void
-  check_output_place(const std::string &directory, const MPI_Comm comm);
+  check_directory_of_restart(const std::string &directory, const MPI_Comm comm);
 
   /// @p directory, or if there is none the innermost folder (or what else)
   /// that it would be made in. On this rank.
