@@ -169,6 +169,12 @@ namespace corotet
     return result;
   }
 
+  bool
+  Checkpoints::has_any() const
+  {
+    return from_root(comm, [&] { return !steps().empty(); });
+  }
+
   std::unique_ptr<CheckpointReader>
   Checkpoints::newest() const
   {

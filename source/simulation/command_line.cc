@@ -114,7 +114,8 @@ namespace corotet
           .add_option(
             "--print-parameters",
             command_line.print_parameters,
-            "List every entry: default, allowed values, units, meaning")
+            "List every entry: default or the value in the file, allowed "
+            "values, units, meaning")
           ->expected(0, 1)
           ->type_name("[prm|json|markdown|schema]");
       app.add_flag(

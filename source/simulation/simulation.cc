@@ -211,6 +211,11 @@ namespace corotet
     // What the failed step has left in the system is not the state.
     system.equation().set_state(stepper.state());
     stress_is_present = false;
+    if (stepper.has_new_record())
+      {
+        last_record.wall_time = seconds();
+        report_inversions();
+      }
     ScopedTimer timer(wall_times.output);
     for (const auto &observer : *observers)
       if (stepper.has_new_record())

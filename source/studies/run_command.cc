@@ -225,6 +225,13 @@ namespace corotet
                              "', and no checkpoint to go on from; allowed: "
                              "another directory, or Output/Overwrite = true "
                              "to begin anew");
+        if (!parameters.output.overwrite && checkpoints.has_any())
+          throw InputError("Output/Directory",
+                           "--restart: none of the checkpoints in '" +
+                             directory +
+                             "' can be gone on from; allowed: the program that "
+                             "wrote them, another directory, or "
+                             "Output/Overwrite = true to begin anew");
         log.line("--restart: there is no checkpoint in " + directory +
                  "; the run begins anew");
         return nullptr;
@@ -235,8 +242,7 @@ namespace corotet
       {
         ConvergenceStudy study(command, parameters.study, comm, log);
         parameters.verification.initialize(study.columns());
-        const bool is_other =
-          holds_any({"history.csv", "modes.csv", "summary.json"});
+        const bool is_other = holds_any({"history.csv", "modes.csv"});
         if (command.restart && is_other && !parameters.output.overwrite)
           throw InputError("Output/Directory",
                            "--restart: found results of a run that is no "

@@ -208,6 +208,21 @@ class Checkpoints(ProgramTest):
                 self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
                 shutil.rmtree(run.folder)
 
+    def test_no_checkpoint_that_is_good(self):
+        # Of a run that was killed: what it has must not be lost, as with a program of another version.
+        run = Run(self.folder / "unusable", "static", 1)
+        self.stop_at(run, 9)
+        for file in (run.output / "checkpoint").glob("*.json"):
+            file.write_text(json.dumps({**json.loads(file.read_text(encoding="utf-8")), "format": 1}), encoding="utf-8")
+        before = results_of(run.output)
+        status, _, errors = run.finish("--restart")
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, "^corotet: error: .*Output/Directory: --restart: none of the checkpoints in 'run' can be gone on from; .*\n$")
+        self.assertEqual(different(results_of(run.output), before), [])
+        status, out, _ = run.finish("--restart", "--set", "Output/Overwrite = true")
+        self.assertEqual(status, 0)
+        self.assertIn("begins anew", out)
+
     def test_no_checkpoint(self):
         run = Run(self.folder / "none", "static", 1)
         status, out, _ = run.finish("--restart")

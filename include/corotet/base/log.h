@@ -62,7 +62,8 @@ namespace corotet
     open(const std::string &path);
 
     /// The same, but going on after the first @p size bytes of the file; what
-    /// follows them, and what has been shown so far, is not in it. Collective.
+    /// follows them is not in it, and of what has been shown so far warnings
+    /// are. Collective.
     void
     resume(const std::string &path, const std::int64_t size);
 

@@ -64,6 +64,10 @@ namespace corotet
                 const Discretization         &discretization,
                 Log                          &log);
 
+    /// Whether there are any, good or not.
+    bool
+    has_any() const;
+
     /// The newest checkpoint that is good; the log names those that are
     /// damaged. Null if there is none. Throws InputError if the run's entries
     /// or its mesh are others, where they must not be, and MachineError if a
