@@ -46,7 +46,8 @@ namespace corotet
       if (std::find(taken.begin(), taken.end(), name) != taken.end())
         throw InputError(entry,
                          fmt::format("'{}' cannot be a probe's name; {} are "
-                                     "columns of tables already",
+                                     "columns of the history or of modes "
+                                     "already",
                                      name,
                                      join({taken.begin(), taken.end()})));
     }

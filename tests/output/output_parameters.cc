@@ -76,7 +76,7 @@ TEST(OutputParameters, WrongProbesAreRefused)
   EXPECT_EQ(probes_refusal("momentum: 1 2 3"),
             "Output/Probes: 'momentum' cannot be a probe's name; momentum, "
             "angular_momentum, reaction, internal_moment, mass_share, "
-            "effective_mass are columns of tables already");
+            "effective_mass are columns of the history or of modes already");
   EXPECT_EQ(probes_refusal("a: 1 2 3, a: 3 2 1"),
             "Output/Probes: two probes are called 'a'; each name must be used "
             "once");
