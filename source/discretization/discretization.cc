@@ -216,14 +216,15 @@ namespace corotet
               positions.local_element(3 * cell_nodes(c)[i] + a) = x[a];
           }
       }
-    make_batches();
-    const bool is_curved = mesh_pointer->geometry_degree() > 1 && degree() > 1;
-    if (is_curved)
-      curve_positions();
     // The last digit of some depends on the cell that they were made from.
     positions.update_ghost_values();
-    if (is_curved)
-      set_up_curved_cells();
+    make_batches();
+    if (mesh_pointer->geometry_degree() > 1 && degree() > 1)
+      {
+        curve_positions();
+        positions.update_ghost_values();
+        set_up_curved_cells();
+      }
   }
 
 
