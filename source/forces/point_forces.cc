@@ -74,7 +74,7 @@ namespace corotet
         if (discretization.node_position(n).distance(target) <=
             (1 + round_off) * distance)
           nodes.push_back(n);
-      const unsigned int n_nearest =
+      const auto n_nearest =
         dealii::Utilities::MPI::sum<unsigned int>(nodes.size(), comm);
       for (unsigned int a = 0; a < 3; ++a)
         {

@@ -199,7 +199,6 @@ namespace corotet
 
   MeshParameters::MeshParameters()
     : source(mesh_sources(), "box")
-    , partitioner(Partitioner::hilbert_curve)
   {}
 
 

@@ -36,8 +36,9 @@ namespace corotet
     Selectable<MeshSource> source;
     unsigned int           n_refinements = 0;
     double                 scale         = 1;
-    Partitioner            partitioner;
-    SelectionParameters    selections;
+    /// At first the curve, which is the first value.
+    Partitioner         partitioner{};
+    SelectionParameters selections;
   };
 
   /**
