@@ -52,9 +52,11 @@ namespace corotet
     class Scoped
     {
     public:
-      Scoped(int (*init)(Type *), const char *function)
+      // @p init makes it, or throws.
+      template <typename Init>
+      explicit Scoped(const Init &init)
       {
-        require(init(&object), function);
+        init(&object);
       }
 
       Scoped(const Scoped &) = delete;
@@ -77,39 +79,8 @@ namespace corotet
     };
 
     using Context  = Scoped<SCOTCH_Context, SCOTCH_contextExit>;
+    using Graph    = Scoped<SCOTCH_Dgraph, SCOTCH_dgraphExit>;
     using Strategy = Scoped<SCOTCH_Strat, SCOTCH_stratExit>;
-
-
-
-    // A graph that all ranks have a part of.
-    class Graph
-    {
-    public:
-      explicit Graph(const MPI_Comm comm)
-      {
-        on_all_ranks(comm, [&, status = SCOTCH_dgraphInit(&graph, comm)] {
-          require(status, "SCOTCH_dgraphInit");
-        });
-      }
-
-      Graph(const Graph &) = delete;
-      Graph &
-      operator=(const Graph &) = delete;
-
-      ~Graph()
-      {
-        SCOTCH_dgraphExit(&graph);
-      }
-
-      SCOTCH_Dgraph *
-      get()
-      {
-        return &graph;
-      }
-
-    private:
-      SCOTCH_Dgraph graph{};
-    };
 
 
 
@@ -140,7 +111,9 @@ namespace corotet
       std::optional<Context>  context;
       std::optional<Strategy> strategy;
       on_all_ranks(mesh.communicator, [&] {
-        context.emplace(SCOTCH_contextInit, "SCOTCH_contextInit");
+        context.emplace([](SCOTCH_Context *object) {
+          require(SCOTCH_contextInit(object), "SCOTCH_contextInit");
+        });
         // One thread, and chance that is always the same.
         require(SCOTCH_contextThreadSpawn(context->get(), 1, nullptr),
                 "SCOTCH_contextThreadSpawn");
@@ -151,7 +124,9 @@ namespace corotet
                                            SCOTCH_OPTIONNUMDETERMINISTIC,
                                            1),
                 "SCOTCH_contextOptionSetNum");
-        strategy.emplace(SCOTCH_stratInit, "SCOTCH_stratInit");
+        strategy.emplace([](SCOTCH_Strat *object) {
+          require(SCOTCH_stratInit(object), "SCOTCH_stratInit");
+        });
         require(SCOTCH_stratDgraphMapBuild(strategy->get(),
                                            SCOTCH_STRATQUALITY,
                                            n_ranks,
@@ -163,7 +138,11 @@ namespace corotet
       const auto require_on_all = [&](const int status, const char *function) {
         on_all_ranks(mesh.communicator, [&] { require(status, function); });
       };
-      Graph cells(mesh.communicator), graph(mesh.communicator);
+      const auto init = [&](SCOTCH_Dgraph *object) {
+        require_on_all(SCOTCH_dgraphInit(object, mesh.communicator),
+                       "SCOTCH_dgraphInit");
+      };
+      Graph cells(init), graph(init);
       require_on_all(SCOTCH_dgraphBuild(cells.get(),
                                         0,
                                         works.size(),
