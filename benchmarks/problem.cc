@@ -215,15 +215,6 @@ namespace corotet::benchmarks
     });
   }
 
-  Vector
-  Problem::positions() const
-  {
-    Vector result(state);
-    result.zero_out_ghost_values();
-    result += discretization.node_positions();
-    return result;
-  }
-
   void
   Problem::reset_rotations()
   {

@@ -97,9 +97,12 @@ namespace corotet::benchmarks
     Vector
     deformed() const;
 
-    /// Positions of the nodes in the state of solves.
-    Vector
-    positions() const;
+    /// That of the nodes in the state of solves.
+    const Vector &
+    displacement() const
+    {
+      return state;
+    }
 
     /// Takes the rotations of the state of solves.
     void

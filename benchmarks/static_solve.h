@@ -31,8 +31,8 @@ namespace corotet::benchmarks
     Vector       x(b);
     Counters     result;
     result["unknowns"] = data.problem().n_unknowns();
-    result["setup_s"] =
-      seconds([&] { P.build(data.effective(), data.problem().positions()); });
+    result["setup_s"]  = seconds(
+      [&] { P.build(data.effective(), data.problem().displacement()); });
     result["solve_s"]  = seconds([&] {
       result["cg_iterations"] =
         conjugate_gradients(A, x, b, P, static_tolerance);

@@ -73,6 +73,19 @@ namespace corotet
     clear_progress();
     if (!quiet)
       std::cout << text << std::endl;
+    write(text);
+  }
+
+  void
+  Log::note(const std::string &message)
+  {
+    if (root)
+      write(printable(message, /* keep_lines = */ true));
+  }
+
+  void
+  Log::write(const std::string &text)
+  {
     if (file.is_open())
       file << text << std::endl;
     else

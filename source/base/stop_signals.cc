@@ -9,6 +9,8 @@ namespace corotet
   {
     volatile std::sig_atomic_t stop_signal  = 0;
     volatile std::sig_atomic_t save_request = 0;
+    // Objects that live.
+    int depth = 0;
 
     void
     remember(const int signal)
@@ -18,18 +20,23 @@ namespace corotet
           save_request = 1;
           return;
         }
-      if (stop_signal != 0)
+      // Launchers may hand SIGTERM on more than once; who types Ctrl-C again
+      // does not want to wait.
+      if (signal == SIGINT && stop_signal == SIGINT)
         {
           // What is saved is whole, whatever is being written now.
           std::signal(signal, SIG_DFL);
           std::raise(signal);
         }
-      stop_signal = signal;
+      if (stop_signal == 0 || signal == SIGINT)
+        stop_signal = signal;
     }
   } // namespace
 
   StopSignals::StopSignals()
   {
+    if (depth++ > 0)
+      return;
     stop_signal  = 0;
     save_request = 0;
     struct sigaction action{};
@@ -39,13 +46,17 @@ namespace corotet
     action.sa_flags = SA_RESTART;
     sigaction(SIGTERM, &action, &before_term);
     sigaction(SIGINT, &action, &before_int);
+    sigaction(SIGXCPU, &action, &before_xcpu);
     sigaction(SIGUSR1, &action, &before_usr1);
   }
 
   StopSignals::~StopSignals()
   {
+    if (--depth > 0)
+      return;
     sigaction(SIGTERM, &before_term, nullptr);
     sigaction(SIGINT, &before_int, nullptr);
+    sigaction(SIGXCPU, &before_xcpu, nullptr);
     sigaction(SIGUSR1, &before_usr1, nullptr);
   }
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/file_names.h>
 #include <corotet/base/formula_functions.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/table_file.h>
@@ -82,11 +83,8 @@ namespace corotet
           const std::string &name = name_and_file[0];
           check_name(name, functions, entry);
 
-          const std::string path =
-            (std::filesystem::path(folder) / name_and_file[1])
-              .lexically_normal()
-              .string();
-          TableRows rows;
+          const std::string path = file_in(folder, name_and_file[1]);
+          TableRows         rows;
           on_root(comm, [&] { rows = read(path, entry); });
           rows.arguments =
             dealii::Utilities::MPI::broadcast(comm, rows.arguments);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 
 namespace corotet
 {
@@ -72,12 +73,16 @@ namespace corotet
                       const std::string &candidate)
       {
         const std::string selected = section.at("Type").at("value");
-        const std::string place    = below(path, candidate);
-        if (candidate == selected || !section.contains(candidate) ||
+        // Sections of a whole file begin with a capital letter.
+        std::string name = candidate;
+        if (path.empty())
+          name[0] = std::toupper(static_cast<unsigned char>(name[0]));
+        const std::string place = below(path, name);
+        if (candidate == selected || !section.contains(name) ||
             std::find(used.begin(), used.end(), place) != used.end())
           return;
         std::vector<std::string> changed;
-        find_changed_entries(file, section.at(candidate), place, changed);
+        find_changed_entries(file, section.at(name), place, changed);
         if (changed.empty())
           return;
         const std::string choice = below(path, "Type");

@@ -31,7 +31,20 @@ namespace corotet
   void
   Nodes::make_batches()
   {
-    cell_batches = std::make_unique<CellBatches>(*this);
+    cell_batches   = std::make_unique<CellBatches>(*this);
+    nodes_of_cells = {};
+  }
+
+  CellNodes
+  Nodes::cell_nodes(const unsigned int cell) const
+  {
+    if (!cell_batches)
+      return {nodes_of_cells.data() +
+                static_cast<std::size_t>(cell) * n_cell_nodes,
+              1,
+              n_cell_nodes};
+    const auto [batch, lane] = cell_batches->place(cell);
+    return {cell_batches->nodes(batch) + lane, batch_size, n_cell_nodes};
   }
 
   CellBatches::CellBatches(const Nodes &nodes)

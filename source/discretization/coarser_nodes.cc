@@ -48,6 +48,7 @@ namespace corotet
     , finer(finer)
   {
     n_owned       = finer.n_owned_cells();
+    n_local       = finer.n_local_cells();
     ghosted_cells = finer.cells_with_ghosts();
     number_nodes();
     find_parents();
@@ -65,13 +66,11 @@ namespace corotet
     for (unsigned int c = 0; c < finer.n_local_cells(); ++c)
       {
         const auto fine = finer.cell_nodes(c);
-        key_of_cell_node.insert(key_of_cell_node.end(),
-                                fine.data(),
-                                fine.data() + 4);
+        for (unsigned int i = 0; i < 4; ++i)
+          key_of_cell_node.push_back(fine[i]);
         if (finer.element().has_bubbles())
-          key_of_cell_node.insert(key_of_cell_node.end(),
-                                  &fine[4],
-                                  &fine[4] + 6);
+          for (unsigned int i = 4; i < 10; ++i)
+            key_of_cell_node.push_back(fine[i]);
         else if (degree() == 2)
           for (unsigned int e = 0; e < 6; ++e)
             {
@@ -188,7 +187,8 @@ namespace corotet
         if (has_bubbles && is_new(fine[14]))
           {
             in_cells.push_back({fine[14], {}});
-            std::copy_n(coarse.data(), 10, in_cells.back().coarse.begin());
+            for (unsigned int i = 0; i < 10; ++i)
+              in_cells.back().coarse[i] = coarse[i];
           }
       }
     // Fine nodes in ascending order: the order of memory.

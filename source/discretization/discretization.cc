@@ -157,6 +157,7 @@ namespace corotet
     for (unsigned int node = 0; node < numbers.size(); ++node)
       local_numbers[node] =
         vector_partitioner->global_to_local(3 * numbers[node]) / 3;
+    n_local = local_mesh_cells.size();
     nodes_of_cells.reserve(std::size_t(n_cell_nodes) * local_mesh_cells.size());
     for (const unsigned int cell : local_mesh_cells)
       for (unsigned int i = 0; i < n_cell_nodes; ++i)

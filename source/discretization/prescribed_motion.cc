@@ -229,6 +229,8 @@ namespace corotet
           known_condition[component]                = entry.condition;
           const auto &[u, v, a]                     = known[component];
           displacement.local_element(entry.unknown) = load_factor * u;
+          if (velocity.size() == 0)
+            continue;
           velocity.local_element(entry.unknown)     = load_factor * v;
           acceleration.local_element(entry.unknown) = load_factor * a;
         }

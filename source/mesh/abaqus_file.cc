@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/file_names.h>
 #include <corotet/base/text.h>
 #include <corotet/mesh/abaqus_file.h>
 
@@ -218,8 +219,7 @@ namespace corotet::abaqus
     if (!fs::is_regular_file(file, error))
       place.refuse("there is no such file: found '" + shortened(name) + "'");
     // Messages call it as they call the first one.
-    read((fs::path(path).parent_path() / name).lexically_normal().string(),
-         depth + 1);
+    read(file_in(fs::path(path).parent_path().string(), name), depth + 1);
   }
 
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/file_names.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
 #include <corotet/mesh/abaqus_file.h>
@@ -148,8 +149,7 @@ namespace corotet
       throw InputError(entry,
                        "no mesh file: found an empty name; give the name of a "
                        ".msh or .geo file, say");
-    const std::string path =
-      (std::filesystem::path(folder) / file).lexically_normal().string();
+    const std::string path = file_in(folder, file);
     check_existence(path, entry);
     const MeshFormatDescription &format = mesh_format(path, entry);
     check_use(format.is_geometry,

@@ -24,7 +24,7 @@ namespace corotet
     , prescribed(is_prescribed)
   {
     block_matrix     = std::make_unique<BlockMatrix>(pattern);
-    places_of_blocks = block_places(nodes, *pattern);
+    places_of_blocks = BlockPlaces(nodes, *pattern);
     touches_prescribed.resize(nodes.n_local_cells());
     for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
       for (const unsigned int node : nodes.cell_nodes(c))
@@ -83,14 +83,12 @@ namespace corotet
     return std::make_shared<const BlockPattern>(rows, nodes.communicator());
   }
 
-  std::vector<std::uint16_t>
-  block_places(const Nodes &nodes, const BlockPattern &pattern)
+  BlockPlaces::BlockPlaces(const Nodes &nodes, const BlockPattern &pattern)
   {
-    const unsigned int         n_owned = nodes.n_owned_nodes();
-    const unsigned int         n       = nodes.n_nodes_per_cell();
-    std::vector<std::uint16_t> result(static_cast<std::size_t>(n) * n *
-                                      nodes.n_local_cells());
-    std::uint16_t             *next = result.data();
+    const unsigned int n_owned = nodes.n_owned_nodes();
+    const std::size_t  n       = nodes.n_nodes_per_cell();
+    low.resize(n * n * nodes.n_local_cells());
+    std::size_t next = 0;
     for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)
       for (const unsigned int i : nodes.cell_nodes(c))
         for (const unsigned int j : nodes.cell_nodes(c))
@@ -105,11 +103,14 @@ namespace corotet
                 AssertThrow(place <= std::numeric_limits<std::uint16_t>::max(),
                             dealii::ExcMessage(
                               "A row of the matrix is too long."));
-                *next = place;
+                if (place >= 256 && high.empty())
+                  high.resize(low.size());
+                low[next] = place % 256;
+                if (!high.empty())
+                  high[next] = place / 256;
               }
             ++next;
           }
-    return result;
   }
 
   void
@@ -126,12 +127,11 @@ namespace corotet
           if ((prescribed[3 * nodes[i] + a] || prescribed[3 * nodes[j] + b]) &&
               (i != j || a != b))
             block[a][b] = 0;
-    const std::uint16_t *const places =
-      places_of_blocks.data() + static_cast<std::size_t>(n) * n * cell;
+    const std::size_t first = static_cast<std::size_t>(n) * n * cell;
     if (nodes[i] < this->nodes.n_owned_nodes())
       {
-        double *row =
-          block_matrix->row(nodes[i], 0) + std::size_t(3) * places[n * i + j];
+        double *row = block_matrix->row(nodes[i], 0) +
+                      std::size_t(3) * places_of_blocks[first + n * i + j];
         const int length = block_matrix->row_length(nodes[i]);
         for (unsigned int a = 0; a < 3; ++a, row += length)
           for (unsigned int b = 0; b < 3; ++b)
@@ -139,8 +139,8 @@ namespace corotet
       }
     if (i != j && nodes[j] < this->nodes.n_owned_nodes())
       {
-        double *row =
-          block_matrix->row(nodes[j], 0) + std::size_t(3) * places[n * j + i];
+        double *row = block_matrix->row(nodes[j], 0) +
+                      std::size_t(3) * places_of_blocks[first + n * j + i];
         const int length = block_matrix->row_length(nodes[j]);
         for (unsigned int a = 0; a < 3; ++a, row += length)
           for (unsigned int b = 0; b < 3; ++b)

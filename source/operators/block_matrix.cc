@@ -77,7 +77,7 @@ namespace corotet
   void
   BlockMatrix::set_zero()
   {
-    std::fill(values.begin(), values.end(), 0.);
+    values.assign(9 * the_pattern->graph().columns.size(), 0.);
   }
 
   void

@@ -94,6 +94,17 @@ namespace corotet
           diagonal().local_element(i) * src.local_element(i);
   }
 
+  Vector
+  EffectiveOperator::positions(const Vector &displacement) const
+  {
+    Vector result;
+    disc.initialize_vector(result);
+    result += disc.node_positions();
+    if (!elastic.law().is_linear())
+      result += displacement;
+    return result;
+  }
+
   const BlockMatrix &
   EffectiveOperator::other_matrix(
     const std::function<void(AssembledMatrix &)> &update,

@@ -25,7 +25,7 @@ namespace corotet
   ForceRoundOff::ForceRoundOff(const Discretization &discretization,
                                const Elasticity     &elasticity)
     : has_rotations(!elasticity.law().is_linear())
-    , by_strain(discretization.n_owned_nodes())
+    , by_strain(has_rotations ? discretization.n_owned_nodes() : 0)
     , by_displacement(discretization.n_owned_nodes())
   {
     const ReferenceElement &reference = elasticity.reference_element();
@@ -60,9 +60,10 @@ namespace corotet
           }
       }
     sums.compress(dealii::VectorOperation::add);
-    for (unsigned int n = 0; n < by_strain.size(); ++n)
+    for (unsigned int n = 0; n < by_displacement.size(); ++n)
       {
-        by_strain[n]       = sums.local_element(3 * n);
+        if (has_rotations)
+          by_strain[n] = sums.local_element(3 * n);
         by_displacement[n] = sums.local_element(3 * n + 1);
       }
   }
@@ -70,7 +71,7 @@ namespace corotet
   double
   ForceRoundOff::of_force(const Vector &u) const
   {
-    return estimate(u, has_rotations ? corotational_noise : 0.);
+    return estimate(u, corotational_noise);
   }
 
   double
@@ -83,13 +84,14 @@ namespace corotet
   ForceRoundOff::estimate(const Vector &u, const double strain_noise) const
   {
     double sum = 0;
-    for (unsigned int n = 0; n < by_strain.size(); ++n)
+    for (unsigned int n = 0; n < by_displacement.size(); ++n)
       {
         double square = 0;
         for (unsigned int a = 0; a < 3; ++a)
           square += u.local_element(3 * n + a) * u.local_element(3 * n + a);
+        if (has_rotations)
+          sum += strain_noise * strain_noise * by_strain[n];
         sum +=
-          strain_noise * strain_noise * by_strain[n] +
           displacement_noise * displacement_noise * square * by_displacement[n];
       }
     return std::numeric_limits<double>::epsilon() *

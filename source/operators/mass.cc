@@ -92,19 +92,12 @@ namespace corotet
     , cell_loop(discretization)
     , masses(discretization.batches().n_batches())
   {
-    std::vector<double> shares(reference.n_nodes);
     if (is_lumped())
       shares = lumped_shares(reference, type);
     else
       for (unsigned int i = 0; i < reference.n_nodes; ++i)
-        shares[i] = reference.mass[i][i];
+        shares.push_back(reference.mass[i][i]);
 
-    const ReferenceElement::PointValues at_nodes = ReferenceElement::tabulate(
-      discretization.element(),
-      discretization.finite_element().base_element(0).get_unit_support_points(),
-      std::vector<double>(reference.n_nodes, 1.));
-
-    discretization.initialize_vector(mass_diagonal);
     double owned_mass = 0;
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       {
@@ -113,15 +106,32 @@ namespace corotet
         const double cell_mass =
           densities.at(geometry.region) * geometry.volume;
         masses[batch].mass[lane] = cell_mass;
-        if (c >= discretization.n_owned_cells())
-          continue;
-        owned_mass += cell_mass;
-        const auto nodes = discretization.cell_nodes(c);
-        const auto add   = [&](const std::vector<double> &shares) {
-          for (unsigned int i = 0; i < reference.n_nodes; ++i)
+        if (c < discretization.n_owned_cells())
+          owned_mass += cell_mass;
+      }
+    total_mass =
+      dealii::Utilities::MPI::sum(owned_mass, discretization.communicator());
+    if (is_lumped())
+      compute_diagonal();
+  }
+
+  void
+  Mass::compute_diagonal() const
+  {
+    const ReferenceElement::PointValues at_nodes = ReferenceElement::tabulate(
+      discretization.element(),
+      discretization.finite_element().base_element(0).get_unit_support_points(),
+      std::vector<double>(shares.size(), 1.));
+    discretization.initialize_vector(mass_diagonal);
+    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      {
+        const auto   nodes = discretization.cell_nodes(c);
+        const double mass  = cell_mass(c);
+        const auto   add   = [&](const std::vector<double> &shares_of_cell) {
+          for (unsigned int i = 0; i < nodes.size(); ++i)
             for (unsigned int a = 0; a < 3; ++a)
               mass_diagonal.local_element(3 * nodes[i] + a) +=
-                shares[i] * cell_mass;
+                shares_of_cell[i] * mass;
         };
         if (discretization.is_curved(c))
           add(curved_shares(discretization, c, at_nodes, shares, type));
@@ -130,8 +140,6 @@ namespace corotet
       }
     mass_diagonal.compress(dealii::VectorOperation::add);
     mass_diagonal.update_ghost_values();
-    total_mass =
-      dealii::Utilities::MPI::sum(owned_mass, discretization.communicator());
   }
 
   void

@@ -8,6 +8,7 @@
 #include <corotet/base/whole_file.h>
 #include <corotet/output/checkpoint_checksum.h>
 #include <corotet/output/checkpoint_file.h>
+#include <corotet/output/mesh_checksum.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,8 +25,6 @@
 #include <iterator>
 #include <system_error>
 
-#include "mesh_checksum.h"
-
 namespace corotet
 {
   namespace
@@ -33,7 +32,7 @@ namespace corotet
     using Json = nlohmann::ordered_json;
 
     // Of what is in a checkpoint and what it means.
-    constexpr int format_version = 2;
+    constexpr int format_version = 3;
 
     class FileDescriptor
     {

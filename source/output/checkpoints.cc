@@ -4,11 +4,14 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/stop_signals.h>
+#include <corotet/base/text.h>
 #include <corotet/base/whole_file.h>
 #include <corotet/output/checkpoints.h>
+#include <corotet/output/table_checksums.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
 
 #include <fmt/format.h>
 
@@ -30,70 +33,72 @@ namespace corotet
     // A limit of wall time is one of all runs of the program.
     const auto program_start = std::chrono::steady_clock::now();
 
-    // What may be changed when a run is restarted: entries, and sections with a
-    // slash at the end.
-    const std::vector<std::string> changeable{
-      {"Checkpoint/",
-       "Convergence study/",
-       "Linear solver/",
-       "Mesh/Partitioner",
-       "Mesh/file/File",
-       "Mesh/file/Time limit",
-       "Mesh/gmsh/File",
-       "Mesh/gmsh/Time limit",
-       "Modes/",
-       "Newton/",
-       "Output/Directory",
-       "Output/Overwrite",
-       "Output/States",
-       "Output/Steps between rows",
-       "Output/Time between results",
-       "Tables/",
-       "Time integration/Adaptive step/",
-       "Time integration/End time",
-       "Time integration/Maximum halvings",
-       "Time integration/Time step",
-       "Verification/"}};
 
-    // Names of files may be relative to another folder now: those of tables are
-    // not compared; the mesh has a checksum.
-    bool
-    may_change(const std::string &entry)
+    // What a run is asked for.
+    enum Request : int
     {
-      return entry != "Time integration/Adaptive step/Enabled" &&
-             std::any_of(changeable.begin(),
-                         changeable.end(),
-                         [&](const std::string &allowed) {
-                           return allowed.back() == '/' ?
-                                    entry.starts_with(allowed) :
-                                    entry == allowed;
-                         });
+      none       = 0,
+      save       = 1,
+      terminate  = 2,
+      interrupt  = 4,
+      time_limit = 8,
+      cpu_limit  = 16
+    };
+
+    double
+    seconds_since(const std::chrono::steady_clock::time_point since)
+    {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                           since)
+        .count();
     }
 
-    // "Section/Entry" and text of all entries.
-    void
-    flatten(const Json                         &section,
-            const std::string                  &path,
-            std::map<std::string, std::string> &entries)
+    // Those that this rank knows of; rank 0 has the clock.
+    int
+    requests_to_stop(const CheckpointParameters &parameters,
+                     const MPI_Comm              comm)
     {
-      for (const auto &[key, node] : section.items())
-        if (node.is_object())
-          flatten(node, path + key + "/", entries);
-        else
-          entries[path + key] = node.get<std::string>();
+      int mine = none;
+      switch (StopSignals::received())
+        {
+          case SIGTERM:
+            mine = terminate;
+            break;
+          case SIGINT:
+            mine = interrupt;
+            break;
+          case SIGXCPU:
+            mine = cpu_limit;
+            break;
+          default:
+            break;
+        }
+      if (dealii::Utilities::MPI::this_mpi_process(comm) == 0 &&
+          parameters.wall_time_limit > 0 &&
+          seconds_since(program_start) >= parameters.wall_time_limit)
+        mine |= time_limit;
+      return mine;
     }
 
-    // Whether two texts are the same but for the way to write a number.
-    bool
-    is_same(const std::string &a, const std::string &b)
+    int
+    on_any_rank(const int mine, const MPI_Comm comm)
     {
-      if (a == b)
-        return true;
-      char        *end_a = nullptr, *end_b = nullptr;
-      const double x = std::strtod(a.c_str(), &end_a),
-                   y = std::strtod(b.c_str(), &end_b);
-      return !a.empty() && !b.empty() && *end_a == '\0' && *end_b == '\0' &&
-             x == y;
+      int all = none;
+      MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_BOR, comm);
+      return all;
+    }
+
+    // Empty if none of them is to stop.
+    std::string
+    reason_of(const int requests)
+    {
+      if ((requests & terminate) != 0)
+        return "SIGTERM";
+      if ((requests & interrupt) != 0)
+        return "SIGINT";
+      if ((requests & cpu_limit) != 0)
+        return "the limit of CPU time (SIGXCPU)";
+      return (requests & time_limit) != 0 ? "the wall time limit" : "";
     }
   } // namespace
 
@@ -123,17 +128,24 @@ namespace corotet
       dealii::Patterns::Double(0));
   }
 
+  std::string
+  reason_to_stop(const CheckpointParameters &parameters, const MPI_Comm comm)
+  {
+    return reason_of(on_any_rank(requests_to_stop(parameters, comm), comm));
+  }
+
   Checkpoints::Checkpoints(const CheckpointParameters &parameters,
                            const std::string          &directory,
                            const std::string          &log_file,
                            const Json                 &values,
-                           const Discretization       &discretization,
+                           const Body                 &body,
                            Log                        &log)
     : parameters(parameters)
     , directory(directory + "/checkpoint")
     , log_file(log_file)
     , values(values)
-    , discretization(discretization)
+    , body(body)
+    , discretization(body.discretization)
     , comm(discretization.communicator())
     , log(log)
   {}
@@ -199,29 +211,10 @@ namespace corotet
           }
         check_entries(*reader);
         reader->check_mesh();
+        check_tables(*reader);
         return reader;
       }
     return nullptr;
-  }
-
-  void
-  Checkpoints::check_entries(const CheckpointReader &checkpoint) const
-  {
-    std::map<std::string, std::string> now, before;
-    flatten(values, "", now);
-    flatten(checkpoint.parameters(), "", before);
-    for (const auto &[entry, text] : now)
-      if (const auto it = before.find(entry); it != before.end() &&
-                                              !is_same(it->second, text) &&
-                                              !may_change(entry))
-        throw InputError(entry,
-                         fmt::format("--restart: found '{}', which the run "
-                                     "cannot go on with; allowed: '{}', as "
-                                     "before (times but for the start, the "
-                                     "solvers, and when output is written may "
-                                     "change)",
-                                     text,
-                                     it->second));
   }
 
   void
@@ -232,8 +225,9 @@ namespace corotet
   {
     std::int64_t log_size = 0;
     checkpoint.transfer("log_size", log_size);
-    log.resume(log_file, log_size);
+    // Which may refuse to go on: then the log is as it was.
     simulation.resume(observers, recording, checkpoint);
+    log.resume(log_file, log_size);
     written_step = simulation.step_number();
     log.line(fmt::format("Restarted from step {}, t = {:.6g} s",
                          written_step,
@@ -261,21 +255,16 @@ namespace corotet
         asked |= requests();
         if (simulation.is_done())
           break;
-        if ((asked & (terminate | interrupt | time_limit)) != 0)
+        if ((asked & ~save) != 0)
           {
             write(simulation, true);
-            std::string reason = "the wall time limit";
-            if ((asked & terminate) != 0)
-              reason = "SIGTERM";
-            else if ((asked & interrupt) != 0)
-              reason = "SIGINT";
             const std::string message =
               fmt::format("step {} (t = {:.6g} s): {}; the run is saved, "
                           "--restart goes on with it",
                           simulation.step_number(),
                           simulation.time(),
-                          reason);
-            log.line(message);
+                          reason_of(asked));
+            log.note(message);
             simulation.stop(message);
             throw Stopped(message);
           }
@@ -294,28 +283,15 @@ namespace corotet
   int
   Checkpoints::requests()
   {
-    int mine = none;
-    if (const int signal = StopSignals::received(); signal != 0)
-      mine |= signal == SIGTERM ? terminate : interrupt;
+    int mine = requests_to_stop(parameters, comm);
     if (StopSignals::take_save_request())
       mine |= save;
     // By one clock.
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      {
-        const auto now     = Clock::now();
-        const auto seconds = [&](const Clock::time_point since) {
-          return std::chrono::duration<double>(now - since).count();
-        };
-        if (parameters.minutes_between > 0 &&
-            seconds(written) >= 60 * parameters.minutes_between)
-          mine |= save;
-        if (parameters.wall_time_limit > 0 &&
-            seconds(program_start) >= parameters.wall_time_limit)
-          mine |= time_limit;
-      }
-    int all = none;
-    MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_BOR, comm);
-    return all;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0 &&
+        parameters.minutes_between > 0 &&
+        seconds_since(written) >= 60 * parameters.minutes_between)
+      mine |= save;
+    return on_any_rank(mine, comm);
   }
 
   void
@@ -332,7 +308,9 @@ namespace corotet
       on_all_ranks(comm, [&] { sync_file_system(directory); });
     CheckpointWriter writer(path_of(step), discretization, order_of_nodes());
     std::int64_t     log_size = log.size();
+    std::string      tables   = table_checksums(body.tables).dump();
     writer.transfer("log_size", log_size);
+    writer.transfer("tables", tables);
     simulation.save_state(writer);
     writer.finish(values, durable);
     written_step = step;

@@ -93,9 +93,10 @@ namespace corotet
                                          signature,
                                          getpid(),
                                          machine_name());
-    if (ftruncate(descriptor, 0) != 0 ||
-        pwrite(descriptor, text.data(), text.size(), 0) !=
-          static_cast<ssize_t>(text.size()))
+    // The first line, which stays the same, is there whatever fails.
+    if (pwrite(descriptor, text.data(), text.size(), 0) !=
+          static_cast<ssize_t>(text.size()) ||
+        ftruncate(descriptor, text.size()) != 0)
       fail(errno);
   }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include "mesh_checksum.h"
-
 #include <corotet/output/checkpoint_checksum.h>
+#include <corotet/output/mesh_checksum.h>
 
 #include <deal.II/base/mpi.h>
 

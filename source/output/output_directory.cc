@@ -32,7 +32,7 @@ namespace corotet
     // Names of what a run writes, as regular expressions of paths relative to
     // the output directory. A folder is removed if it is empty then.
     const std::array<std::string_view, 6> own_files{
-      {R"(study(_[a-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
+      {R"(study(_[A-Za-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
        R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
@@ -173,7 +173,12 @@ namespace corotet
       on_root(comm, [&] {
         try
           {
-            action(fs::path(directory).lexically_normal());
+            const fs::path path = directory;
+            // What '..' leads to depends on links before it.
+            const bool goes_up =
+              std::find(path.begin(), path.end(), "..") != path.end();
+            action(goes_up ? fs::weakly_canonical(path) :
+                             path.lexically_normal());
           }
         catch (const fs::filesystem_error &error)
           {

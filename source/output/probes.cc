@@ -121,9 +121,11 @@ namespace corotet
             const auto  nodes = discretization.cell_nodes(location.cell);
             ProbeInCell probe;
             probe.probe = probe_names.size();
-            probe.nodes.assign(nodes.begin(), nodes.end());
             for (unsigned int i = 0; i < nodes.size(); ++i)
-              probe.shape_values.push_back(fe.shape_value(i, location.xi));
+              {
+                probe.nodes.push_back(nodes[i]);
+                probe.shape_values.push_back(fe.shape_value(i, location.xi));
+              }
             located.push_back(probe);
           }
         probe_names.push_back(name);

@@ -205,7 +205,14 @@ namespace corotet
     Hdf5File file(series.result_file(state.record.step), comm);
     VtkhdfSeries::create_groups(file);
     write_nodal(file, "PointData/displacement", state.displacement);
-    write_nodal(file, "PointData/velocity", state.velocity);
+    if (state.velocity.size() > 0)
+      write_nodal(file, "PointData/velocity", state.velocity);
+    else
+      {
+        Vector zero;
+        state.discretization.initialize_vector(zero);
+        write_nodal(file, "PointData/velocity", zero);
+      }
     cells->write(file,
                  "CellData/rotation_angle",
                  results.rotation_angle.data());

@@ -5,6 +5,7 @@
 #include <corotet/simulation/acceleration_solver.h>
 #include <corotet/solvers/largest_eigenvalue.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corotet
@@ -173,9 +174,9 @@ namespace corotet
     if (springs)
       surface_stiffness.set(*springs);
     // The exact tangent where it is symmetric: tension stiffens.
-    const Tangent tangent = elasticity.is_symmetric(Tangent::consistent) ?
-                              Tangent::consistent :
-                              Tangent::frozen_rotation;
+    Tangent tangent = elasticity.is_symmetric(Tangent::consistent) ?
+                        Tangent::consistent :
+                        Tangent::frozen_rotation;
     if (!elasticity.is_by_cell(tangent))
       elasticity.linearize(equation.displacement(), tangent);
     if (ghosted.size() == 0)
@@ -203,6 +204,14 @@ namespace corotet
           start.local_element(3 * n + a) = s - std::floor(s) - 0.5;
         }
     body.motion.set_zero(start);
-    return std::sqrt(largest_eigenvalue(pencil, start, 2e-3));
+    double largest = largest_eigenvalue(pencil, start, 2e-3);
+    if (equation.terms.damping_shares().stiffness > 0 &&
+        !elasticity.is_by_cell(tangent))
+      {
+        // Damping is that of the frozen rotations, whatever softens.
+        tangent = Tangent::frozen_rotation;
+        largest = std::max(largest, largest_eigenvalue(pencil, start, 2e-3));
+      }
+    return std::sqrt(largest);
   }
 } // namespace corotet

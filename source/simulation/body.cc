@@ -70,9 +70,6 @@ namespace corotet
              reference,
              conditions,
              time_scale(parameters, discretization, materials, purpose))
-    // Three unknowns of each node have its mass.
-    , sum_of_nodal_masses(mass.diagonal().mean_value() *
-                          mass.diagonal().size() / 3)
   {}
 
   Body::Body(const SimulationParameters &parameters,
@@ -125,7 +122,10 @@ namespace corotet
   Body::root_mean_square(const Vector &field) const
   {
     const Vector &diagonal = mass.diagonal();
-    double        sum      = 0;
+    if (sum_of_nodal_masses == 0)
+      // Three unknowns of each node have its mass.
+      sum_of_nodal_masses = diagonal.mean_value() * diagonal.size() / 3;
+    double sum = 0;
     for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
       sum += diagonal.local_element(i) * field.local_element(i) *
              field.local_element(i);

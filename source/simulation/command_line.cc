@@ -206,6 +206,10 @@ namespace corotet
 
     if (mesh_app->parsed())
       {
+        if (!app.parse_order().empty())
+          fail(fmt::format("found {} before 'mesh'; allowed: corotet mesh "
+                           "[OPTIONS] FILE",
+                           app.parse_order().front()->get_name()));
         refuse_leftover(*mesh_app);
         if (mesh.file.empty())
           fail("a mesh or a geometry is needed: corotet mesh [OPTIONS] FILE");

@@ -48,8 +48,8 @@ namespace corotet
       body.discretization.initialize_vector(momentum);
     equation.evaluate(initial_state, time, load_factor);
     end_step(initial_state);
-    initial_changing_energy = force_terms.changing_energy(
-      {time, equation.displacement(), equation.velocity()});
+    initial_changing_energy =
+      force_terms.changing_energy(equation.motion(time));
     record(initial, initial_state, time);
   }
 
@@ -83,8 +83,9 @@ namespace corotet
     const auto &prescribed = body.motion.unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
-        last.carried[k]  = carried(prescribed[k]);
-        last.velocity[k] = state.v.local_element(prescribed[k]);
+        last.carried[k] = carried(prescribed[k]);
+        if (equation.is_dynamic)
+          last.velocity[k] = state.v.local_element(prescribed[k]);
       }
   }
 
@@ -147,10 +148,11 @@ namespace corotet
       for (unsigned int i = 0; i < n; ++i)
         sums[1] += middle_damping(i) * du(i);
     // What is prescribed moves with its own velocity.
-    const auto &prescribed = body.motion.unknowns();
-    for (std::size_t k = 0; k < prescribed.size(); ++k)
+    const std::size_t n_moving =
+      equation.is_dynamic ? body.motion.unknowns().size() : 0;
+    for (std::size_t k = 0; k < n_moving; ++k)
       {
-        const unsigned int i = prescribed[k];
+        const unsigned int i = body.motion.unknowns()[k];
         const double       dv =
           0.5 * dt * (state.v.local_element(i) + last.velocity[k]);
         sums[0] += (c * carried(i) + (1 - c) * last.carried[k]) * dv;
@@ -242,8 +244,8 @@ namespace corotet
     reduction.run(body.discretization.communicator());
 
     record.max_displacement = std::sqrt(largest_square);
-    const Motion motion{time, equation.displacement(), equation.velocity()};
-    record.elastic_energy = elastic.energy + force_terms.energy(motion);
+    const Motion motion     = equation.motion(time);
+    record.elastic_energy   = elastic.energy + force_terms.energy(motion);
     if (!std::isfinite(record.elastic_energy + record.kinetic_energy))
       throw ComputationError("the energy is not finite");
     record.min_det_F        = elastic.min_det_F;

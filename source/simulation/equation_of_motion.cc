@@ -34,11 +34,13 @@ namespace corotet
   {
     body.problem.add_to(
       terms, body.discretization, body.reference, body.materials, body.law);
-    for (Vector *vector : {&forces.external, &forces.internal, &u, &v})
+    for (Vector *vector : {&forces.external, &forces.internal, &u})
       body.discretization.initialize_vector(*vector);
     if (is_dynamic)
       for (Vector *vector : {&forces.inertia, &a})
         body.discretization.initialize_vector(*vector);
+    if (is_dynamic || terms.depends_on_velocity())
+      body.discretization.initialize_vector(v);
     if (terms.has_damping() || terms.damping_shares().mass != 0)
       body.discretization.initialize_vector(forces.damping);
     if (terms.has_elastic())
@@ -50,7 +52,8 @@ namespace corotet
   {
     ScopedTimer timer(wall_times.assembly);
     copy_with_ghosts(u, state.u);
-    copy_with_ghosts(v, state.v);
+    if (is_dynamic)
+      copy_with_ghosts(v, state.v);
     body.elasticity.update_rotations(u);
   }
 
@@ -62,7 +65,7 @@ namespace corotet
     ScopedTimer timer(wall_times.assembly);
     this->time = time;
     copy_with_ghosts(u, state.u);
-    if (terms.depends_on_velocity())
+    if (is_dynamic && terms.depends_on_velocity())
       copy_with_ghosts(v, state.v);
     body.elasticity.update_rotations_and_force(forces.internal, u);
 
@@ -122,7 +125,7 @@ namespace corotet
     if (found)
       return ": " + found->entry + ": " + found->message;
     const ElasticState state = body.elasticity.state(u);
-    if (std::isfinite(state.energy))
+    if (std::isfinite(state.energy) || body.law->is_linear())
       return "";
     return fmt::format(
       ": cells are flat or inside out (smallest det F {:.3g}), "

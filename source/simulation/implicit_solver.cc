@@ -17,6 +17,10 @@ namespace corotet
   namespace
   {
     constexpr double machine_precision = std::numeric_limits<double>::epsilon();
+    // Of forces, in terms of those at a guess: two solves to 1e-8.
+    constexpr double least_share = 1e-8;
+    // Of one linear solve.
+    constexpr double least_tolerance = 1e-9;
   } // namespace
 
   ImplicitSolver::ImplicitSolver(
@@ -39,7 +43,6 @@ namespace corotet
     if (terms.has_surface_matrix())
       surface =
         std::make_unique<SurfaceMatrix>(body.discretization, body.reference);
-    body.discretization.initialize_vector(positions);
   }
 
   void
@@ -78,8 +81,7 @@ namespace corotet
     catch (const ComputationError &)
       {
         log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
-        if (report.iterations == 0 &&
-            !std::isfinite(norm(equation.last_forces().internal)))
+        if (report.iterations == 0 && !std::isfinite(residual_norm))
           throw ComputationError(
             "the forces are not finite where Newton's method starts" +
             equation.why_not_finite());
@@ -157,23 +159,27 @@ namespace corotet
                  forces.damping.size() > 0 ? &forces.damping : nullptr,
                  equation.is_dynamic ? &forces.inertia : nullptr,
                  equation.terms.has_elastic() ? &forces.elastic : nullptr}});
+    residual_norm  = sizes[0];
     external_force = sizes[1];
     force_scale    = *std::max_element(sizes.begin() + 1, sizes.end());
-    // Far from the solution of a nonlinear problem forces may be of any size.
+    // Forces at a guess may be of any size; what round-off leaves of them
+    // counts, for a linear problem whose solution has none.
     if (is_linear())
-      stage_scale = std::max(stage_scale, force_scale);
+      stage_scale = std::max(stage_scale, least_share * force_scale);
     return {sizes[0], std::max(stage_scale, force_scale), round_off()};
   }
 
   double
-  ImplicitSolver::round_off() const
+  ImplicitSolver::round_off()
   {
     const ForceRoundOff &noise = effective_operator->force_round_off();
-    const double         sum   = noise.of_force(equation.displacement()) +
-                       4 * machine_precision * force_scale;
-    return sum + equation.terms.round_off(equation.last_motion(),
-                                          external_force,
-                                          noise);
+    const double         sum =
+      noise.of_force(equation.displacement()) +
+      4 * machine_precision * force_scale +
+      equation.terms.round_off(equation.last_motion(), external_force, noise);
+    const double known = std::max(external_force, solved_scale);
+    has_run_away       = known > 0 && sum > known;
+    return has_run_away ? 0. : sum;
   }
 
   void
@@ -267,25 +273,29 @@ namespace corotet
                                        const double           tolerance)
   {
     ScopedTimer timer(equation.wall_times.solve);
-    positions.copy_locally_owned_data_from(
-      body.discretization.node_positions());
-    positions += stage_state->u;
     try
       {
         // One solve is all that a linear problem needs if it is as good as
-        // Newton's method wants it; a tenth is for the round-off between this
-        // residual and that of the forces.
-        const double       limit        = is_linear() ?
-                                            0.9 * parameters.residual_tolerance *
-                                 std::max(stage_scale, force_scale) :
-                                            std::numeric_limits<double>::infinity();
+        // Newton's method wants it, measured by what is known of the forces at
+        // the solution; a tenth is for the round-off between this residual and
+        // that of the forces.
+        const double known = std::max(solved_scale, external_force);
+        const double scale =
+          std::max(stage_scale, known > 0 ? known : force_scale);
+        // What one solve cannot do is left to the next one.
+        const double limit =
+          is_linear() ? std::max(0.9 * parameters.residual_tolerance * scale,
+                                 least_tolerance * norm(r)) :
+                        std::numeric_limits<double>::infinity();
         const unsigned int n_builds     = preconditioner_builds();
         const unsigned int n_iterations = linear_solver.solve(
-          *effective_operator, dx, r, positions, J, limit, tolerance);
+          *effective_operator, dx, r, stage_state->u, J, limit, tolerance);
         if (preconditioner_builds() > n_builds)
           {
-            built_stage        = stage;
-            built_displacement = stage_state->u;
+            built_stage = stage;
+            // Linear laws have no rotations that depend on it.
+            if (!body.law->is_linear())
+              built_displacement = stage_state->u;
             built_with_tangent = J != nullptr;
             built_tangent      = tangent;
           }
@@ -331,7 +341,9 @@ namespace corotet
     if (stage.acceleration_factor != 0)
       stage_state->a.add(factor * stage.acceleration_factor, dx);
     const auto [size, increment] = norms<2>({{&stage_state->u, &dx}});
-    return {std::abs(factor) * increment, size, 4 * machine_precision * size};
+    return {std::abs(factor) * increment,
+            size,
+            has_run_away ? 0. : 4 * machine_precision * size};
   }
 
   void

@@ -52,21 +52,20 @@ namespace corotet
     // The run may go on with another tangent, which needs no operator.
     built_with_tangent = built_with_tangent && tangent_operator != nullptr;
     State state;
-    for (Vector *vector : {&state.u, &state.v, &state.a})
+    for (Vector *vector : {&state.u, &state.v})
       body.discretization.initialize_vector(*vector);
-    state.u = built_displacement;
+    // Empty with linear laws, which it does not matter for.
+    if (built_displacement.size() > 0)
+      state.u = built_displacement;
     equation.set_state(state);
     stage = built_stage;
     update_effective_operator();
-    positions.copy_locally_owned_data_from(
-      body.discretization.node_positions());
-    positions += built_displacement;
-    built_displacement.update_ghost_values();
+    state.u.update_ghost_values();
     if (built_with_tangent)
-      tangent_operator->update_elasticity(built_displacement, built_tangent);
+      tangent_operator->update_elasticity(state.u, built_tangent);
     linear_solver.build_again(*effective_operator,
                               built_with_tangent ? tangent_operator.get() :
                                                    nullptr,
-                              positions);
+                              state.u);
   }
 } // namespace corotet

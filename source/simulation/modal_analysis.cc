@@ -244,6 +244,7 @@ namespace corotet
     // are alike it is would be chance, but that they are alike is, too.
     constexpr unsigned int      n_waves = 8;
     std::array<double, n_waves> products{};
+    const Vector               &mass = the_body.mass.diagonal();
     for (unsigned int n = 0; n < the_body.discretization.n_owned_nodes(); ++n)
       {
         const Tensor<1, 3> r =
@@ -251,8 +252,7 @@ namespace corotet
         for (unsigned int a = 0; a < 3; ++a)
           {
             const double weight =
-              the_body.mass.diagonal().local_element(3 * n + a) *
-              x.local_element(3 * n + a);
+              mass.local_element(3 * n + a) * x.local_element(3 * n + a);
             const double phase = std::numbers::sqrt2 * r[a] +
                                  std::numbers::sqrt3 * r[(a + 1) % 3] +
                                  std::sqrt(5.) * r[(a + 2) % 3];

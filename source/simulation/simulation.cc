@@ -37,8 +37,9 @@ namespace corotet
   void
   Simulation::check_supports()
   {
-    const auto springs = system.equation().terms.springs(the_body.reference,
-                                                         parameters.start_time);
+    // Of the first time that is solved for.
+    const auto springs =
+      system.equation().terms.springs(the_body.reference, stepper.first_time());
     const std::string motions =
       RigidMotions(the_body.discretization,
                    the_body.motion,
@@ -230,7 +231,7 @@ namespace corotet
     return {the_body.discretization,
             last_record,
             displacement(),
-            velocity(),
+            system.equation().last_motion().v,
             [this] { return the_body.elasticity.cell_results(displacement()); },
             last,
             [this]() -> StressField & { return present_stress(); }};
@@ -254,8 +255,9 @@ namespace corotet
     summary.status  = status;
     summary.message = message;
     the_body.fill_in(summary);
-    summary.steps        = last_record.step;
-    summary.end_time     = last_record.time;
+    // Of the state, which may be some steps after its last record.
+    summary.steps        = step_number();
+    summary.end_time     = time();
     summary.final_record = last_record;
     summary.preconditioner_builds =
       system.implicit_solver().preconditioner_builds();

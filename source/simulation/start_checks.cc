@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/expression.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/not_finite.h>
 #include <corotet/discretization/rigid_motions.h>
@@ -193,8 +194,16 @@ namespace corotet
   {
     const Body &body = equation.body;
     if (!parameters.time_integrator.selected().is_dynamic())
-      for (const std::string &name : equation.terms.names_of_damping())
-        log.warning(name + ": has no effect in statics, where nothing moves");
+      {
+        const std::string nothing_moves =
+          ": has no effect in statics, where nothing moves";
+        for (const std::string &name : equation.terms.names_of_damping())
+          log.warning(name + nothing_moves);
+        const std::string entry = "Initial conditions/Velocity";
+        if (!Expression(parameters.initial_velocity, 3, entry, body.tables)
+               .is_zero())
+          log.warning(entry + nothing_moves);
+      }
     // Every node moves a little, each in another direction.
     Vector u;
     body.discretization.initialize_vector(u);

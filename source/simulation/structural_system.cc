@@ -24,9 +24,12 @@ namespace corotet
   void
   StructuralSystem::initialize(State &state) const
   {
-    const Body &body = equation_of_motion.body;
-    for (Vector *vector : {&state.u, &state.v, &state.a})
-      body.discretization.initialize_vector(*vector);
+    const Body &body       = equation_of_motion.body;
+    const bool  is_dynamic = equation_of_motion.is_dynamic;
+    body.discretization.initialize_vector(state.u);
+    if (is_dynamic)
+      for (Vector *vector : {&state.v, &state.a})
+        body.discretization.initialize_vector(*vector);
     // Those of the parameters, or made from the exact solution.
     const auto expression = [&](const std::string &name,
                                 const std::string &text,
@@ -58,7 +61,8 @@ namespace corotet
         for (unsigned int a = 0; a < 3; ++a)
           {
             state.u.local_element(3 * n + a) = u[a];
-            state.v.local_element(3 * n + a) = v[a];
+            if (is_dynamic)
+              state.v.local_element(3 * n + a) = v[a];
           }
       }
     check_finite();

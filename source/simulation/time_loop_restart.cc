@@ -61,6 +61,9 @@ namespace corotet
         done *= factor;
         good_done *= factor;
       }
+    // Whose steps are all made has no use for another length of them.
+    if (is_done())
+      return;
     if (n_equal > 0)
       begin_equal_steps(step_number(record));
     else if (n_steps > 0)

@@ -42,7 +42,8 @@ namespace corotet
     // Matrices of aggregates come divided.
     if (d == 3)
       the_unit = unit_of(A);
-    copy_matrix(A);
+    copy_blocks(A);
+    copy_diagonal(A);
     if (is_new)
       {
         const bool has_blocks = coarsening.least_similarity > 0;
@@ -55,44 +56,59 @@ namespace corotet
     if (has_aggregate_blocks)
       invert_aggregates(A);
     estimate_largest_eigenvalue();
+    // Gives its memory to the motions: a copy costs little.
+    blocks.clear();
     build_coarse(A, frames);
+    copy_blocks(A);
   }
 
   template <int d>
   void
-  AggregationLevel<d>::copy_matrix(const BlockMatrix &A)
+  AggregationLevel<d>::copy_blocks(const BlockMatrix &A)
   {
-    using Block            = Eigen::Matrix<double, d, d>;
     const NodeGraph &graph = points->graph();
     // A load of the last column reaches beyond it.
-    blocks.resize(offset(d) * graph.columns.size() + 2);
-    inverse_diagonal.resize(d * offset(n_points));
-    is_prescribed.resize(offset(n_points));
+    blocks.resize_fast(offset(d) * graph.columns.size() + 2);
+    std::fill(blocks.end() - 2, blocks.end(), 0.f);
     float *block = blocks.data();
     for (int i = 0; i < n_points; ++i)
       {
-        const auto            rows     = A.template rows_of<d>(i);
-        const int            *columns  = &graph.columns[graph.starts[i]];
-        const int             n        = graph.starts[i + 1] - graph.starts[i];
-        Block                 diagonal = Block::Zero();
-        std::array<double, d> row_sums{};
+        const auto rows = A.template rows_of<d>(i);
+        const int  n    = graph.starts[i + 1] - graph.starts[i];
         for (int k = 0; k < n; ++k, block += offset(d))
           for (int a = 0; a < d; ++a)
             for (int b = 0; b < d; ++b)
-              {
-                const double value = rows[a][d * k + b] / the_unit;
-                block[d * b + a]   = value;
-                row_sums[a] += std::abs(value);
-                if (columns[k] == i)
-                  diagonal(a, b) = value;
-              }
-        const Block inverse = diagonal.inverse();
+              block[d * b + a] = rows[a][d * k + b] / the_unit;
+      }
+  }
+
+  template <int d>
+  void
+  AggregationLevel<d>::copy_diagonal(const BlockMatrix &A)
+  {
+    using Block            = Eigen::Matrix<double, d, d>;
+    const NodeGraph &graph = points->graph();
+    inverse_diagonal.resize(d * offset(n_points));
+    is_prescribed.resize(offset(n_points));
+    for (int i = 0; i < n_points; ++i)
+      {
+        const auto rows   = A.template rows_of<d>(i);
+        const int  length = offset(graph.starts[i + 1] - graph.starts[i]);
+        const int  own    = d * points->place(i, i);
+        Block      diagonal;
         for (int a = 0; a < d; ++a)
           {
-            is_prescribed[d * i + a] = row_sums[a] == std::abs(diagonal(a, a));
+            double row_sum = 0;
+            for (int k = 0; k < length; ++k)
+              row_sum += std::abs(rows[a][k]);
+            is_prescribed[d * i + a] = row_sum == std::abs(rows[a][own + a]);
             for (int b = 0; b < d; ++b)
-              inverse_diagonal[d * d * i + d * b + a] = inverse(a, b);
+              diagonal(a, b) = rows[a][own + b] / the_unit;
           }
+        const Block inverse = diagonal.inverse();
+        for (int a = 0; a < d; ++a)
+          for (int b = 0; b < d; ++b)
+            inverse_diagonal[d * d * i + d * b + a] = inverse(a, b);
       }
   }
 

@@ -135,22 +135,22 @@ namespace corotet
 
   void
   AutomaticPreconditioner::build(const EffectiveOperator &A,
-                                 const Vector            &positions)
+                                 const Vector            &displacement)
   {
-    build_for(A, nullptr, positions);
+    build_for(A, nullptr, displacement);
   }
 
   void
   AutomaticPreconditioner::build_for(const EffectiveOperator &A,
                                      const TangentOperator   *J,
-                                     const Vector            &positions)
+                                     const Vector            &displacement)
   {
     if (is_direct)
       {
-        factorize(A, J, positions);
+        factorize(A, J, displacement);
         return;
       }
-    multigrid.build(A, positions);
+    multigrid.build(A, displacement);
     if (is_settled || has_costs || !multigrid.lowest_level().has_factors())
       return;
     find_costs(A);
@@ -176,13 +176,13 @@ namespace corotet
     n_multigrid = 1;
     iterations  = forecast;
     is_direct   = true;
-    factorize(A, J, positions);
+    factorize(A, J, displacement);
   }
 
   void
   AutomaticPreconditioner::factorize(const EffectiveOperator &A,
                                      const TangentOperator   *J,
-                                     const Vector            &positions)
+                                     const Vector            &displacement)
   {
     std::string reason;
     try
@@ -192,9 +192,9 @@ namespace corotet
         // Exact tangents of well-shaped cells are indefinite far from the
         // solution alone, and take several factorisations there that the next
         // iterate has no use for.
-        direct->build_for(A,
-                          multigrid.proportions().are_poor() ? J : nullptr,
-                          positions);
+        if (!are_poor)
+          are_poor = cell_proportions(A.discretization()).are_poor();
+        direct->build_for(A, *are_poor ? J : nullptr, displacement);
         return;
       }
     // Too large, for the memory or for the library, or singular up to
@@ -213,7 +213,7 @@ namespace corotet
                         reason);
     is_settled = true;
     leave_factors();
-    multigrid.build(A, positions);
+    multigrid.build(A, displacement);
   }
 
   void
@@ -290,7 +290,7 @@ namespace corotet
   bool
   AutomaticPreconditioner::change(const EffectiveOperator &A,
                                   const TangentOperator   *J,
-                                  const Vector            &positions,
+                                  const Vector            &displacement,
                                   const unsigned int       n_iterations,
                                   const double             n_expected)
   {
@@ -302,7 +302,7 @@ namespace corotet
     if (is_direct)
       {
         direct_cost += n_iterations * costs.solve;
-        factorize(A, J, positions);
+        factorize(A, J, displacement);
         return true;
       }
     ++n_multigrid;
@@ -313,7 +313,7 @@ namespace corotet
                        multigrid.proportions().text());
     iterations += n_expected;
     is_direct = true;
-    factorize(A, J, positions);
+    factorize(A, J, displacement);
     return true;
   }
 

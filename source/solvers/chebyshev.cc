@@ -152,6 +152,12 @@ namespace corotet
       }
     std::vector<double> alphas, betas;
     double              beta = norm(v);
+    // No unknown is free.
+    if (beta == 0)
+      {
+        max_eigenvalue = 1;
+        return;
+      }
     v *= 1 / beta;
     beta = 0;
     for (unsigned int k = 0; k < n_steps; ++k)

@@ -31,7 +31,7 @@ namespace corotet
   void
   CholeskyDirect::build_for(const EffectiveOperator &A,
                             const TangentOperator   *J,
-                            const Vector            &positions)
+                            const Vector            &displacement)
   {
     // Where stresses of an iterate make the tangent indefinite, some more of
     // the stiffness makes it definite, and the stresses' share is still there:
@@ -46,7 +46,7 @@ namespace corotet
           is_makeshift = true;
         }
     is_of_tangent = false;
-    build(A, positions);
+    build(A, displacement);
   }
 
   void

@@ -285,8 +285,14 @@ namespace corotet
   EigenvalueSolver::refine(Eigenpairs &pairs, const unsigned int n)
   {
     // What is left in the vectors that is of other modes is damped, most of all
-    // that of high frequency, which residuals of K amplify.
-    for (unsigned int j = 0; j < n; ++j)
+    // that of high frequency, which residuals of K amplify. Modes of one
+    // frequency mix: all of them are needed.
+    constexpr double same  = 1e-6;
+    unsigned int     n_all = n;
+    while (n_all < pairs.vectors.size() &&
+           pairs.values[n_all] <= (1 + same) * std::abs(pairs.values[n - 1]))
+      ++n_all;
+    for (unsigned int j = 0; j < n_all; ++j)
       {
         apply_inverse(pairs.vectors[j]);
         remove_null_space(pairs.vectors[j]);

@@ -37,6 +37,26 @@ namespace corotet
     }
   } // namespace
 
+  namespace
+  {
+    // The iterations of @p solve; if it does not converge, those that were @p
+    // done before are counted, too.
+    template <typename Solve>
+    unsigned int
+    after(const unsigned int done, const Solve &solve)
+    {
+      try
+        {
+          return solve();
+        }
+      catch (const dealii::SolverControl::NoConvergence &failure)
+        {
+          throw dealii::SolverControl::NoConvergence(done + failure.last_step,
+                                                     failure.last_residual);
+        }
+    }
+  } // namespace
+
   LinearSolver::LinearSolver(const LinearSolverParameters &parameters,
                              const double                  largest_tolerance)
     : parameters(parameters)
@@ -71,8 +91,15 @@ namespace corotet
         dealii::SolverControl        control(limit - iterations,
                                       0.3 * std::max(missing, 1e-6) * start);
         dealii::SolverMinRes<Vector> minres(control);
-        minres.solve(A, dx, r, *preconditioner);
-        iterations += control.last_step();
+        try
+          {
+            minres.solve(A, dx, r, *preconditioner);
+          }
+        catch (const dealii::SolverControl::NoConvergence &)
+          {
+            // How far it has come is seen below.
+          }
+        iterations += std::min(control.last_step(), limit - iterations);
         x += dx;
       }
     A.vmult(r, x);
@@ -109,8 +136,10 @@ namespace corotet
         // quite linear, and the plain one trusts that it is.
         using GMRES = dealii::SolverFGMRES<Vector>;
         GMRES gmres(left, GMRES::AdditionalData(basis_size(b)));
-        gmres.solve(A, x, b, *preconditioner);
-        return done + left.last_step();
+        return done + after(done, [&] {
+                 gmres.solve(A, x, b, *preconditioner);
+                 return left.last_step();
+               });
       }
     if (method == KrylovMethod::minres)
       return minimal_residuals(A, limit, x, b, wanted);
@@ -123,7 +152,9 @@ namespace corotet
     const unsigned int done          = control.last_step();
     if (has_converged)
       return done;
-    return done + minimal_residuals(A, limit - done, x, b, wanted);
+    return done + after(done, [&] {
+             return minimal_residuals(A, limit - done, x, b, wanted);
+           });
   }
 
   unsigned int
@@ -162,14 +193,14 @@ namespace corotet
                                 const TangentOperator   *J,
                                 Vector                  &x,
                                 const Vector            &b,
-                                const Vector            &positions,
+                                const Vector            &displacement,
                                 const double             wanted)
   {
     unsigned int done      = 0;
     done_before_change     = 0;
     unsigned int most      = largest_number(is_new, J != nullptr);
     const auto   change_it = [&](const double expected) {
-      if (!preconditioner->change(A, J, positions, done, expected))
+      if (!preconditioner->change(A, J, displacement, done, expected))
         return;
       done_before_change = done;
       most               = std::min(parameters.max_iterations,
@@ -218,14 +249,17 @@ namespace corotet
     else
       A.vmult(r, x);
     r -= b;
-    return norm(r) <= A.round_off(x);
+    // What is larger than b says nothing: x has run away along a motion that
+    // nothing resists.
+    const double round_off = A.round_off(x);
+    return norm(r) <= round_off && round_off < norm(b);
   }
 
   unsigned int
   LinearSolver::solve(const EffectiveOperator &A,
                       Vector                  &x,
                       const Vector            &b,
-                      const Vector            &positions,
+                      const Vector            &displacement,
                       const TangentOperator   *J,
                       const double             limit,
                       const double             loosest)
@@ -245,7 +279,7 @@ namespace corotet
     const bool first_solve = !is_built;
     if (first_solve)
       {
-        preconditioner->build_for(A, J, positions);
+        preconditioner->build_for(A, J, displacement);
         built_mass_ratio = A.mass_ratio();
         built_surface    = A.surface_size();
         built_version    = A.version();
@@ -259,7 +293,7 @@ namespace corotet
     try
       {
         iterations =
-          solve_patiently(first_solve, A, J, x, b, positions, wanted);
+          solve_patiently(first_solve, A, J, x, b, displacement, wanted);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
@@ -268,7 +302,7 @@ namespace corotet
         is_built = false;
         if (!first_solve)
           // Perhaps only the preconditioner was outdated.
-          return solve(A, x, b, positions, J, limit, loosest);
+          return solve(A, x, b, displacement, J, limit, loosest);
         throw ComputationError(fmt::format(
           "the linear solver stopped after {} iterations at a relative "
           "residual of {:.3g}; required is {:.3g} within {} iterations",

@@ -27,9 +27,9 @@ namespace corotet
   void
   LinearSolver::build_again(const EffectiveOperator &A,
                             const TangentOperator   *J,
-                            const Vector            &positions)
+                            const Vector            &displacement)
   {
-    preconditioner->build_for(A, J, positions);
+    preconditioner->build_for(A, J, displacement);
     known_version = A.version();
     built_version = A.version();
   }

@@ -20,10 +20,11 @@ namespace corotet
     , motion(motion)
   {
     discretization.initialize_vector(ghosted);
-    Vector inverse(ghosted);
+    Vector        inverse(ghosted);
+    const Vector &diagonal = mass.diagonal();
     for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
       inverse.local_element(i) =
-        motion.is_prescribed()[i] ? 0. : 1 / mass.diagonal().local_element(i);
+        motion.is_prescribed()[i] ? 0. : 1 / diagonal.local_element(i);
     inverse_diagonal.reinit(inverse);
   }
 

@@ -182,7 +182,7 @@ namespace corotet
   }
 
   void
-  PMultigrid::build(const EffectiveOperator &A, const Vector &positions)
+  PMultigrid::build(const EffectiveOperator &A, const Vector &displacement)
   {
     if (!vertex_level)
       {
@@ -191,7 +191,7 @@ namespace corotet
       }
     update(A);
     estimate_eigenvalues(A.discretization());
-    vertex_level->build(A, stiffness_unit, scale, positions);
+    vertex_level->build(A, stiffness_unit, scale, displacement);
   }
 
   void

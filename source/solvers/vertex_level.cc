@@ -130,7 +130,7 @@ namespace corotet
   VertexLevel::assemble(const EffectiveOperator &A,
                         const double             stiffness_unit,
                         const double             scale,
-                        const Vector            &positions)
+                        const Vector            &displacement)
   {
     if (quadratic == nullptr)
       return;
@@ -149,14 +149,10 @@ namespace corotet
         assembled->update(c_K, cells, c_M, masses, nullptr, surface.get());
         return;
       }
-    Vector with_ghosts;
-    A.discretization().initialize_vector(with_ghosts);
-    std::copy_n(positions.begin(),
-                positions.locally_owned_size(),
-                with_ghosts.begin());
-    with_ghosts.update_ghost_values();
+    Vector positions = A.positions(displacement);
+    positions.update_ghost_values();
     motions->update(
-      A.discretization(), with_ghosts, c_K, cells, c_M, masses, surface.get());
+      A.discretization(), positions, c_K, cells, c_M, masses, surface.get());
   }
 
   bool
@@ -178,16 +174,22 @@ namespace corotet
   VertexLevel::build(const EffectiveOperator &A,
                      const double             stiffness_unit,
                      const double             scale,
-                     const Vector            &positions)
+                     const Vector            &displacement)
   {
-    assemble(A, stiffness_unit, scale, positions);
+    assemble(A, stiffness_unit, scale, displacement);
     const BlockMatrix &level_matrix = matrix(A);
     solver                          = parameters.coarse_type;
     if (solver == "automatic")
       solver = factors_pay(level_matrix) ? "direct" : "aggregation";
+    // Who solves by them has a copy of its own.
+    const auto release_values = [&] {
+      if (assembled)
+        assembled->release_values();
+    };
     if (solver == "direct")
       {
         direct.factorize(level_matrix);
+        release_values();
         return;
       }
     if (solver == "aggregation" && motions)
@@ -195,15 +197,21 @@ namespace corotet
         aggregation.build(motions->aggregates());
         return;
       }
-    Vector places;
-    vertices.initialize_vector(places);
-    for (unsigned int n = 0; n < vertices.n_owned_nodes(); ++n)
-      for (unsigned int a = 0; a < 3; ++a)
-        places.local_element(3 * n + a) =
-          positions.local_element(3 * finest_nodes[n] + a);
+    Vector places = A.positions(displacement);
+    if (quadratic != nullptr)
+      {
+        Vector finest;
+        finest.swap(places);
+        vertices.initialize_vector(places);
+        for (unsigned int n = 0; n < vertices.n_owned_nodes(); ++n)
+          for (unsigned int a = 0; a < 3; ++a)
+            places.local_element(3 * n + a) =
+              finest.local_element(3 * finest_nodes[n] + a);
+      }
     if (solver == "aggregation")
       {
         aggregation.build(level_matrix, places.begin());
+        release_values();
         return;
       }
     for (Vector *vector : {&x, &b})

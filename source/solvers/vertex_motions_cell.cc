@@ -5,7 +5,6 @@
 
 #include <corotet/discretization/tetrahedron.h>
 
-#include <limits>
 
 namespace corotet
 {
@@ -79,7 +78,7 @@ namespace corotet
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int a = 0; a < 3; ++a)
         edges[i][a] = vertices[i + 1][a] - vertices[0][a];
-    V trace{}, squares{};
+    V squares{};
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int a = 0; a < 3; ++a)
         {
@@ -91,12 +90,25 @@ namespace corotet
       cofactors[0][a] = -(cofactors[1][a] + cofactors[2][a] + cofactors[3][a]);
     for (unsigned int i = 0; i < 4; ++i)
       for (unsigned int a = 0; a < 3; ++a)
-        {
-          trace += K[i][i][a][a];
-          squares += cofactors[i][a] * cofactors[i][a];
-        }
-    return trace /
-           ((4 + lame_ratio) * (squares + std::numeric_limits<double>::min()));
+        squares += cofactors[i][a] * cofactors[i][a];
+    // In a cell that is crushed to a line or a point they are nothing.
+    V lengths{};
+    for (const auto &edge : edges)
+      for (const V component : edge)
+        lengths += component * component;
+    return squares > 1e-30 * lengths * lengths ?
+             trace() / ((4 + lame_ratio) * squares) :
+             V{};
+  }
+
+  V
+  VertexMotions::CellMatrix::trace() const
+  {
+    V sum{};
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int a = 0; a < 3; ++a)
+        sum += K[i][i][a][a];
+    return sum;
   }
 
   void
@@ -150,11 +162,13 @@ namespace corotet
   }
 
   // size / 4 times the sum over the vertices of |D w - D curl u / 2|^2, with D
-  // the determinant; @p length is what w is multiplied with.
+  // the determinant; @p length is what w is multiplied with. @p least resists
+  // rotations in any case: in crushed cells D is zero.
   void
   VertexMotions::CellMatrix::add_springs(const V      size,
                                          const double length,
-                                         const V (&cofactors)[4][3])
+                                         const V (&cofactors)[4][3],
+                                         const V least)
   {
     V determinant{};
     for (unsigned int a = 0; a < 3; ++a)
@@ -182,7 +196,8 @@ namespace corotet
                 A[i][j][a][3 + b] -= 0.25 * size * determinant * Y[i][b][a];
               }
             if (i == j)
-              A[i][j][3 + a][3 + a] += 0.25 * size * determinant * determinant;
+              A[i][j][3 + a][3 + a] +=
+                0.25 * size * determinant * determinant + least;
           }
   }
 } // namespace corotet

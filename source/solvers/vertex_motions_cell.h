@@ -38,6 +38,9 @@ namespace corotet
     set_ends(const unsigned int                         edge,
              const unsigned int                         lane,
              const std::array<dealii::Tensor<1, 3>, 2> &arms);
+    // The trace of the vertices' stiffness.
+    V
+    trace() const;
     V
     shear_stiffness(const V lame_ratio, V (&cofactors)[4][3]) const;
     void
@@ -45,7 +48,10 @@ namespace corotet
     void
     combine();
     void
-    add_springs(const V size, const double length, const V (&cofactors)[4][3]);
+    add_springs(const V      size,
+                const double length,
+                const V (&cofactors)[4][3],
+                const V least);
   };
 } // namespace corotet
 

@@ -19,6 +19,9 @@ namespace corotet
     // around it, c int mu |w - curl u / 2|^2 in each cell. Iterations are the
     // same from 1e-6 to 1e-1; large ones keep the matrix well conditioned.
     constexpr double spring = 0.01;
+    // What there is of it in crushed cells, in terms of the trace of their
+    // stiffness: enough to be seen beside round-off.
+    constexpr double least_spring = 1e-12;
 
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
@@ -49,7 +52,7 @@ namespace corotet
   VertexMotions::make_matrix()
   {
     pattern            = block_pattern(vertices);
-    places_of_blocks   = block_places(vertices, *pattern);
+    places_of_blocks   = BlockPlaces(vertices, *pattern);
     problem.matrix     = std::make_unique<BlockMatrix>(twice(*pattern));
     problem.aggregates = pattern;
   }
@@ -107,16 +110,15 @@ namespace corotet
         const auto is_out  = [&](const unsigned int i, const unsigned int a) {
           return touches && a < 3 && is_vertex_prescribed[3 * nodes[i] + a];
         };
-        const std::uint16_t *place =
-          &places_of_blocks[std::size_t(16) * (first + lane)];
+        std::size_t block = std::size_t(16) * (first + lane);
         for (unsigned int i = 0; i < 4; ++i)
-          for (unsigned int j = 0; j < 4; ++j, ++place)
+          for (unsigned int j = 0; j < 4; ++j, ++block)
             if (nodes[i] < vertices.n_owned_nodes())
               for (unsigned int a = 0; a < 6; ++a)
                 {
                   double *const row =
                     problem.matrix->row(2 * nodes[i] + a / 3, a % 3) +
-                    std::size_t(6) * *place;
+                    std::size_t(6) * places_of_blocks[block];
                   for (unsigned int b = 0; b < 6; ++b)
                     if (!is_out(i, a) && !is_out(j, b))
                       row[b] += cells.A[i][j][a][b][lane];
@@ -203,10 +205,11 @@ namespace corotet
       FrozenCellMatrices::V cofactors[4][3];
       const auto            shear = cells->shear_stiffness(
         load_aligned<batch_size>(coefficients[batch].lame_ratio), cofactors);
+      const FrozenCellMatrices::V least = least_spring * cells->trace();
       cells->add_mass();
       leave_out_prescribed(first, n_cells, *cells);
       cells->combine();
-      cells->add_springs(spring * shear, length, cofactors);
+      cells->add_springs(spring * shear, length, cofactors, least);
       add(first, n_cells, *cells);
     });
     if (surface != nullptr)

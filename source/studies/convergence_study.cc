@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/programs.h>
+#include <corotet/base/stop_signals.h>
 #include <corotet/base/text.h>
 #include <corotet/base/timing.h>
 #include <corotet/base/version.h>
@@ -66,12 +67,14 @@ namespace corotet
     }
   } // namespace
 
-  ConvergenceStudy::ConvergenceStudy(const CommandLine     &command,
-                                     const StudyParameters &parameters,
-                                     const MPI_Comm         comm,
-                                     Log                   &log)
+  ConvergenceStudy::ConvergenceStudy(const CommandLine          &command,
+                                     const StudyParameters      &parameters,
+                                     const CheckpointParameters &checkpoints,
+                                     const MPI_Comm              comm,
+                                     Log                        &log)
     : command(command)
     , parameters(parameters)
+    , checkpoints(checkpoints)
     , cases(parameters.cases())
     , quantities(parameters.quantity_list())
     , comm(comm)
@@ -175,24 +178,47 @@ namespace corotet
     });
     std::vector<StudyResult> results;
     unsigned int             n_failed = 0;
+    // Also while runs are set up: what is done is kept.
+    const StopSignals signals;
     for (const StudyCase &one : cases)
       {
+        stop_if_asked(results);
         log.progress(fmt::format("run {} of {}: {}",
                                  results.size() + 1,
                                  cases.size(),
                                  one.name()),
                      static_cast<double>(results.size()) / cases.size());
-        results.push_back(result_of(one));
+        try
+          {
+            results.push_back(result_of(one));
+          }
+        catch (const Stopped &stop)
+          {
+            log.note(stop.what());
+            write(results, "stopped", stop.what());
+            throw;
+          }
         log.line(fmt::format("Run {} of {}, {}: {}",
                              results.size(),
                              cases.size(),
                              one.name(),
                              describe(results.back())));
         n_failed += results.back().status == "done" ? 0 : 1;
-        // All that there is, if the study is stopped.
-        write(results);
+        if (!failure_of_finer_run.empty())
+          {
+            write(results, "failed", failure_of_finer_run);
+            throw ComputationError(failure_of_finer_run);
+          }
+        // All that there is, if the study is killed.
+        write(results, "unfinished", "");
       }
     remove_checkpoints(directory + "/rows/finer_run", comm);
+    const std::string failures =
+      n_failed == 0 ? "" :
+                      fmt::format("{} of {} runs of the study have failed",
+                                  n_failed,
+                                  cases.size());
+    write(results, n_failed == 0 ? "done" : "failed", failures);
     const StudyTable table(results, quantities);
     for (const std::string &line : table.lines())
       log.line(line);
@@ -201,8 +227,24 @@ namespace corotet
     if (parameters.pictures)
       draw();
     if (n_failed > 0)
-      throw ComputationError(fmt::format(
-        "{} of {} runs of the study have failed", n_failed, cases.size()));
+      throw ComputationError(failures);
+  }
+
+  void
+  ConvergenceStudy::stop_if_asked(const std::vector<StudyResult> &results)
+  {
+    const std::string reason = reason_to_stop(checkpoints, comm);
+    if (reason.empty())
+      return;
+    const std::string message =
+      fmt::format("{} of {} runs: {}; they are saved, --restart goes on with "
+                  "the others",
+                  results.size(),
+                  cases.size(),
+                  reason);
+    log.note(message);
+    write(results, "stopped", message);
+    throw Stopped(message);
   }
 
   std::optional<StudyResult>
@@ -245,13 +287,21 @@ namespace corotet
   StudyResult
   ConvergenceStudy::result_of(const StudyCase &study_case)
   {
-    const std::string path = directory + "/rows/" + study_case.name();
-    auto              run  = std::make_unique<StudyRun>(command.parameter_file,
-                                          command.overrides,
-                                          study_case,
-                                          comm);
-    Json              problem = run->fingerprint();
-    problem["quantities"]     = Json::array();
+    const std::string         path = directory + "/rows/" + study_case.name();
+    std::unique_ptr<StudyRun> run;
+    try
+      {
+        run = std::make_unique<StudyRun>(command.parameter_file,
+                                         command.overrides,
+                                         study_case,
+                                         comm);
+      }
+    catch (const InputError &error)
+      {
+        return failed_result(study_case, error);
+      }
+    Json problem          = run->fingerprint();
+    problem["quantities"] = Json::array();
     for (const auto &quantity : quantities)
       problem["quantities"].push_back(quantity.name);
     problem["reference"] = parameters.reference == StudyReference::finer_run ?
@@ -267,6 +317,8 @@ namespace corotet
     if (parameters.reference == StudyReference::finer_run)
       {
         compare_with_finer_run(result, *run);
+        if (!failure_of_finer_run.empty())
+          return result;
         for (const auto &quantity : quantities)
           file["finer_quantities"].push_back(
             quantity.reference.value_or(std::nan("")));
@@ -279,94 +331,44 @@ namespace corotet
     return result;
   }
 
-  StudyCase
-  ConvergenceStudy::finer_case() const
-  {
-    StudyCase finest = cases.front();
-    for (const StudyCase &one : cases)
-      {
-        finest.degree      = std::max(finest.degree, one.degree);
-        finest.refinements = std::max(finest.refinements, one.refinements);
-        if (one.time_step)
-          finest.time_step = std::min(*finest.time_step, *one.time_step);
-      }
-    finest.refinements += parameters.further_refinements;
-    // With the file's own.
-    finest.mass.reset();
-    finest.rotation.reset();
-    return finest;
-  }
-
-  const StudyRun &
-  ConvergenceStudy::finer_run()
-  {
-    if (finer)
-      return *finer;
-    finer = std::make_unique<StudyRun>(command.parameter_file,
-                                       command.overrides,
-                                       finer_case(),
-                                       comm);
-    // Its end is kept for a restart: the runs that are left need it again.
-    const StudyResult result =
-      finer->compute(directory + "/rows/finer_run", command.restart, true);
-    log.line("Finer run, " + finer_case().name() + ": " + describe(result));
-    if (result.status != "done")
-      throw ComputationError("the finer run has failed: " + result.message);
-    for (unsigned int i = 0; i < quantities.size(); ++i)
-      if (!quantities[i].reference)
-        quantities[i].reference = result.quantities[i];
-    if (const Simulation *simulation = finer->simulation())
-      finer_norms = error_norms(simulation->body().discretization,
-                                simulation->body().materials,
-                                simulation->displacement(),
-                                [](const dealii::Point<3> &) {
-                                  return PointDisplacement();
-                                })
-                      .error;
-    return *finer;
-  }
-
   void
-  ConvergenceStudy::compare_with_finer_run(StudyResult    &result,
-                                           const StudyRun &run)
-  {
-    const Simulation *fine   = finer_run().simulation();
-    const Simulation *coarse = run.simulation();
-    if (fine == nullptr || result.status != "done")
-      return;
-    const GatheredField field(coarse->body().discretization,
-                              coarse->displacement());
-    result.errors =
-      error_norms(fine->body().discretization,
-                  fine->body().materials,
-                  fine->displacement(),
-                  [&](const dealii::Point<3> &x) { return field.value(x); });
-    result.errors->reference = finer_norms;
-  }
-
-  void
-  ConvergenceStudy::write(const std::vector<StudyResult> &results)
+  ConvergenceStudy::write(const std::vector<StudyResult> &results,
+                          const std::string              &status,
+                          const std::string              &message)
   {
     on_root(comm, [&] {
-      const StudyTable table(results, quantities);
-      write_whole_file(directory + "/study.csv", table.csv(), "the study");
-      write_whole_file(directory + "/study.tex", table.latex(), "the study");
+      if (!results.empty())
+        {
+          const StudyTable table(results, quantities);
+          write_whole_file(directory + "/study.csv", table.csv(), "the study");
+          write_whole_file(directory + "/study.tex",
+                           table.latex(),
+                           "the study");
+        }
       const auto n_failed =
         std::count_if(results.begin(), results.end(), [](const auto &result) {
           return result.status != "done";
         });
-      std::string status =
-        results.size() == cases.size() ? "done" : "unfinished";
-      if (n_failed > 0)
-        status = "failed";
-      const Json summary{{"status", status},
-                         {"version", version},
-                         {"git_revision", git_revision},
-                         {"ranks",
-                          dealii::Utilities::MPI::n_mpi_processes(comm)},
-                         {"runs", cases.size()},
-                         {"finished_runs", results.size()},
-                         {"failed_runs", n_failed}};
+      Json summary{{"status", status}};
+      if (!message.empty())
+        summary["message"] = message;
+      summary["version"]        = version;
+      summary["git_revision"]   = git_revision;
+      summary["dealii_version"] = DEAL_II_PACKAGE_VERSION;
+      summary["ranks"]          = dealii::Utilities::MPI::n_mpi_processes(comm);
+      summary["runs"]           = cases.size();
+      summary["finished_runs"]  = results.size();
+      summary["failed_runs"]    = n_failed;
+      double        wall_time   = 0;
+      std::uint64_t peak_memory = 0;
+      for (const StudyResult &result : results)
+        {
+          wall_time += result.total_wall_time;
+          peak_memory =
+            std::max<std::uint64_t>(peak_memory, result.peak_memory_bytes);
+        }
+      summary["wall_time"]         = {{"total", wall_time}};
+      summary["peak_memory_bytes"] = peak_memory;
       write_whole_file(directory + "/summary.json",
                        summary.dump(2) + "\n",
                        "the summary");

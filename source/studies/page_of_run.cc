@@ -5,17 +5,50 @@
 
 #include <corotet/base/programs.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
 
 namespace corotet
 {
+  namespace
+  {
+    // As a shell takes it for one word.
+    std::string
+    quoted(const std::string &text)
+    {
+      const bool is_plain =
+        std::all_of(text.begin(), text.end(), [](const unsigned char c) {
+          return std::isalnum(c) != 0 || c >= 0x80 ||
+                 std::strchr("_-+=./:,@%", c) != nullptr;
+        });
+      if (is_plain && !text.empty())
+        return text;
+      std::string result = "'";
+      for (const char c : text)
+        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+      return result + "'";
+    }
+  } // namespace
+
   std::string
   command_for_page(const std::string &directory)
   {
     const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
     const bool        is_named  = toolchain != nullptr && *toolchain != '\0';
-    return (is_named ? toolchain + std::string(" ") : "") + "scripts/report " +
-           directory;
+    // In the folder of the sources there is a shorter name.
+    std::string     script = "scripts/report";
+    std::error_code error;
+    if (!std::filesystem::exists(script, error))
+      if (const std::string installed =
+            find_installed("share/corotet/scripts/report");
+          !installed.empty())
+        script = quoted(installed);
+    return (is_named ? toolchain + std::string(" ") : "") + script + " " +
+           quoted(directory);
   }
 
   bool

@@ -51,6 +51,7 @@ namespace corotet
               std::cout << list_choices();
             else
               report_mesh(*command.mesh);
+            check_standard_output();
           });
           return;
         }
@@ -91,6 +92,9 @@ namespace corotet
     settings_if_alone();
     // A file that reaches a limit is an error of writing, like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
+    // A wish to save, which steps hear of; before and after them there is
+    // nothing to be saved.
+    std::signal(SIGUSR1, SIG_IGN);
 
     // Nothing is made by PETSc, Zoltan or p4est: they need not start.
     int                  n_passed_on    = 1;

@@ -4,7 +4,6 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
 #include <corotet/base/mpi.h>
-#include <corotet/base/unused_entries.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
 #include <corotet/output/history_writer.h>
@@ -16,6 +15,7 @@
 #include <corotet/studies/convergence_study.h>
 #include <corotet/studies/run_command.h>
 #include <corotet/studies/run_parameters.h>
+#include <corotet/studies/unused_parameters.h>
 
 #include <nlohmann/json.hpp>
 
@@ -50,6 +50,15 @@ namespace corotet
         throw ComputationError(failure);
     }
   } // namespace
+
+  void
+  check_standard_output()
+  {
+    std::cout.flush();
+    if (!std::cout)
+      throw MachineError(
+        "the standard output cannot be written (is the disk full?)");
+  }
 
   void
   with_places(const CommandLine           &command,
@@ -94,9 +103,9 @@ namespace corotet
                            "--restart: found 'modes'; allowed: 'simulation', "
                            "or 'convergence study', whose finished runs are "
                            "kept");
-        for (const std::string &line : unused_entries())
+        for (const std::string &line : unused_parameters(file, parameters))
           log.warning(line);
-        if (has_unused_density())
+        if (has_unused_density(file, parameters.simulation))
           log.line("Material/Density: has no effect, as statics has no inertia "
                    "and there is no gravity");
         directory = parameters.output.directory_of_run(command.parameter_file);
@@ -116,8 +125,9 @@ namespace corotet
           {
             compute();
           }
-        catch (const ComputationError &)
+        catch (const ComputationError &error)
           {
+            log.note(std::string("error: ") + error.what());
             // What there is.
             write_report();
             throw;
@@ -131,33 +141,6 @@ namespace corotet
       }
 
     private:
-      bool
-      has_unused_density() const
-      {
-        const auto &simulation = parameters.simulation;
-        if (!file.is_set("Material/Density") ||
-            simulation.type == RunType::modes ||
-            simulation.time_integrator.selected().is_dynamic())
-          return false;
-        const auto given = simulation.forces.given();
-        return std::none_of(given.begin(), given.end(), [](const auto &entry) {
-          return entry.on_mass;
-        });
-      }
-
-      std::vector<std::string>
-      unused_entries() const
-      {
-        std::vector<std::string> used;
-        // As its description says.
-        const nlohmann::ordered_json solver = file.values().at("Linear solver");
-        if (solver.at("Type") == "automatic")
-          used.emplace_back("Linear solver/p-multigrid");
-        if (solver.at("p-multigrid").at("Coarse solver") == "amg")
-          used.emplace_back("Linear solver/amg");
-        return find_unused_entries(file, used);
-      }
-
       void
       compute()
       {
@@ -240,7 +223,8 @@ namespace corotet
       void
       run_study()
       {
-        ConvergenceStudy study(command, parameters.study, comm, log);
+        ConvergenceStudy study(
+          command, parameters.study, parameters.checkpoint, comm, log);
         parameters.verification.initialize(study.columns());
         const bool is_other = holds_any({"history.csv", "modes.csv"});
         if (command.restart && is_other && !parameters.output.overwrite)
@@ -296,7 +280,7 @@ namespace corotet
                                 directory,
                                 directory + "/log.txt",
                                 values,
-                                discretization,
+                                simulation.body(),
                                 log);
         std::unique_ptr<CheckpointReader> checkpoint;
         if (command.restart && !command.validate)
@@ -391,8 +375,10 @@ namespace corotet
       {
         if (!command.parameter_file.empty())
           file.read(command.parameter_file, command.overrides, comm);
-        on_root(comm,
-                [&] { file.print(std::cout, *command.print_parameters); });
+        on_root(comm, [&] {
+          file.print(std::cout, *command.print_parameters);
+          check_standard_output();
+        });
       }
     else
       Command(command, file, parameters, comm).run();

@@ -11,6 +11,10 @@
 #include <corotet/studies/run_command.h>
 #include <corotet/studies/run_parameters.h>
 #include <corotet/studies/stepped_run.h>
+#include <corotet/studies/unused_parameters.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <optional>
 
@@ -51,6 +55,17 @@ namespace corotet
                        "found '" +
                          name_of(run_types, parameters.simulation.type) +
                          "'; allowed in a run step by step: 'simulation'");
+
+    for (const std::string &line : unused_parameters(file, parameters))
+      log.warning(line);
+    const nlohmann::ordered_json values = file.values();
+    for (const char *const section : {"Checkpoint", "Verification"})
+      for (const auto &[entry, value] : values.at(section).items())
+        if (const std::string path = std::string(section) + "/" + entry;
+            value.is_string() && file.is_set(path))
+          log.warning(fmt::format("{}: no effect on a run step by step: {}",
+                                  file.location(path),
+                                  path));
 
     const OutputParameters &output = parameters.output;
     const std::string       directory =

@@ -188,6 +188,14 @@ namespace corotet
                                        "number'",
                                        shortened(value ? name + ": " + *value :
                                                          name)));
+        for (const char *const column :
+             {"newton_iterations", "linear_iterations", "wall_time"})
+          if (name == column)
+            throw InputError(section + "Quantities",
+                             fmt::format("found '{}', of which every study has "
+                                         "a column, for all steps; allowed: "
+                                         "other columns of a history",
+                                         name));
         for (const Quantity &other : result)
           if (other.name == name)
             throw InputError(section + "Quantities",

@@ -6,7 +6,9 @@
 #include <corotet/base/text.h>
 #include <corotet/output/checkpoints.h>
 #include <corotet/output/history_writer.h>
+#include <corotet/output/mesh_checksum.h>
 #include <corotet/output/stress_probes.h>
+#include <corotet/output/table_checksums.h>
 #include <corotet/simulation/modal_analysis.h>
 #include <corotet/studies/study_run.h>
 
@@ -103,6 +105,21 @@ namespace corotet
     norms_to_json(const FieldNorms &norms)
     {
       return Json::array({norms.L2, norms.H1, norms.energy});
+    }
+
+    // Those of @p entries that a result depends on.
+    Json
+    compared_entries(Json entries)
+    {
+      for (const char *const section :
+           {"Convergence study", "Verification", "Checkpoint"})
+        entries.erase(section);
+      Json output;
+      for (const char *const entry :
+           {"Probes", "Stress probes", "Stress at probes"})
+        output[entry] = entries.at("Output").at(entry);
+      entries["Output"] = output;
+      return entries;
     }
 
     FieldNorms
@@ -212,14 +229,11 @@ namespace corotet
   Json
   StudyRun::fingerprint() const
   {
-    Json entries = file.values();
-    entries.erase("Convergence study");
-    entries.erase("Verification");
-    entries.erase("Checkpoint");
-    entries["Output"] = {parameters.output.probes,
-                         parameters.output.stress_probes,
-                         parameters.output.raw_stress_at_probes};
-    return entries;
+    const Body &body        = simulated ? simulated->body() : analysis->body();
+    Json        result      = compared_entries(file.values());
+    result["mesh_checksum"] = mesh_checksum(body.mesh);
+    result["tables"]        = table_checksums(body.tables);
+    return result;
   }
 
   StudyResult
@@ -265,13 +279,18 @@ namespace corotet
                             path,
                             path + ".log",
                             values,
-                            simulated->body().discretization,
+                            simulated->body(),
                             log);
     std::unique_ptr<CheckpointReader> checkpoint;
     try
       {
         if (goes_on)
           checkpoint = checkpoints.newest();
+        // What a run may go on with, as another time step, is another run of a
+        // study.
+        if (checkpoint && compared_entries(checkpoint->parameters()) !=
+                            compared_entries(values))
+          checkpoint.reset();
       }
     catch (const InputError &)
       {
@@ -297,11 +316,12 @@ namespace corotet
     take(result, last.summary);
     result.newton_iterations = last.newton_iterations;
     result.linear_iterations = last.linear_iterations;
-    result.quantities        = pick(last.row);
-    if (result.status != "done")
+    if (result.status == "done")
+      result.quantities = pick(last.row);
+    else
       {
         result.errors.reset();
-        result.quantities.assign(result.quantities.size(),
+        result.quantities.assign(parameters.study.quantity_list().size(),
                                  std::numeric_limits<double>::quiet_NaN());
       }
   }

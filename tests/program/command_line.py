@@ -64,7 +64,7 @@ class CommandLine(ProgramTest):
             self.assertRegex(live[-2], pattern)
             toolchain = os.environ.get("COROTET_TOOLCHAIN", "")
             self.assertRegex(shown, rf"Results are in of_{columns}: history.csv, solution.vtkhdf for ParaView; "
-                                    rf"{toolchain} ?scripts/report of_{columns} makes a page of them\r\nWorth a look above, or in log.txt: 1 warning\r\n$")
+                                    rf"{toolchain} ?\S*scripts/report of_{columns} makes a page of them\r\nWorth a look above, or in log.txt: 1 warning\r\n$")
             self.assertNotIn("\x1b", (self.folder / f"of_{columns}" / "log.txt").read_text(encoding="utf-8"))
 
     def test_version(self):

@@ -43,7 +43,7 @@ namespace
     unsigned int
     solve()
     {
-      return solver.solve(A, x, b, positions());
+      return solver.solve(A, x, b, displacement());
     }
 
     LinearSolver solver;
@@ -147,12 +147,12 @@ namespace
   void
   make_it_change(AutomaticPreconditioner &P, Case &c)
   {
-    const Vector &positions = c.positions();
-    P.build(c.A, positions);
+    const Vector &displacement = c.displacement();
+    P.build(c.A, displacement);
     const unsigned int patience = P.patience(true, false);
     EXPECT_GT(patience, 30u);
     EXPECT_LT(patience, 1000u);
-    EXPECT_TRUE(P.change(c.A, nullptr, positions, patience, patience));
+    EXPECT_TRUE(P.change(c.A, nullptr, displacement, patience, patience));
     EXPECT_GT(P.patience(true, false), 1000000u);
   }
 } // namespace
@@ -162,7 +162,7 @@ TEST(AutomaticDecisions, SlowSolvesAddUp)
 {
   Case                    c(thin_size(), thin_cells, 2, "automatic");
   AutomaticPreconditioner P(slow_multigrid());
-  P.build(c.A, c.positions());
+  P.build(c.A, c.displacement());
   const unsigned int first = P.patience(true, false);
   EXPECT_FALSE(P.take_note(30, true));
   EXPECT_EQ(P.patience(true, false), first);
@@ -186,11 +186,11 @@ TEST(AutomaticDecisions, MultigridComesBack)
     is_back = P.take_note(150, true);
   EXPECT_TRUE(is_back);
   EXPECT_NE(P.take_news().find("p-multigrid again"), std::string::npos);
-  const Vector &positions = c.positions();
-  P.build(c.A, positions);
+  const Vector &displacement = c.displacement();
+  P.build(c.A, displacement);
   // What the multigrid does.
   PMultigrid multigrid(slow_multigrid());
-  multigrid.build(c.A, positions);
+  multigrid.build(c.A, displacement);
   Vector expected(c.b), found(c.b);
   multigrid.vmult(expected, c.b);
   P.vmult(found, c.b);
@@ -198,7 +198,7 @@ TEST(AutomaticDecisions, MultigridComesBack)
   const unsigned int patience = P.patience(true, false);
   EXPECT_FALSE(P.take_note(patience, true));
   EXPECT_EQ(P.patience(true, false), 30u);
-  EXPECT_TRUE(P.change(c.A, nullptr, positions, 30, 30));
+  EXPECT_TRUE(P.change(c.A, nullptr, displacement, 30, 30));
   EXPECT_NE(P.take_news().find("a sparse factorisation takes the place"),
             std::string::npos);
   EXPECT_FALSE(P.take_note(2, true));
@@ -219,7 +219,7 @@ TEST(AutomaticDecisions, MultigridComesBackWhereItWasNotTried)
 {
   Case                    c("1, 1, 0.004", thin_cells, 2, "automatic");
   AutomaticPreconditioner P(slow_multigrid());
-  P.build(c.A, c.positions());
+  P.build(c.A, c.displacement());
   EXPECT_GT(P.patience(true, false), 1000000u);
   EXPECT_FALSE(P.take_note(2, true));
   bool is_back = false;
@@ -246,9 +246,9 @@ TEST(AutomaticDecisions, FactorsStay)
 TEST(AutomaticDecisions, SlowTangentsOfWellShapedBodies)
 {
   Case                    c("1, 1, 0.25", thin_cells, 2, "automatic");
-  const Vector           &positions = c.positions();
+  const Vector           &displacement = c.displacement();
   AutomaticPreconditioner P(slow_multigrid());
-  P.build(c.A, positions);
+  P.build(c.A, displacement);
   const unsigned int patience = P.patience(true, false);
   EXPECT_LT(patience, 1000u);
   EXPECT_GT(P.patience(true, true), 1000000u);
@@ -260,10 +260,10 @@ TEST(AutomaticDecisions, SlowTangentsOfWellShapedBodies)
     u.local_element(i) = 1e-2 * std::sin(1. + i);
   TangentOperator J(c.A, c.body.elasticity, c.body.system.equation().terms);
   J.update({0., u, c.body.state.u}, Tangent::consistent, 1., 0.);
-  EXPECT_TRUE(P.change(c.A, &J, positions, 30, 30));
+  EXPECT_TRUE(P.change(c.A, &J, displacement, 30, 30));
   EXPECT_GT(P.cost(), 1);
   CholeskyDirect direct;
-  direct.build(c.A, positions);
+  direct.build(c.A, displacement);
   Vector expected(c.b), found(c.b);
   direct.vmult(expected, c.b);
   P.vmult(found, c.b);
@@ -274,7 +274,7 @@ TEST(AutomaticDecisions, SlowTangentsOfFlatCells)
 {
   Case                    c(thin_size(), thin_cells, 2, "automatic");
   AutomaticPreconditioner P(slow_multigrid());
-  P.build(c.A, c.positions());
+  P.build(c.A, c.displacement());
   EXPECT_EQ(P.patience(true, true), P.patience(true, false));
 }
 
@@ -304,7 +304,7 @@ TEST(AutomaticDecisions, OldFactorsAreMadeAnew)
   const unsigned int patience = P.patience(false, false);
   EXPECT_GT(patience, 10u);
   EXPECT_LT(patience, 100u);
-  EXPECT_TRUE(P.change(c.A, nullptr, c.positions(), patience, patience));
+  EXPECT_TRUE(P.change(c.A, nullptr, c.displacement(), patience, patience));
   EXPECT_GT(P.patience(true, false), 1000000u);
 }
 
@@ -312,16 +312,16 @@ TEST(AutomaticDecisions, OldFactorsAreMadeAnew)
 TEST(AutomaticDecisions, Restart)
 {
   Case                    c(thin_size(), thin_cells, 2, "automatic");
-  const Vector           &positions = c.positions();
+  const Vector           &displacement = c.displacement();
   AutomaticPreconditioner before(slow_multigrid()), after(slow_multigrid()),
     changed(slow_multigrid());
-  before.build(c.A, positions);
+  before.build(c.A, displacement);
   before.take_note(before.patience(true, false) / 2, true);
   MemoryArchive archive;
   before.transfer(archive);
   archive.reading = true;
   after.transfer(archive);
-  after.build(c.A, positions);
+  after.build(c.A, displacement);
   EXPECT_EQ(after.patience(true, false), before.patience(true, false));
 
   make_it_change(before, c);
@@ -329,7 +329,7 @@ TEST(AutomaticDecisions, Restart)
   before.transfer(second);
   second.reading = true;
   changed.transfer(second);
-  changed.build(c.A, positions);
+  changed.build(c.A, displacement);
   Vector expected(c.b), found(c.b);
   before.vmult(expected, c.b);
   changed.vmult(found, c.b);

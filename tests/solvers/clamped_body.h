@@ -34,6 +34,12 @@ namespace corotet::tests
     }
 
     const Vector &
+    displacement() const
+    {
+      return body.state.u;
+    }
+
+    const Vector &
     positions() const
     {
       return body.discretization.node_positions();

@@ -49,7 +49,7 @@ namespace
     dealii::ParameterHandler prm;
     multigrid.declare_parameters(prm);
     prm.set("Coarse solver", "aggregation");
-    multigrid.build(body.A, body.positions());
+    multigrid.build(body.A, body.displacement());
     return iterations(body, multigrid);
   }
 } // namespace

@@ -292,7 +292,7 @@ TEST_P(VertexRotations, IterationsAreFew)
         dealii::ParameterHandler prm;
         multigrid.declare_parameters(prm);
         prm.set("Vertex rotations", rotations);
-        multigrid.build(body.A, body.positions());
+        multigrid.build(body.A, body.displacement());
         EXPECT_EQ(multigrid.lowest_level().has_rotations(),
                   rotations != "false");
         return iterations(body, multigrid);

@@ -36,6 +36,10 @@ namespace corotet
     void
     line(const std::string &message);
 
+    /// A line of the file only: of what another way tells the user.
+    void
+    note(const std::string &message);
+
     /// A line that starts with "warning: ".
     void
     warning(const std::string &text);
@@ -75,6 +79,9 @@ namespace corotet
   private:
     void
     clear_progress();
+    /// Of the file, now or when it is opened.
+    void
+    write(const std::string &text);
 
     MPI_Comm                 comm;
     bool                     root;

@@ -9,9 +9,10 @@
 namespace corotet
 {
   /**
-   * While it lives, SIGTERM and SIGINT are remembered instead of ending the
-   * process, and so is SIGUSR1, a wish to save. A second SIGINT or SIGTERM ends
-   * the process at once. Not more than one at a time.
+   * While it lives, SIGTERM, SIGINT and SIGXCPU, which comes at the limit of
+   * CPU time, are remembered instead of ending the process, and so is SIGUSR1,
+   * a wish to save. A second SIGINT ends the process at once. What lives
+   * within the life of another one changes nothing.
    */
   class StopSignals
   {
@@ -23,7 +24,7 @@ namespace corotet
     StopSignals &
     operator=(const StopSignals &) = delete;
 
-    /// SIGTERM or SIGINT, whichever came to this process; 0 if none did.
+    /// That of the first three which came to this process; 0 if none did.
     static int
     received();
 
@@ -32,7 +33,7 @@ namespace corotet
     take_save_request();
 
   private:
-    struct sigaction before_term, before_int, before_usr1;
+    struct sigaction before_term, before_int, before_xcpu, before_usr1;
   };
 } // namespace corotet
 

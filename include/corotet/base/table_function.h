@@ -51,6 +51,13 @@ namespace corotet
       return arguments;
     }
 
+    /// Their values.
+    const std::vector<double> &
+    row_values() const
+    {
+      return values;
+    }
+
   private:
     std::vector<double> arguments;
     std::vector<double> values;

@@ -7,7 +7,6 @@
 #include <corotet/base/vector.h>
 #include <corotet/discretization/element.h>
 
-#include <deal.II/base/array_view.h>
 #include <deal.II/base/partitioner.h>
 
 #include <map>
@@ -19,6 +18,78 @@
 namespace corotet
 {
   class CellBatches;
+
+  /**
+   * Local numbers of the nodes of a cell, in the order of the element.
+   */
+  class CellNodes
+  {
+  public:
+    /// Node i is first[i * stride].
+    CellNodes(const unsigned int *first,
+              const unsigned int  stride,
+              const unsigned int  n)
+      : first(first)
+      , stride(stride)
+      , n(n)
+    {}
+
+    unsigned int
+    size() const
+    {
+      return n;
+    }
+
+    unsigned int
+    operator[](const unsigned int i) const
+    {
+      return first[i * stride];
+    }
+
+    /// Goes through the nodes.
+    struct Iterator
+    {
+      unsigned int
+      operator*() const
+      {
+        return first[i * stride];
+      }
+
+      Iterator &
+      operator++()
+      {
+        ++i;
+        return *this;
+      }
+
+      bool
+      operator==(const Iterator &other) const
+      {
+        return i == other.i;
+      }
+
+      const unsigned int *first;
+      unsigned int        stride;
+      unsigned int        i;
+    };
+
+    Iterator
+    begin() const
+    {
+      return {first, stride, 0};
+    }
+
+    Iterator
+    end() const
+    {
+      return {first, stride, n};
+    }
+
+  private:
+    const unsigned int *first;
+    unsigned int        stride;
+    unsigned int        n;
+  };
 
   /**
    * The nodes of an element on a distributed mesh of tetrahedra: which
@@ -75,7 +146,7 @@ namespace corotet
     unsigned int
     n_local_cells() const
     {
-      return nodes_of_cells.size() / n_cell_nodes;
+      return n_local;
     }
 
     /// First of the owned cells that may have ghost nodes, and the one after
@@ -86,15 +157,9 @@ namespace corotet
       return ghosted_cells;
     }
 
-    /// Local numbers of the nodes of local cell @p cell, in the order of
-    /// the element.
-    dealii::ArrayView<const unsigned int>
-    cell_nodes(const unsigned int cell) const
-    {
-      return {nodes_of_cells.data() +
-                static_cast<std::size_t>(cell) * n_cell_nodes,
-              n_cell_nodes};
-    }
+    /// Those of local cell @p cell.
+    CellNodes
+    cell_nodes(const unsigned int cell) const;
 
     dealii::types::global_dof_index
     n_global_nodes() const
@@ -169,16 +234,19 @@ namespace corotet
     explicit Nodes(const Element element);
     ~Nodes();
 
-    /// To be called when all else is known.
+    /// To be called when all else is known: from then on the batches have the
+    /// nodes of the cells.
     void
     make_batches();
 
     Element                               cell_element;
     unsigned int                          n_cell_nodes;
     unsigned int                          n_owned       = 0;
+    unsigned int                          n_local       = 0;
     unsigned int                          first_shared  = 0;
     std::pair<unsigned int, unsigned int> ghosted_cells = {0, 0};
-    std::vector<unsigned int>             nodes_of_cells;
+    /// Of all local cells, one after the other; empty once there are batches.
+    std::vector<unsigned int> nodes_of_cells;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
                                  vector_partitioner;

@@ -25,11 +25,31 @@ namespace corotet
   std::shared_ptr<const BlockPattern>
   block_pattern(const Nodes &nodes);
 
-  /// Where the blocks of the cells are in a matrix of that pattern, [local
-  /// cell][row node i][column node j]: the place of the block in its row;
-  /// without meaning for rows of other ranks. Not collective.
-  std::vector<std::uint16_t>
-  block_places(const Nodes &nodes, const BlockPattern &pattern);
+  /**
+   * Where the blocks of the cells are in a matrix of that pattern. Almost all
+   * rows have at most 256 blocks: then a place takes one byte.
+   */
+  class BlockPlaces
+  {
+  public:
+    BlockPlaces() = default;
+
+    /// Not collective.
+    BlockPlaces(const Nodes &nodes, const BlockPattern &pattern);
+
+    /// The place of the block in its row, by [local cell][row node i][column
+    /// node j]; without meaning for rows of other ranks.
+    unsigned int
+    operator[](const std::size_t i) const
+    {
+      return high.empty() ? low[i] : 256u * high[i] + low[i];
+    }
+
+  private:
+    std::vector<std::uint8_t> low;
+    /// Multiples of 256; empty if there are none.
+    std::vector<std::uint8_t> high;
+  };
 
   /**
    * The matrix A = c_K K + c_M M of one element, with a matrix of the surface
@@ -73,10 +93,18 @@ namespace corotet
            const Vector                  *lumped_mass,
            const SurfaceOperator<double> *surface);
 
+    /// Without values after release_values().
     const BlockMatrix &
     matrix() const
     {
       return *block_matrix;
+    }
+
+    /// Gives back their memory until the next update(). Not collective.
+    void
+    release_values()
+    {
+      block_matrix->release_values();
     }
 
     /// The same, for others to add to.
@@ -111,8 +139,7 @@ namespace corotet
     const std::vector<unsigned char> prescribed;
 
     std::unique_ptr<BlockMatrix> block_matrix;
-    /// See block_places().
-    std::vector<std::uint16_t> places_of_blocks;
+    BlockPlaces                  places_of_blocks;
     /// Local cells with prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
   };

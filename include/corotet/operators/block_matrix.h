@@ -171,6 +171,13 @@ namespace corotet
     void
     set_zero();
 
+    /// Gives back the memory of the values until the next set_zero().
+    void
+    release_values()
+    {
+      values = {};
+    }
+
     void
     scale(const double factor);
 

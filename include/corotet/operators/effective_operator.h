@@ -120,6 +120,11 @@ namespace corotet
       return *noise;
     }
 
+    /// Where the nodes are whose rigid motions K does not resist: displaced, or
+    /// at rest if the law is linear [m]. Owned entries.
+    Vector
+    positions(const Vector &displacement) const;
+
     /// What round-off may make of A v, or of J v with another tangent than A's,
     /// as a Euclidean norm [N]; that of M v is far below. Collective.
     double

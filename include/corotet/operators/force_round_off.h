@@ -45,7 +45,7 @@ namespace corotet
 
     bool has_rotations;
     /// By owned node: sum of the squares of the forces that cells exert if
-    /// their strains are 1 [N^2].
+    /// their strains are 1 [N^2]; empty without rotations.
     std::vector<double> by_strain;
     /// The same if the displacements of their nodes are independent of each
     /// other, 1 m each [N^2/m^2].

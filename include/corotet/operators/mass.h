@@ -71,10 +71,13 @@ namespace corotet
       return type != MassType::consistent;
     }
 
-    /// The diagonal of M, ghost entries up to date.
+    /// The diagonal of M, ghost entries up to date. If M is consistent, the
+    /// first call computes it: that is collective.
     const Vector &
     diagonal() const
     {
+      if (mass_diagonal.size() == 0)
+        compute_diagonal();
       return mass_diagonal;
     }
 
@@ -101,11 +104,16 @@ namespace corotet
     }
 
   private:
-    const Discretization                     &discretization;
-    MassType                                  type;
+    void
+    compute_diagonal() const;
+
+    const Discretization &discretization;
+    MassType              type;
+    /// Of the nodes of a straight cell in the diagonal, over its mass.
+    std::vector<double>                       shares;
     CellLoop<double>                          cell_loop;
     dealii::AlignedVector<CellMasses<double>> masses;
-    Vector                                    mass_diagonal;
+    mutable Vector                            mass_diagonal;
     double                                    total_mass;
   };
 } // namespace corotet

@@ -8,6 +8,8 @@
 #include <corotet/discretization/discretization.h>
 #include <corotet/operators/node_numbers.h>
 
+#include <deal.II/base/array_view.h>
+
 #include <functional>
 #include <vector>
 

@@ -44,6 +44,12 @@ namespace corotet
     }
   };
 
+  /// Why a run is to end before its time: a signal that StopSignals has
+  /// received on any rank, or the limit of wall time. Empty if it is not.
+  /// Collective.
+  std::string
+  reason_to_stop(const CheckpointParameters &parameters, const MPI_Comm comm);
+
   /**
    * The checkpoints of a run, in the folder checkpoint of its output directory:
    * when they are due, which are kept, and from which a run goes on; and when
@@ -61,7 +67,7 @@ namespace corotet
                 const std::string            &directory,
                 const std::string            &log_file,
                 const nlohmann::ordered_json &values,
-                const Discretization         &discretization,
+                const Body                   &body,
                 Log                          &log);
 
     /// Whether there are any, good or not.
@@ -69,9 +75,9 @@ namespace corotet
     has_any() const;
 
     /// The newest checkpoint that is good; the log names those that are
-    /// damaged. Null if there is none. Throws InputError if the run's entries
-    /// or its mesh are others, where they must not be, and MachineError if a
-    /// checkpoint cannot be read.
+    /// damaged. Null if there is none. Throws InputError if the run's entries,
+    /// its mesh or its tables are others, where they must not be, and
+    /// MachineError if a checkpoint cannot be read.
     std::unique_ptr<CheckpointReader>
     newest() const;
 
@@ -91,17 +97,7 @@ namespace corotet
     run(Simulation &simulation, const bool saves_end = true);
 
   private:
-    /// What the run is asked for; bits.
-    enum Request : int
-    {
-      none       = 0,
-      save       = 1,
-      terminate  = 2,
-      interrupt  = 4,
-      time_limit = 8
-    };
-
-    /// The same on all ranks.
+    /// What the run is asked for, as bits, the same on all ranks.
     int
     requests();
     void
@@ -120,6 +116,8 @@ namespace corotet
     order_of_nodes() const;
     void
     check_entries(const CheckpointReader &checkpoint) const;
+    void
+    check_tables(CheckpointReader &checkpoint) const;
 
     using Clock = std::chrono::steady_clock;
 
@@ -127,6 +125,7 @@ namespace corotet
     std::string                   directory;
     std::string                   log_file;
     const nlohmann::ordered_json &values;
+    const Body                   &body;
     const Discretization         &discretization;
     const MPI_Comm                comm;
     Log                          &log;

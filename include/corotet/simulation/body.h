@@ -108,8 +108,9 @@ namespace corotet
          const std::function<Mesh()> &make_mesh,
          const Purpose                purpose);
 
-    /// In kg; not that of the body with a consistent mass.
-    const double sum_of_nodal_masses;
+    /// In kg; not that of the body with a consistent mass. Zero before it is
+    /// needed.
+    mutable double sum_of_nodal_masses = 0;
   };
 } // namespace corotet
 

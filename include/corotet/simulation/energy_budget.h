@@ -68,6 +68,13 @@ namespace corotet
     void
     end_step(const State &state);
 
+    /// That of the last call of end_step() [m], owned entries.
+    const Vector &
+    last_displacement() const
+    {
+      return last.displacement;
+    }
+
     /**
      * Fills in the budget of the state whose work was added last. Throws
      * ComputationError if an energy is not finite. The fields of the record

@@ -77,12 +77,20 @@ namespace corotet
       return forces;
     }
 
-    /// Time [s] and motion of the last evaluation, with the velocity if a force
-    /// needs it.
+    /// Displacement and velocity of the last evaluation, or of the last
+    /// set_state(), with ghost entries; the velocity, after an evaluation, if a
+    /// force needs it. In statics it is zero, and empty if none does.
+    Motion
+    motion(const double time) const
+    {
+      return {time, u, v};
+    }
+
+    /// The same with the time of the last evaluation.
     Motion
     last_motion() const
     {
-      return {time, u, v};
+      return motion(time);
     }
 
     double
@@ -103,17 +111,20 @@ namespace corotet
     void
     set_state(const State &state);
 
-    /// Displacement and velocity of the last evaluation, or of the last
-    /// set_state(), with ghost entries.
+    /// Displacement of the last evaluation, or of the last set_state(), with
+    /// ghost entries.
     const Vector &
     displacement() const
     {
       return u;
     }
 
+    /// The velocity, as well. The first call is collective.
     const Vector &
     velocity() const
     {
+      if (v.size() == 0)
+        body.discretization.initialize_vector(v);
       return v;
     }
 
@@ -153,8 +164,9 @@ namespace corotet
     double known_load_factor = std::numeric_limits<double>::quiet_NaN();
     double known_time        = std::numeric_limits<double>::quiet_NaN();
     Vector u;
-    Vector v;
-    Vector a;
+    /// Empty in statics before it is needed.
+    mutable Vector v;
+    Vector         a;
   };
 } // namespace corotet
 

@@ -104,9 +104,10 @@ namespace corotet
                          const Vector          &r,
                          const TangentOperator *J,
                          const double           tolerance = 0);
-    /// What round-off may make of the sum of the last evaluation's forces [N].
+    /// What round-off may make of the sum of the last evaluation's forces [N];
+    /// zero if that is more than these themselves.
     double
-    round_off() const;
+    round_off();
     /// Says once that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
@@ -139,16 +140,21 @@ namespace corotet
     /// Size of the forces [N]: of the last residual, of the last stage that was
     /// solved, and what residuals of the stage are compared with at least.
     double force_scale    = 0;
+    double residual_norm  = 0;
     double external_force = 0;
     double solved_scale   = 0;
     double stage_scale    = 0;
+    /// Whether the displacement is so large that nothing is known of the
+    /// forces: nothing resists it.
+    bool has_run_away = false;
     /// Which ends by round-off the log has shown.
     std::set<NewtonReport::RoundOff> shown_round_off;
     // Of the last update of the operator.
     double operator_c_K = -1;
     double operator_c_M = -1;
 
-    /// The stage and the displacement that the preconditioner was made with.
+    /// The stage and the displacement that the preconditioner was made with;
+    /// this is empty if the law is linear.
     Stage  built_stage = {};
     Vector built_displacement;
     /// Whether solves were with the tangent operator then, and with which one.
@@ -158,7 +164,6 @@ namespace corotet
     unsigned int clamped_cells = 0;
     /// Of linear solves that were slow.
     unsigned int slow_iterations = 0;
-    Vector       positions;
   };
 } // namespace corotet
 

@@ -28,7 +28,7 @@ namespace corotet
     const StepRecord     &record;
     /// Unit m, ghost entries up to date.
     const Vector &displacement;
-    /// Unit m/s, ghost entries up to date.
+    /// Unit m/s, ghost entries up to date; zero if it is empty.
     const Vector &velocity;
     /// Computes the cell data of this state. Collective.
     std::function<CellResults()> cell_results;

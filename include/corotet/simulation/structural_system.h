@@ -26,9 +26,9 @@ namespace corotet
                      WallTimes                  &wall_times,
                      Log                        &log);
 
-    /// Sizes the vectors of @p state and gives it the initial displacement and
-    /// velocity. Throws InputError if these, or loads, are not finite.
-    /// Collective.
+    /// Sizes the vectors of @p state, of which statics need the displacement
+    /// only, and gives it the initial displacement and velocity. Throws
+    /// InputError if these, or loads, are not finite. Collective.
     void
     initialize(State &state) const;
 

@@ -103,6 +103,13 @@ namespace corotet
       return is_between_records ? unrecorded.step : record.step;
     }
 
+    /// The end of the first step [s].
+    double
+    first_time() const
+    {
+      return time(end_of_step(1));
+    }
+
     /// How many steps the run will have, as far as that is known at its start
     /// [-].
     double
@@ -192,7 +199,7 @@ namespace corotet
           integrator->is_dynamic())
         return false;
       Vector difference(present.u);
-      difference -= good_state.u;
+      difference -= budget->last_displacement();
       return body.law->is_linear() || norm(difference) == 0;
     }
     void
@@ -267,8 +274,9 @@ namespace corotet
     double done = 0;
     double from = 0;
 
-    /// To return to when a step fails: the state before it, or with explicit
-    /// methods, whose steps are many and cheap, that of the last record.
+    /// To return to when a step fails: the state before it, whose displacement
+    /// the budget has; or with explicit methods, whose steps are many and
+    /// cheap, that of the last record.
     State  good_state;
     double good_done = 0;
 

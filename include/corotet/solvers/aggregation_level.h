@@ -7,6 +7,7 @@
 #include <corotet/operators/block_matrix.h>
 #include <corotet/solvers/node_graph.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
@@ -211,8 +212,11 @@ namespace corotet
           target[a] += rows[a][k + c] * b[c];
     }
 
+    /// Of @p A / unit, in single precision.
     void
-    copy_matrix(const BlockMatrix &A);
+    copy_blocks(const BlockMatrix &A);
+    void
+    copy_diagonal(const BlockMatrix &A);
     void
     invert_aggregates(const BlockMatrix &A);
     /// Owned entries in [-0.5, 0.5), others for each number.
@@ -311,9 +315,9 @@ namespace corotet
 
     double the_unit = 1;
     /// Blocks of A / unit and inverses of its diagonal blocks, by columns.
-    std::vector<float>         blocks;
-    std::vector<float>         inverse_diagonal;
-    std::vector<unsigned char> is_prescribed;
+    dealii::AlignedVector<float> blocks;
+    std::vector<float>           inverse_diagonal;
+    std::vector<unsigned char>   is_prescribed;
     /// Inverses of the diagonal blocks of aggregates, by columns, where D has
     /// these.
     bool                     has_aggregate_blocks = false;

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace corotet
@@ -57,12 +58,12 @@ namespace corotet
     ~AutomaticPreconditioner() override        = default;
 
     void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    build(const EffectiveOperator &A, const Vector &displacement) override;
 
     void
     build_for(const EffectiveOperator &A,
               const TangentOperator   *J,
-              const Vector            &positions) override;
+              const Vector            &displacement) override;
 
     void
     update(const EffectiveOperator &A) override;
@@ -96,7 +97,7 @@ namespace corotet
     bool
     change(const EffectiveOperator &A,
            const TangentOperator   *J,
-           const Vector            &positions,
+           const Vector            &displacement,
            const unsigned int       n_iterations,
            const double             n_expected) override;
 
@@ -130,7 +131,7 @@ namespace corotet
     void
     factorize(const EffectiveOperator &A,
               const TangentOperator   *J,
-              const Vector            &positions);
+              const Vector            &displacement);
     /// Iterations that a solve of @p n has more than one with factors takes.
     double
     too_many(const unsigned int n) const;
@@ -142,9 +143,11 @@ namespace corotet
     /// Null until it is first wanted.
     std::unique_ptr<CholeskyDirect> direct;
 
-    bool is_direct  = false;
-    bool is_settled = false;
-    bool has_costs  = false;
+    /// Whether cells are, once it is known.
+    std::optional<bool> are_poor;
+    bool                is_direct  = false;
+    bool                is_settled = false;
+    bool                has_costs  = false;
     /// Solves with the multigrid, their iterations, and those in vain.
     unsigned int n_multigrid = 0;
     double       iterations  = 0;

@@ -45,12 +45,12 @@ namespace corotet
     ~CholeskyDirect() override        = default;
 
     void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    build(const EffectiveOperator &A, const Vector &displacement) override;
 
     void
     build_for(const EffectiveOperator &A,
               const TangentOperator   *J,
-              const Vector            &positions) override;
+              const Vector            &displacement) override;
 
     void
     vmult(Vector &dst, const Vector &src) const override;

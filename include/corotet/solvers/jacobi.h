@@ -17,7 +17,7 @@ namespace corotet
   {
   public:
     void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    build(const EffectiveOperator &A, const Vector &displacement) override;
 
     void
     update(const EffectiveOperator &A) override;

@@ -78,7 +78,7 @@ namespace corotet
      * Solves J x = b, or A x = b if J is null, from x = 0 until the residual is
      * below the tolerance, or @p loosest if that is larger, times |b| and below
      * @p limit, or, if it gets no further, what round-off makes of J x. @p
-     * positions: current positions of the nodes [m]. Returns the number of
+     * displacement: the current one of the nodes [m]. Returns the number of
      * iterations. Throws ComputationError if it does not get there. All
      * operators must be the same object, of which the numbers change, and live
      * as long as this one is used. Collective.
@@ -87,7 +87,7 @@ namespace corotet
     solve(const EffectiveOperator &A,
           Vector                  &x,
           const Vector            &b,
-          const Vector            &positions,
+          const Vector            &displacement,
           const TangentOperator   *J = nullptr,
           const double limit         = std::numeric_limits<double>::infinity(),
           const double loosest       = 0);
@@ -113,11 +113,11 @@ namespace corotet
     }
 
     /// Makes the preconditioner again as it was made before a checkpoint; @p A,
-    /// @p J and @p positions must be those of that time.
+    /// @p J and @p displacement must be those of that time.
     void
     build_again(const EffectiveOperator &A,
                 const TangentOperator   *J,
-                const Vector            &positions);
+                const Vector            &displacement);
 
     /// Name of the preconditioner, as the parameter has it.
     const std::string &
@@ -153,7 +153,7 @@ namespace corotet
                     const TangentOperator   *J,
                     Vector                  &x,
                     const Vector            &b,
-                    const Vector            &positions,
+                    const Vector            &displacement,
                     const double             wanted);
     unsigned int
     solve_with(const EffectiveOperator &A,

@@ -56,7 +56,7 @@ namespace corotet
     }
 
     void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    build(const EffectiveOperator &A, const Vector &displacement) override;
 
     void
     update(const EffectiveOperator &A) override;

@@ -31,21 +31,21 @@ namespace corotet
     {}
 
     /**
-     * Makes P from A as it is now. @p positions are the current positions of
+     * Makes P from A as it is now. @p displacement is the current one of
      * the nodes [m], from which rigid body modes are made. A must live as long
      * as P is used; when it changes, P is that of an older A. Collective.
      */
     virtual void
-    build(const EffectiveOperator &A, const Vector &positions) = 0;
+    build(const EffectiveOperator &A, const Vector &displacement) = 0;
 
     /// The same for solves with the operator @p J, which is close to A; null if
     /// it is A. P may be made of J, if that is definite.
     virtual void
     build_for(const EffectiveOperator &A,
               const TangentOperator * /*J*/,
-              const Vector &positions)
+              const Vector &displacement)
     {
-      build(A, positions);
+      build(A, displacement);
     }
 
     /// Takes over a new A as far as that is cheap. Collective.
@@ -90,7 +90,7 @@ namespace corotet
     virtual bool
     change(const EffectiveOperator & /*A*/,
            const TangentOperator * /*J*/,
-           const Vector & /*positions*/,
+           const Vector & /*displacement*/,
            const unsigned int /*n_iterations*/,
            const double /*n_expected*/)
     {

@@ -43,13 +43,14 @@ namespace corotet
                 std::vector<unsigned int>         finest_nodes);
 
     /// Takes over A over @p scale, in single precision that of its stiffness
-    /// over @p stiffness_unit. @p positions of the finest nodes [m].
+    /// over @p stiffness_unit. @p displacement: that of the finest nodes
+    /// [m].
     /// Collective.
     void
     build(const EffectiveOperator &A,
           const double             stiffness_unit,
           const double             scale,
-          const Vector            &positions);
+          const Vector            &displacement);
 
     /// to = A^{-1} from, about, where A is of degree 1. @p norm of @p from,
     /// not 0. Collective.
@@ -102,7 +103,7 @@ namespace corotet
     assemble(const EffectiveOperator &A,
              const double             stiffness_unit,
              const double             scale,
-             const Vector            &positions);
+             const Vector            &displacement);
     /// Owned entries, of float or double; @p size is about that of @p from.
     template <typename Number>
     void

@@ -142,7 +142,7 @@ namespace corotet
     std::vector<unsigned char> touches_prescribed;
     /// Of vertices that share a cell, and where their blocks are in it.
     std::shared_ptr<const BlockPattern> pattern;
-    std::vector<std::uint16_t>          places_of_blocks;
+    BlockPlaces                         places_of_blocks;
     AggregateProblem                    problem;
 
     mutable FloatVector displacements, rotations;

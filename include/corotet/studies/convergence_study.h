@@ -5,6 +5,7 @@
 #define corotet_studies_convergence_study_h
 
 #include <corotet/base/log.h>
+#include <corotet/output/checkpoints.h>
 #include <corotet/simulation/command_line.h>
 #include <corotet/studies/gathered_field.h>
 #include <corotet/studies/study_run.h>
@@ -33,20 +34,25 @@ namespace corotet
   public:
     /// Checks all runs, those that differ in the refinement only once. Throws
     /// InputError.
-    ConvergenceStudy(const CommandLine     &command,
-                     const StudyParameters &parameters,
-                     const MPI_Comm         comm,
-                     Log                   &log);
+    ConvergenceStudy(const CommandLine          &command,
+                     const StudyParameters      &parameters,
+                     const CheckpointParameters &checkpoints,
+                     const MPI_Comm              comm,
+                     Log                        &log);
 
     /// Those that study.csv will have.
     std::vector<std::string>
     columns() const;
 
-    /// Throws ComputationError if runs have failed, after the others.
+    /// Throws ComputationError if runs have failed, after the others, and
+    /// Stopped if it is to end before its time.
     void
     run(const std::string &directory);
 
   private:
+    /// Throws Stopped if the study is to end before the next run.
+    void
+    stop_if_asked(const std::vector<StudyResult> &results);
     /// What is kept in the file @p path, if that is of the same problem. Warns
     /// of one that is damaged.
     std::optional<StudyResult>
@@ -57,8 +63,13 @@ namespace corotet
     StudyResult
     result_of(const StudyCase &study_case);
     /// Runs the case that others are compared with, if it is not done yet.
-    const StudyRun &
+    /// Null if it has failed.
+    const StudyRun *
     finer_run();
+    /// Of a run that finds an error that the checks before the first one, of
+    /// the coarsest mesh, did not: a step that is too long for it, say.
+    StudyResult
+    failed_result(const StudyCase &study_case, const InputError &error) const;
     void
     compare_with_finer_run(StudyResult &result, const StudyRun &run);
     StudyCase
@@ -66,13 +77,17 @@ namespace corotet
     /// Throws InputError if the finest mesh has too many cells.
     void
     check_finest(const Discretization &coarsest) const;
+    /// Tables of what there is, and a summary.
     void
-    write(const std::vector<StudyResult> &results);
+    write(const std::vector<StudyResult> &results,
+          const std::string              &status,
+          const std::string              &message);
     void
     draw() const;
 
     const CommandLine                      command;
     const StudyParameters                  parameters;
+    const CheckpointParameters             checkpoints;
     const std::vector<StudyCase>           cases;
     std::vector<StudyParameters::Quantity> quantities;
     MPI_Comm                               comm;
@@ -80,6 +95,8 @@ namespace corotet
     std::string                            directory;
     std::unique_ptr<StudyRun>              finer;
     FieldNorms                             finer_norms;
+    /// Empty if it has not failed.
+    std::string failure_of_finer_run;
   };
 } // namespace corotet
 

@@ -26,6 +26,10 @@ namespace corotet
               ParameterFile     &file,
               const MPI_Comm     comm);
 
+  /// What has been printed has arrived, or MachineError is thrown. On rank 0.
+  void
+  check_standard_output();
+
   /**
    * Runs @p action. An InputError that it throws with an entry is thrown with
    * the place instead where @p file or an option of @p command sets that entry.

@@ -75,8 +75,9 @@ namespace corotet
              const MPI_Comm                  comm);
     ~StudyRun();
 
-    /// All parameters but those of the study and of the output, to recognize
-    /// results of another problem by.
+    /// All parameters but those of the study and of the output, and what tells
+    /// whether mesh and tables are the same: to recognize results of another
+    /// problem by. Collective.
     nlohmann::ordered_json
     fingerprint() const;
 

@@ -23,9 +23,9 @@ namespace corotet
   }
 
   void
-  AMG::build(const EffectiveOperator &A, const Vector &positions)
+  AMG::build(const EffectiveOperator &A, const Vector &displacement)
   {
-    build(A.matrix(), positions);
+    build(A.matrix(), A.positions(displacement));
   }
 
   void

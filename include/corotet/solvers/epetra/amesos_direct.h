@@ -33,7 +33,7 @@ namespace corotet
     ~AmesosDirect() override        = default;
 
     void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    build(const EffectiveOperator &A, const Vector &displacement) override;
 
     void
     vmult(Vector &dst, const Vector &src) const override;

@@ -58,7 +58,7 @@ namespace corotet
     }
 
     void
-    build(const EffectiveOperator &A, const Vector &positions) override;
+    build(const EffectiveOperator &A, const Vector &displacement) override;
 
     void
     build(const BlockMatrix &A, const Vector &positions) override;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_base_file_names_h
+#define corotet_base_file_names_h
+
+#include <string>
+
+namespace corotet
+{
+  /// The file @p name, which may be relative to @p folder, without the steps
+  /// up and down in its path that lead nowhere. (Behind a symbolic link, a step
+  /// up leads elsewhere.)
+  std::string
+  file_in(const std::string &folder, const std::string &name);
+} // namespace corotet
+
+#endif

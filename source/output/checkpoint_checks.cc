@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What the run of a checkpoint must have in common with the one that goes on.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
+#include <corotet/output/checkpoints.h>
+#include <corotet/output/table_checksums.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+namespace corotet
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    // What may be changed when a run is restarted: entries, and sections with a
+    // slash at the end.
+    const std::vector<std::string> changeable{
+      {"Checkpoint/",
+       "Convergence study/",
+       "Linear solver/",
+       "Mesh/Partitioner",
+       "Mesh/file/File",
+       "Mesh/file/Time limit",
+       "Mesh/gmsh/File",
+       "Mesh/gmsh/Time limit",
+       "Modes/",
+       "Newton/",
+       "Output/Directory",
+       "Output/Overwrite",
+       "Output/States",
+       "Output/Steps between rows",
+       "Output/Time between results",
+       "Tables/",
+       "Time integration/Adaptive step/",
+       "Time integration/End time",
+       "Time integration/Maximum halvings",
+       "Time integration/Time step",
+       "Verification/"}};
+
+    // Names of files may be relative to another folder now: those of tables are
+    // not compared; the mesh has a checksum.
+    bool
+    may_change(const std::string &entry)
+    {
+      return entry != "Time integration/Adaptive step/Enabled" &&
+             std::any_of(changeable.begin(),
+                         changeable.end(),
+                         [&](const std::string &allowed) {
+                           return allowed.back() == '/' ?
+                                    entry.starts_with(allowed) :
+                                    entry == allowed;
+                         });
+    }
+
+    // "Section/Entry" and text of all entries.
+    void
+    flatten(const Json                         &section,
+            const std::string                  &path,
+            std::map<std::string, std::string> &entries)
+    {
+      for (const auto &[key, node] : section.items())
+        if (node.is_object())
+          flatten(node, path + key + "/", entries);
+        else
+          entries[path + key] = node.get<std::string>();
+    }
+
+    // Whether two texts are the same but for the way to write a number.
+    bool
+    is_same(const std::string &a, const std::string &b)
+    {
+      if (a == b)
+        return true;
+      char        *end_a = nullptr, *end_b = nullptr;
+      const double x = std::strtod(a.c_str(), &end_a),
+                   y = std::strtod(b.c_str(), &end_b);
+      return !a.empty() && !b.empty() && *end_a == '\0' && *end_b == '\0' &&
+             x == y;
+    }
+  } // namespace
+
+  void
+  Checkpoints::check_entries(const CheckpointReader &checkpoint) const
+  {
+    std::map<std::string, std::string> now, before;
+    flatten(values, "", now);
+    flatten(checkpoint.parameters(), "", before);
+    for (const auto &[entry, text] : now)
+      if (const auto it = before.find(entry); it != before.end() &&
+                                              !is_same(it->second, text) &&
+                                              !may_change(entry))
+        throw InputError(entry,
+                         fmt::format("--restart: found '{}', which the run "
+                                     "cannot go on with; allowed: '{}', as "
+                                     "before (times but for the start, the "
+                                     "solvers, and when output is written may "
+                                     "change)",
+                                     text,
+                                     it->second));
+  }
+
+  void
+  Checkpoints::check_tables(CheckpointReader &checkpoint) const
+  {
+    std::string text;
+    checkpoint.transfer("tables", text);
+    std::vector<std::string> changed;
+    try
+      {
+        changed = changed_tables(Json::parse(text), body.tables);
+      }
+    catch (const Json::exception &)
+      {
+        throw InputError("",
+                         directory + ": damaged: found '" + shortened(text) +
+                           "' as checksums of tables");
+      }
+    if (changed.empty())
+      return;
+    const std::string &name  = changed.front();
+    std::string        entry = "Tables/Linear";
+    for (const std::string &item : dealii::Utilities::split_string_list(
+           values.at("Tables").at("Cubic").get<std::string>(), ','))
+      if (dealii::Utilities::split_string_list(item, ':').front() == name)
+        entry = "Tables/Cubic";
+    throw InputError(entry,
+                     fmt::format("--restart: found other rows in the table "
+                                 "'{}', which the run cannot go on with; "
+                                 "allowed: the rows that it began with, and "
+                                 "more behind them",
+                                 name));
+  }
+} // namespace corotet

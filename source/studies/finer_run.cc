@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// The run that those of a study are compared with, and runs that fail before
+// they begin.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/studies/convergence_study.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace corotet
+{
+  StudyResult
+  ConvergenceStudy::failed_result(const StudyCase  &study_case,
+                                  const InputError &error) const
+  {
+    StudyResult result;
+    result.study_case = study_case;
+    result.status     = "failed";
+    result.message =
+      (error.entry.empty() ? "" : error.entry + ": ") + error.what();
+    result.quantities.assign(quantities.size(), std::nan(""));
+    return result;
+  }
+
+  StudyCase
+  ConvergenceStudy::finer_case() const
+  {
+    StudyCase finest = cases.front();
+    for (const StudyCase &one : cases)
+      {
+        finest.degree      = std::max(finest.degree, one.degree);
+        finest.refinements = std::max(finest.refinements, one.refinements);
+        if (one.time_step)
+          finest.time_step = std::min(*finest.time_step, *one.time_step);
+      }
+    finest.refinements += parameters.further_refinements;
+    // With the file's own.
+    finest.mass.reset();
+    finest.rotation.reset();
+    return finest;
+  }
+
+  const StudyRun *
+  ConvergenceStudy::finer_run()
+  {
+    if (finer)
+      return finer.get();
+    StudyResult result;
+    try
+      {
+        finer = std::make_unique<StudyRun>(command.parameter_file,
+                                           command.overrides,
+                                           finer_case(),
+                                           comm);
+        // Its end is kept for a restart: the runs that are left need it again.
+        result =
+          finer->compute(directory + "/rows/finer_run", command.restart, true);
+      }
+    catch (const InputError &error)
+      {
+        result = failed_result(finer_case(), error);
+      }
+    log.line("Finer run, " + finer_case().name() + ": " + describe(result));
+    if (result.status != "done")
+      {
+        failure_of_finer_run = "the finer run has failed: " + result.message;
+        return nullptr;
+      }
+    for (unsigned int i = 0; i < quantities.size(); ++i)
+      if (!quantities[i].reference)
+        quantities[i].reference = result.quantities[i];
+    if (const Simulation *simulation = finer->simulation())
+      finer_norms = error_norms(simulation->body().discretization,
+                                simulation->body().materials,
+                                simulation->displacement(),
+                                [](const dealii::Point<3> &) {
+                                  return PointDisplacement();
+                                })
+                      .error;
+    return finer.get();
+  }
+
+  void
+  ConvergenceStudy::compare_with_finer_run(StudyResult    &result,
+                                           const StudyRun &run)
+  {
+    const StudyRun *const finest = finer_run();
+    if (finest == nullptr || result.status != "done")
+      return;
+    const Simulation *fine   = finest->simulation();
+    const Simulation *coarse = run.simulation();
+    if (fine == nullptr)
+      return;
+    const GatheredField field(coarse->body().discretization,
+                              coarse->displacement());
+    result.errors =
+      error_norms(fine->body().discretization,
+                  fine->body().materials,
+                  fine->displacement(),
+                  [&](const dealii::Point<3> &x) { return field.value(x); });
+    result.errors->reference = finer_norms;
+  }
+} // namespace corotet
