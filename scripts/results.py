@@ -28,6 +28,32 @@ def is_number(text):
     return True
 
 
+class BadPart(Exception):
+    """A file that another one refers to is missing, or cannot be read for the reason that is given."""
+
+    def __init__(self, path, referrer, reason=None):
+        super().__init__(path, referrer, reason)
+        self.path, self.referrer, self.reason = path, referrer, reason
+
+
+def check_parts(path, data, checked=None):
+    """HDF5 takes zeros for what a virtual dataset refers to and is not there: all files that have parts of @p data, a dataset of the file @p path, must
+    open and have their part, and so must those that they refer to. Names are relative to the folder of the file that has them."""
+    checked = set() if checked is None else checked
+    for name, part in sorted({(source.file_name, source.dset_name) for source in data.virtual_sources()} if data.is_virtual else set()):
+        source = path if name == "." else path.parent / name
+        if (source, part) in checked:
+            continue
+        checked.add((source, part))
+        if not source.exists():
+            raise BadPart(source, path)
+        try:
+            with h5py.File(source, "r", locking=False) as file:
+                check_parts(source, file[part], checked)
+        except (OSError, KeyError) as error:
+            raise BadPart(source, path, one_line(error)) from error
+
+
 class Run:
     """A folder of results, as they were when it was opened. Numbers are those of the files, in their units.
 
@@ -44,6 +70,7 @@ class Run:
             raise WrongInput(self.why_without_states())
         try:
             self.file = h5py.File(path, "r")
+            self.check_files(path, self.file["VTKHDF/PointData/displacement"])
             self.read_mesh()
         except (OSError, KeyError, ValueError, RuntimeError) as error:
             raise WrongInput(f"{path} is damaged: {one_line(error)}") from error
@@ -61,7 +88,6 @@ class Run:
 
     def read_mesh(self):
         top = self.file["VTKHDF"]
-        self.check_files(top)
         self.times = top["Steps/Values"][:]
         self.points = top["Points"][:]
         n_cells = int(top["NumberOfCells"][0])
@@ -81,15 +107,11 @@ class Run:
             fields[name] = shape[1] if len(shape) > 1 else 1
         return fields
 
-    def check_files(self, top):
-        """A file that is referred to, and missing or damaged, would give zeros."""
-        for source in {source.file_name for source in top["PointData/displacement"].virtual_sources()}:
-            if not (self.folder / source).exists():
-                raise OSError(f"{source}: the file is missing")
-            try:
-                h5py.File(self.folder / source, "r").close()
-            except OSError as error:
-                raise OSError(f"{source}: {one_line(error)}") from error
+    def check_files(self, path, data):
+        try:
+            check_parts(path, data)
+        except BadPart as error:
+            raise OSError(f"{error.path.relative_to(self.folder)}: {error.reason or 'the file is missing'}") from error
 
     def rows(self, group, name, n, state):
         data = self.file["VTKHDF"][group][name]

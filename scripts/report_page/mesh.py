@@ -5,6 +5,8 @@
 import h5py
 import numpy as np
 
+from results import BadPart, check_parts
+
 from .run import ReportError
 
 DEGREES = {4: 1, 10: 2, 20: 3}  # by nodes of a cell
@@ -32,13 +34,16 @@ class TimeSeries:
             raise ReportError(f"{path} is damaged or incomplete: {str(error).splitlines()[0][:200]}") from error
 
     def check_sources(self, folder):
-        """HDF5 takes zeros for what virtual datasets refer to and is not there, or cannot be read: each file must open."""
-        data = self.guarded(lambda: self.file["VTKHDF/PointData/displacement"], self.path)
-        needed = {folder / source.file_name for source in data.virtual_sources()} if data.is_virtual else set()
-        for path in sorted(needed | set((folder / "solution").glob("*.h5"))):
-            if not path.exists():
-                raise ReportError(f"{path} is missing, to which {self.path.name} refers")
+        """Each file that is there, and each that has a part of the states, must open."""
+        for path in sorted((folder / "solution").glob("*.h5")):
             self.guarded(lambda path=path: h5py.File(path, "r", locking=False).close(), path)
+        data = self.guarded(lambda: self.file["VTKHDF/PointData/displacement"], self.path)
+        try:
+            check_parts(self.path, data)
+        except BadPart as error:
+            if error.reason:
+                raise ReportError(f"{error.path} is damaged or incomplete: {error.reason}") from error
+            raise ReportError(f"{error.path} is missing, to which {error.referrer.name} refers") from error
 
     def read_mesh(self):
         root = self.file["VTKHDF"]

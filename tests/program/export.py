@@ -11,6 +11,7 @@ import struct
 import unittest
 import xml.etree.ElementTree as xml
 
+import h5py
 import matplotlib
 import numpy as np
 import pyvista as pv
@@ -20,7 +21,7 @@ from vtkmodules.vtkCommonCore import vtkLogger
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from scripts_support import ScriptTest, State, state_of, times_of
+from scripts_support import LONG, ScriptTest, State, state_of, times_of
 from commands import is_ours
 from support import read_history, read_modes
 
@@ -310,6 +311,19 @@ class Export(ScriptTest):
             ((beam, "--to", "stl", "--out", "nowhere/beam.stl"), "the folder nowhere does not exist"),
             ((beam, "--to", "stl", "--times", "0", "--out", "foreign.stl"), "foreign.stl exists and was not made by this program"),
             ((beam, "--to", "stl", "--times", "0", "--out", "empty.stl", "--warp", "much"), "found --warp much; allowed are numbers and auto")))
+
+    def test_missing_part(self):
+        """Of a long run the states of files that others refer to, not solution.vtkhdf itself: one that is missing or damaged is no state of zeros."""
+        run = self.run_case("cantilever", "long", *LONG)
+        path = run / "solution" / "step_000005.h5"
+        with h5py.File(run / "solution.vtkhdf") as file:
+            self.assertNotIn(f"solution/{path.name}", {source.file_name for source in file["VTKHDF/PointData/displacement"].virtual_sources()})
+        data = path.read_bytes()
+        for damaged, message in ((b"", "the file is missing"), (data[:1000], "")):
+            path.unlink(missing_ok=True)
+            if damaged:
+                path.write_bytes(damaged)
+            self.check_mistakes([(("long", "--to", "csv", "--times", "0.05"), f"long/solution.vtkhdf is damaged: solution/{path.name}: {message}")])
 
     def test_own_files(self):
         """They are known, so that they may be replaced."""

@@ -88,6 +88,12 @@ class ReportMistakes(ProgramTest):
                     path.write_bytes(damage(data))
                 self.assertIn(message, self.report(name, status=1))
 
+    def test_missing_part_of_a_long_run(self):
+        """Its first states are in files to which another one refers, not solution.vtkhdf."""
+        self.run_case("cantilever", "long", *RUN, "Time integration/End time = 0.4")
+        (self.folder / "long" / "solution" / "step_000005.h5").unlink()
+        self.assertIn("step_000005.h5 is missing, to which block_000000.h5 refers", self.report("long", status=1))
+
     def test_runs_without_a_good_end(self):
         summary = json.loads((self.folder / "run" / "summary.json").read_text())
         self.assertEqual(self.page("run")[:2], ("status", "done"))

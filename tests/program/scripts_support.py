@@ -25,6 +25,11 @@ RUNS = {"beam": ("cantilever", "Discretization/Degree = 2", "Output/Stress = nod
         "plate": ("plate_modes", "Mesh/box/Cells = 4, 4, 1", "Modes/Number = 5")}
 
 
+# Settings of a run whose first states are in files that a file of 32 states refers to.
+LONG = ("Discretization/Degree = 1", "Mesh/box/Cells = 6, 1, 1", "Time integration/End time = 0.4", "Output/Time between results = 0",
+        "Checkpoint/Minutes between checkpoints = 0")
+
+
 class ScriptTest(ProgramTest):
     """Tests of one script, with a folder `runs` of results that nobody changes."""
 
