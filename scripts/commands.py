@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What scripts/render and scripts/export share as programs: one line for a mistake, a bar of progress, files that are whole or not there."""
+"""What scripts for results share as programs: one line for a mistake, a bar of progress, files that are whole or not there. Needs Python alone."""
 
 import argparse
 import contextlib
 import errno
+import math
 import os
 import pathlib
 import shutil
@@ -13,11 +14,29 @@ import sys
 import tempfile
 import time
 
-from results import WrongInput, one_line
-
 # In each file that is written, near its start or end: such files may be replaced.
 MARK = "made by corotet"
 FIRST_COLUMNS = "node,x,y,z,"
+# What a full disk says, also one that is full for this user or this file.
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+
+
+class WrongInput(Exception):
+    """What was asked for is not possible; the message is one line for the user."""
+
+
+def one_line(error):
+    """The start of what an exception says."""
+    text = " ".join(str(getattr(error, "strerror", None) or (error.args[0] if error.args else error)).split())
+    return text if len(text) < 150 else text[:150] + "..."
+
+
+def number(text):
+    """For an option: neither infinite nor not a number."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"found {text}; allowed are finite numbers")
+    return value
 
 
 class Parser(argparse.ArgumentParser):
@@ -89,14 +108,35 @@ def check_target(path, overwrite):
 
 
 @contextlib.contextmanager
+def named(target):
+    """What the machine could not write is said of the target, not of a file on the way there."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno in FULL or not error.filename:
+            raise OSError(error.errno, error.strerror or one_line(error), str(target)) from error
+        raise
+
+
+@contextlib.contextmanager
 def written_beside(target):
     """A folder beside the target, gone at the end. Files that are whole go from there to their places by os.replace."""
-    folder = pathlib.Path(tempfile.mkdtemp(prefix=f".{pathlib.Path(target).name}.", dir=pathlib.Path(target).parent))
-    try:
-        yield folder
-    except OSError as error:
-        if error.errno in (errno.ENOSPC, errno.EDQUOT):
-            raise OSError(error.errno, error.strerror, str(target)) from error
-        raise
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    target = pathlib.Path(target)
+    with named(target):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
+        try:
+            yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def moved_to(target, part):
+    """For a file whose name on the way is given: it goes to its place when it is whole, or is removed."""
+    with named(target):
+        try:
+            yield part
+            os.replace(part, target)
+        except BaseException:
+            pathlib.Path(part).unlink(missing_ok=True)
+            raise

@@ -13,7 +13,7 @@ import struct
 import subprocess
 import tempfile
 
-from results import WrongInput
+from commands import WrongInput
 
 
 def connect():

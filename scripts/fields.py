@@ -7,7 +7,7 @@ import difflib
 
 import numpy as np
 
-from results import WrongInput
+from commands import WrongInput
 
 # Titles and units of what runs write, doc/results.md.
 KNOWN = {"displacement": ("displacement", "m"), "velocity": ("velocity", "m/s"), "stress": ("stress", "Pa"), "strain": ("strain", ""),

@@ -8,8 +8,7 @@ import subprocess
 import numpy as np
 from PIL import Image, PngImagePlugin
 
-from commands import MARK
-from results import WrongInput, one_line
+from commands import MARK, WrongInput, one_line
 
 FILMS = (".gif", ".webp", ".mp4")
 SUFFIXES = (".png", *FILMS)

@@ -9,7 +9,7 @@ import pyvista as pv
 
 from fields import choose_field, choose_warp, mean_of_cells, with_prefix
 from lagrange import Surface, inside
-from results import WrongInput
+from commands import WrongInput
 from scene import Body, Legend, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size
 from views import View, direction_of
 

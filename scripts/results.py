@@ -9,15 +9,13 @@ import re
 
 import numpy as np
 
+from commands import WrongInput, one_line
+
 # The run may go on, and results may be where nothing can be locked: files are only read here.
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 import h5py  # noqa: E402  (the environment is read when it is loaded)
 
 DEGREES = {4: 1, 10: 2, 20: 3}  # by the number of a tetrahedron's nodes
-
-
-class WrongInput(Exception):
-    """What was asked for is not possible; the message is one line for the user."""
 
 
 def is_number(text):
@@ -177,9 +175,3 @@ class Run:
         text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
         found = re.search(rf"^subsection {re.escape(section)}\n(?:  .*\n|\n)*?  set {re.escape(name)}\s*=([^#\n]*)", text, re.MULTILINE)
         return found.group(1).strip() if found else ""
-
-
-def one_line(error):
-    """The start of what an exception says."""
-    text = " ".join(str(getattr(error, "strerror", None) or (error.args[0] if error.args else error)).split())
-    return text if len(text) < 150 else text[:150] + "..."

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/plot: columns of history.csv as a picture."""
+"""scripts/plot: columns of history.csv as a picture; scripts/draw_study: those of study.csv."""
 
+import csv
+import resource
 import subprocess
 import sys
 import unittest
@@ -11,14 +13,19 @@ import matplotlib.image
 
 from support import ROOT, ProgramTest
 
+def limit_files():
+    """Files of this process may have so many bytes: what ends them is told to programs as a full disk is."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+
+
 CASE = ("Time integration/End time = 0.03", "Discretization/Degree = 1")
 
 
 class Plot(ProgramTest):
 
-    def plot(self, *words, status=0):
-        run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "plot", *words], cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(run.returncode, status, run.stderr)
+    def plot(self, *words, status=0, **others):
+        run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "plot", *words], cwd=self.folder, capture_output=True, text=True, check=False, **others)
+        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (status, 1 if status else 0), run.stderr)
         return run
 
     def test_runs_and_columns(self):
@@ -49,11 +56,83 @@ class Plot(ProgramTest):
         for words, message in ((("one", "kinetic_enrgy"), "is it kinetic_energy"), (("one",), "no column; there are: step, time"),
                                (("nothing", "time"), "no folder of results: found nothing, time"), (("empty", "time"), "empty/history.csv cannot be read"),
                                (("one", "dt", "--out", "plot.gif"), "allowed are .png, .pdf and .svg"),
-                               (("one", "dt", "--out", "nowhere/plot.png"), "nowhere/plot.png cannot be written")):
-            run = self.plot(*words, status=1)
-            self.assertIn(message, run.stderr)
-            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+                               (("one", "dt", "--out", "nowhere/plot.png"), "nowhere/plot.png cannot be written"),
+                               (("one", "dt", "--size", "0", "0"), "found the size 0 x 0; allowed are 1.5 to 50 inches"),
+                               (("one", "dt", "--size", "nan", "1"), "argument --size: found nan; allowed are finite numbers"),
+                               (("one", "step", "dt", "tip_z", "volume", "kinetic_energy", "--size", "2", "50"), "diagrams of 50 inches; allowed are 200 together"),
+                               (("one", "dt", "--range", "2", "1"), "found --range 2 1; the first must be the lower one"),
+                               (("one", "dt", "--colour", "red"), "unrecognized arguments: --colour red")):
+            with self.subTest(words=words):
+                self.assertIn(message, self.plot(*words, status=1).stderr)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["empty", "one"])
+
+    def test_files_that_are_there(self):
+        """Its own are replaced, those of others if that is wanted; what cannot be written whole leaves the old one as it was."""
+        self.run_case("cantilever", "one", *CASE)
+        for name in ("plot.png", "plot.pdf", "plot.svg"):
+            with self.subTest(name=name):
+                file = self.folder / name
+                file.write_text("of someone else")
+                message = self.plot("one", "dt", "--out", name, status=1).stderr
+                self.assertIn(f"{name} exists and was not made by this program; --overwrite replaces it", message)
+                self.assertEqual(file.read_text(), "of someone else")
+                self.plot("one", "dt", "--out", name, "--overwrite")
+                self.plot("one", "dt", "tip_z", "--out", name)
+                before = file.read_bytes()
+                self.assertEqual(self.plot("one", "dt", "--out", name, status=3, preexec_fn=limit_files).stderr, f"plot: error: {name}: File too large\n")
+                self.assertEqual(file.read_bytes(), before)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["one", "plot.pdf", "plot.png", "plot.svg"])
+
+    def test_nothing_for_a_logarithm(self):
+        self.run_case("cantilever", "one", *CASE)
+        self.plot("one", "rejected_steps", "--log")
+
+
+class DrawStudy(ProgramTest):
+
+    def draw(self, status=0, **others):
+        run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "draw_study", "study"], cwd=self.folder, capture_output=True, text=True, check=False,
+                             **others)
+        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (status, 1 if status else 0), run.stderr)
+        return run.stderr
+
+    def pictures(self):
+        return {path.name: path.read_bytes() for path in (self.folder / "study").glob("study_*")}
+
+    def write(self, **errors):
+        """A table of two runs, the second one on cells of half the size, with these errors in both."""
+        (self.folder / "study").mkdir()
+        with open(self.folder / "study" / "study.csv", "w", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            table.writerow(["degree", "refinements", "status", "h", "dofs", "wall_time", *(f"{name}_error" for name in errors)])
+            for i in range(2):
+                table.writerow([1, i, "done", 1 / 2**i, 10 * 8**i, 1 + i, *(pair[i] for pair in errors.values())])
+
+    def test_names(self):
+        """Norms have small letters, and quantities, which may differ in capitals alone, their own."""
+        self.write(L2=(1, 0.25), tip_z=(1, 0.5), TIP_z=(1, 0.125))
+        self.draw()
+        names = [f"study_{name}_over_{abscissa}.{ending}" for name in ("l2", "tip_z", "TIP_z") for abscissa in ("h", "dofs", "wall_time")
+                 for ending in ("svg", "png")]
+        pictures = self.pictures()
+        self.assertEqual(sorted(pictures), sorted(names))
+        self.assertNotEqual(pictures["study_tip_z_over_h.png"], pictures["study_TIP_z_over_h.png"])
+
+    def test_errors_of_zero(self):
+        """They have no place on a logarithmic scale: no picture, and nothing is said."""
+        self.write(L2=(0, 0), tip_z=(0, 0.5))
+        self.draw()
+        self.assertEqual({name.split("_over_")[0] for name in self.pictures()}, {"study_tip_z"})
+
+    def test_mistakes(self):
+        self.assertIn("draw_study: error: study has no results of a convergence study: there is no study.csv", self.draw(status=1))
+        self.write(L2=(1, 0.25))
+        self.draw()
+        before = self.pictures()
+        self.assertIn("File too large", self.draw(status=3, preexec_fn=limit_files))
+        self.assertEqual(self.pictures(), before)
+        (self.folder / "study" / "study.csv").write_text("degree,status\n1,done\n")
+        self.assertIn("study/study.csv is damaged: refinements", self.draw(status=1))
 
 
 if __name__ == "__main__":
