@@ -5,7 +5,6 @@
 import argparse
 import contextlib
 import errno
-import math
 import os
 import pathlib
 import shutil
@@ -17,6 +16,8 @@ import time
 # In each file that is written, near its start or end: such files may be replaced.
 MARK = "made by corotet"
 FIRST_COLUMNS = "node,x,y,z,"
+# Of numbers in options.
+LARGEST = 1e50
 # What a full disk says, also one that is full for this user or this file.
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
@@ -32,11 +33,19 @@ def one_line(error):
 
 
 def number(text):
-    """For an option: neither infinite nor not a number."""
+    """For an option: one with which vectors have lengths."""
     value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"found {text}; allowed are finite numbers")
+    if not abs(value) <= LARGEST:
+        raise argparse.ArgumentTypeError(f"found {text}; allowed are numbers from -{LARGEST:g} to {LARGEST:g}")
     return value
+
+
+def is_number(text):
+    """Whether it is one that options may have."""
+    try:
+        return abs(float(text)) <= LARGEST
+    except ValueError:
+        return False
 
 
 class Parser(argparse.ArgumentParser):

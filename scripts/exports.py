@@ -3,6 +3,9 @@
 """States of a run as files for other programs. A writer gets a Source and a path in a folder of its own, and returns the names of its files there,
 the one that refers to the others last. Needs VTK, PyVista, h5py and NumPy."""
 
+import errno
+import io
+import os
 import xml.etree.ElementTree as xml
 
 import h5py
@@ -11,10 +14,11 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from commands import FIRST_COLUMNS, MARK
+from commands import FIRST_COLUMNS, MARK, WrongInput
 from fields import choose_arrays, choose_field, components, mean_of_cells
 from lagrange import Surface, inside
 
@@ -52,7 +56,10 @@ class Source:
         return self.surface
 
     def surface_points(self, state, factor=1.0):
-        return self.make_surface().at(self.run.points + factor * self.warp * self.run.displacement(state))
+        points = self.make_surface().at(self.run.points + factor * self.warp * self.run.displacement(state))
+        if not (np.abs(points) <= np.finfo(np.float32).max).all():
+            raise WrongInput(f"the displaced body is not finite at {self.run.times[state]:g}, with displacements multiplied by {self.warp:g}")
+        return points
 
     def colour_values(self, state):
         """The field at the vertices of the surface; of what is a number of something, at the corners of triangles."""
@@ -81,10 +88,15 @@ def numbered(path, n):
     return [path] if n == 1 else [path.with_name(f"{path.stem}_{i:04d}{path.suffix}") for i in range(n)]
 
 
+def folder_of(path):
+    """Of the files of several states, beside the .pvd that refers to them: not the name of the run, whose results may be there."""
+    return path.with_name(f"{path.stem}_vtu")
+
+
 def write_vtu(source, path):
     """VTK's files of unstructured grids, a Lagrange tetrahedron for each cell, points at rest; of several states a .pvd that has their times."""
     n = len(source.states)
-    folder = path.with_suffix("") if n > 1 else path.parent
+    folder = folder_of(path) if n > 1 else path.parent
     folder.mkdir(exist_ok=True)
     files = numbered(folder / f"{path.stem}.vtu", n)
     for state, time, file in zip(source.states, source.times, files):
@@ -122,12 +134,16 @@ def write_grid(source, state, time, file):
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
     writer.SetCompressorTypeToNone()
-    check_written(writer, writer.Write())
+    write_by(writer)
 
 
-def check_written(writer, result):
-    if result != 1 or writer.GetErrorCode():
-        raise OSError(writer.GetErrorCode(), "the file could not be written")
+def write_by(writer):
+    """By a writer of VTK; what it would say itself of a failure is in the error."""
+    for who in (writer, writer.GetExecutive()):
+        who.AddObserver("ErrorEvent", lambda *_: None)
+    if writer.Write() != 1 or writer.GetErrorCode():
+        is_full = writer.GetErrorCode() == vtkErrorCode.OutOfDiskSpaceError
+        raise OSError(errno.ENOSPC if is_full else None, os.strerror(errno.ENOSPC) if is_full else "the file could not be written")
 
 
 def write_xml(root, path):
@@ -146,7 +162,7 @@ def write_stl(source, path):
         writer.SetFileTypeToBinary()
         header = numpy_to_vtk(np.frombuffer(MARK.encode().ljust(80), np.uint8), deep=True)
         writer.SetBinaryHeader(header)
-        check_written(writer, writer.Write())
+        write_by(writer)
         source.advance()
     return [file.name for file in files]
 
@@ -182,6 +198,27 @@ def write_csv(source, path):
     return [file.name for file in files]
 
 
+class FileOfHdf5(io.FileIO):
+    """What HDF5 writes to. It crashes where it cannot: so the first error is kept, and raised at the end."""
+
+    error = None
+
+    def write(self, data):
+        try:
+            done = 0
+            while done < len(data):
+                done += super().write(memoryview(data)[done:])
+        except OSError as error:
+            self.error = self.error or error
+        return len(data)
+
+    def close(self):
+        super().close()
+        error, self.error = self.error, None
+        if error:
+            raise error
+
+
 def write_xdmf(source, path):
     """XDMF 3 with its numbers in an HDF5 file beside. Tensors are scalars, component by component. Cells of degree 3, which the format has
     not, are 27 straight ones on the same nodes."""
@@ -195,7 +232,7 @@ def write_xdmf(source, path):
     root.append(xml.Comment(MARK))
     domain = xml.SubElement(root, "Domain")
     series = xml.SubElement(domain, "Grid", Name="states", GridType="Collection", CollectionType="Temporal")
-    with h5py.File(heavy, "w") as file:
+    with FileOfHdf5(heavy, "w+") as place, h5py.File(place, "w") as file:
         file.attrs["maker"] = MARK
         item(file, None, "mesh/cells", cells, heavy.name)
         item(file, None, "mesh/points", run.points, heavy.name)

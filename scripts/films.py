@@ -2,13 +2,14 @@
 # Copyright (C) 2026 by the corotet authors
 """Frames, which are files of pictures, as PNG, GIF, WebP and MP4. Needs Pillow, and for MP4 ffmpeg."""
 
+import os
 import shutil
 import subprocess
 
 import numpy as np
 from PIL import Image, PngImagePlugin
 
-from commands import MARK, WrongInput, one_line
+from commands import FULL, MARK, WrongInput, one_line
 
 FILMS = (".gif", ".webp", ".mp4")
 SUFFIXES = (".png", *FILMS)
@@ -66,6 +67,9 @@ def write_mp4(frames, path, fps):
             pass  # ffmpeg says why
         message = process.stderr.read().decode(errors="replace").strip()
     if process.returncode:
+        for full in FULL:
+            if os.strerror(full) in message:
+                raise OSError(full, os.strerror(full))
         raise WrongInput(f"ffmpeg could not write the film: {one_line(RuntimeError(message))}")
 
 

@@ -9,12 +9,13 @@ import pyvista as pv
 
 from fields import choose_field, choose_warp, mean_of_cells, with_prefix
 from lagrange import Surface, inside
-from commands import WrongInput
+from commands import WrongInput, is_number
 from scene import Body, Legend, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size
 from views import View, direction_of
 
 FOLD = 35  # degrees: where the surface is folded by more, the outline has an edge
 MANY_TRIANGLES = 400_000
+LARGEST_PLACE = 1e18  # [m]: squares of that are numbers in single precision, too, in which VTK draws
 FROM_FRONT_RIGHT_ABOVE = (0.45, -1, 0.4)
 
 
@@ -86,11 +87,8 @@ class Pictures:
         normal, rest = direction_of(words[0]), words[1:]
         if normal is None:
             normal, rest = words[:3], words[3:]
-        try:
-            normal, point = np.array(normal, float), np.array(rest, float)
-        except ValueError:
-            normal = point = np.zeros(0)
-        if len(normal) != 3 or len(point) not in (0, 3) or not np.linalg.norm(normal) > 0:
+        normal, point = (np.array(part, float) if all(map(is_number, part)) else np.zeros(0) for part in (normal, rest))
+        if len(normal) != 3 or len(point) not in (0, 3) or len(rest) != len(point) or not normal.any():
             raise WrongInput(f"found --clip {' '.join(words)}; allowed are a direction (front, left-top, .. or X Y Z) and a point X Y Z")
         if not len(point):
             point = (self.run.points.min(axis=0) + self.run.points.max(axis=0)) / 2
@@ -104,7 +102,10 @@ class Pictures:
         return normal, point, np.flatnonzero(cut), inside(self.run.cells[cut], self.run.degree, self.run.degree)
 
     def places(self, state, factor):
-        return self.run.points + self.warp * factor * self.run.displacement(state)
+        places = self.run.points + self.warp * factor * self.run.displacement(state)
+        if not (np.abs(places) < LARGEST_PLACE).all():
+            raise WrongInput(f"the displaced body is not finite at {self.run.times[state]:g}, with displacements multiplied by {self.warp:g}")
+        return places
 
     def shifts(self, n):
         return np.outer(np.arange(n), self.options.shift or (0, 0, 0))
@@ -153,6 +154,8 @@ class Pictures:
             towards = direction_of(options.camera[0]) if len(options.camera) == 1 else np.array(options.camera, float)
         if options.position:
             towards = np.array(options.position) - np.array(options.focus or self.rest.mean(axis=0))
+            if not towards.any():
+                raise WrongInput("the eye is in the middle of the picture; --position and --focus must be different places")
         view = View(options.size, towards, options.up or (0, 0, 1))
         corners = self.corners(view)
         view.fit(corners, self.margins(), options.perspective)

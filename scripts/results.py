@@ -9,21 +9,14 @@ import re
 
 import numpy as np
 
-from commands import WrongInput, one_line
+from commands import WrongInput, is_number, one_line
 
 # The run may go on, and results may be where nothing can be locked: files are only read here.
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 import h5py  # noqa: E402  (the environment is read when it is loaded)
 
 DEGREES = {4: 1, 10: 2, 20: 3}  # by the number of a tetrahedron's nodes
-
-
-def is_number(text):
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+MOST_TIMES = 100_000
 
 
 class BadPart(Exception):
@@ -148,11 +141,13 @@ class Run:
                 chosen |= set(range(len(self.times)))
             elif len(parts) == 1 and is_number(word):
                 chosen.add(self.index(float(word)))
-            elif len(parts) in (2, 3) and all(map(is_number, parts[:2])) and all(part.isdigit() and int(part) > 0 for part in parts[2:]):
+            elif len(parts) in (2, 3) and all(map(is_number, parts[:2])) and all(part.isdecimal() and int(part) > 0 for part in parts[2:]):
                 ends = [float(part) for part in parts[:2]]
                 first, last = (self.index(time) for time in ends)
                 if ends[0] > ends[1]:
                     raise WrongInput(f"found the times {word}; the first must not be after the last")
+                if parts[2:] and int(parts[2]) > MOST_TIMES:
+                    raise WrongInput(f"found the times {word}; allowed are up to {MOST_TIMES}")
                 chosen |= {self.index(time) for time in np.linspace(*ends, int(parts[2]))} if parts[2:] else set(range(first, last + 1))
             else:
                 raise WrongInput(f"found the time '{word}'; allowed are numbers, FROM:TO, FROM:TO:NUMBER and all")

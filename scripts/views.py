@@ -8,9 +8,10 @@ SIDES = {"front": (0, -1, 0), "back": (0, 1, 0), "left": (-1, 0, 0), "right": (1
 
 
 def direction_of(word):
-    """A vector for front, top, front-right-top and the like, or None."""
+    """A vector for front, top, front-right-top and the like, or None; so of front-back, which is none."""
     parts = word.split("-")
-    return np.sum([SIDES[part] for part in parts], axis=0).astype(float) if all(part in SIDES for part in parts) else None
+    direction = np.sum([SIDES[part] for part in parts], axis=0).astype(float) if all(part in SIDES for part in parts) else np.zeros(3)
+    return direction if direction.any() else None
 
 
 class View:

@@ -7,6 +7,7 @@ VTK's reader of the time series and history.csv have."""
 import csv
 import importlib.util
 import json
+import shutil
 import struct
 import unittest
 import xml.etree.ElementTree as xml
@@ -23,7 +24,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from scripts_support import LONG, ScriptTest, State, state_of, times_of
 from commands import is_ours
-from support import read_history, read_modes
+from support import limit_files, read_history, read_modes
 
 SINGLE = 1e-6  # relative; single precision has 6e-8, and sums of some thousand numbers lose a digit
 # A rule for tetrahedra that is exact for polynomials of degree 3, as the volume of quadratic ones needs: points and weights.
@@ -310,7 +311,12 @@ class Export(ScriptTest):
             ((beam, "--to", "stl", "--subdivisions", "0"), "found --subdivisions 0; allowed are 1 to 16"),
             ((beam, "--to", "stl", "--out", "nowhere/beam.stl"), "the folder nowhere does not exist"),
             ((beam, "--to", "stl", "--times", "0", "--out", "foreign.stl"), "foreign.stl exists and was not made by this program"),
-            ((beam, "--to", "stl", "--times", "0", "--out", "empty.stl", "--warp", "much"), "found --warp much; allowed are numbers and auto")))
+            ((beam, "--to", "stl", "--times", "0", "--out", "empty.stl", "--warp", "much"), "found --warp much; allowed are numbers and auto"),
+            *(((beam, "--to", "stl", "--warp", factor), f"found --warp {factor}; allowed are numbers and auto") for factor in ("nan", "inf", "1e400")),
+            ((beam, "--to", "stl", "--warp", "1e45"), "the displaced body is not finite at 0.03, with displacements multiplied by 1e+45"),
+            ((beam, "--to", "gltf", "--seconds", "nan"), "argument --seconds: found nan; allowed are numbers from"),
+            ((beam, "--to", "csv", "--times", "nan"), "found the time 'nan'; allowed are numbers"),
+            ((beam, "--to", "csv", "--times", "0:0.3:99999999999"), "found the times 0:0.3:99999999999; allowed are up to 100000")))
 
     def test_missing_part(self):
         """Of a long run the states of files that others refer to, not solution.vtkhdf itself: one that is missing or damaged is no state of zeros."""
@@ -324,6 +330,25 @@ class Export(ScriptTest):
             if damaged:
                 path.write_bytes(damaged)
             self.check_mistakes([(("long", "--to", "csv", "--times", "0.05"), f"long/solution.vtkhdf is damaged: solution/{path.name}: {message}")])
+
+    def test_beside_the_results(self):
+        """States are never put into the folder of the run, though names are those of the run; nor into that of another one."""
+        shutil.copytree(self.runs / "beam", self.folder / "beam")
+        before = sorted((self.folder / "beam").rglob("*"))
+        self.start("beam", "--to", "vtu")
+        self.assertEqual(sorted((self.folder / "beam").rglob("*")), before)
+        self.assertEqual(len(list((self.folder / "beam_vtu").iterdir())), 11)
+        (self.folder / "beam").rename(self.folder / "other_vtu")
+        (self.folder / "file_vtu").write_text("a file")
+        self.check_mistakes(((("other_vtu", "--to", "vtu", "--out", "other.pvd"), "other_vtu has results of a run, no states for others"),
+                             (("other_vtu", "--to", "vtu", "--out", "file.pvd"), "file_vtu cannot be a folder for the states: it is a file")))
+
+    def test_full_disk(self):
+        """Status 3, one line, and no file that is not whole."""
+        for kind in ("gltf", "vtu", "stl", "obj", "xdmf", "csv"):
+            with self.subTest(kind=kind):
+                self.start(self.runs / "beam", "--to", kind, status=3, preexec_fn=limit_files)
+                self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_own_files(self):
         """They are known, so that they may be replaced."""

@@ -4,6 +4,7 @@
 """scripts/render: pictures and films of results. Sizes and colours in the pictures are compared with the run's numbers, read by VTK's own reader."""
 
 import json
+import os
 import shutil
 import subprocess
 import unittest
@@ -193,10 +194,30 @@ class Render(ScriptTest):
             ((beam, "--size", "1", "1"), "found the size 1 x 1; allowed are 64 to 8192 pixels"),
             ((beam, "--colours", "virids"), "no colours 'virids'; is it viridis?"),
             ((beam, "--swing"), "--swing is for modes"), ((beam, "--tim", "1"), "unrecognized arguments: --tim 1"),
-            ((beam, "--time", "0", "--times", "0"), "allowed is one of them")))
+            ((beam, "--time", "0", "--times", "0"), "allowed is one of them"),
+            *(((beam, "--warp", factor), f"found --warp {factor}; allowed are numbers and auto") for factor in ("nan", "inf")),
+            ((beam, "--warp", "1e30"), "the displaced body is not finite at 0.3, with displacements multiplied by 1e+30"),
+            *(((beam, f"--{name}", *words), f"argument --{name}: found {words[-1]}; allowed are numbers from -1e+50 to 1e+50")
+              for name, words in (("range", ("0", "inf")), ("height", ("nan",)), ("position", ("0", "0", "1e300")), ("fps", ("nan",)))),
+            ((beam, "--range", "1", "1"), "the first must be the lower one"), ((beam, "--fps", "0"), "found --fps 0; allowed are 0.01 to 100"),
+            ((beam, "--camera", "0", "nan", "0"), "found --camera 0 nan 0; allowed are"), ((beam, "--camera", "front-back"), "found --camera front-back"),
+            ((beam, "--clip", "front", "0", "inf", "0"), "found --clip front 0 inf 0; allowed are"), ((beam, "--clip", "1e200", "0", "0"), "found --clip"),
+            ((beam, "--up", "0", "0", "0"), "found --up 0 0 0; allowed are directions"),
+            ((beam, "--position", "1", "0", "0", "--focus", "1", "0", "0"), "--position and --focus must be different places")))
         self.assertEqual((self.folder / "foreign.png").read_text(), "a picture of someone else")
         self.start(beam, *SMALL, "--out", "foreign.png", "--overwrite")
         self.assertEqual(pixels(self.folder / "foreign.png").shape, (300, 400, 3))
+
+    def test_full_disk(self):
+        """Where ffmpeg says so, too."""
+        (self.folder / "bin").mkdir()
+        ffmpeg = self.folder / "bin" / "ffmpeg"
+        ffmpeg.write_text("#!/bin/sh\ncat > /dev/null\necho 'Error writing trailer: No space left on device' >&2\nexit 228\n")
+        ffmpeg.chmod(0o755)
+        path = f"{ffmpeg.parent}:{os.environ['PATH']}"
+        message = self.start(self.runs / "beam", *SMALL, "--times", 0, 0.3, "--out", "film.mp4", status=3, env={**os.environ, "PATH": path})
+        self.assertEqual(message, "render: error: film.mp4: No space left on device\n")
+        self.assertEqual([name.name for name in self.folder.iterdir()], ["bin"])
 
     @unittest.skipUnless(hasattr(vtkRenderingOpenGL2, "vtkXOpenGLRenderWindow"), "this VTK needs no display")
     def test_without_a_display(self):

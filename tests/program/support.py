@@ -50,6 +50,11 @@ def read_summary(directory):
     return json.loads((directory / "summary.json").read_text(encoding="utf-8"))
 
 
+def limit_files():
+    """In a new process: files may have so many bytes. What would be more is told to programs as a full disk is."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+
+
 def parameter_text(entries):
     """A parameter file with these entries, "Section/Subsection/Name": value."""
     lines = []
