@@ -10,6 +10,8 @@ import pathlib
 import re
 import tempfile
 
+from commands import check_folder, moved_to
+
 from . import charts, tables, words
 from .encode import Encoder
 from .mesh import TimeSeries
@@ -24,6 +26,7 @@ SCRIPTS = ("format", "colours", "store", "plot", "surface", "orbit", "pick", "vi
 MAX_BYTES = 15_000_000
 ROOM_TO_SPARE = 60_000
 KINDS = {"simulation": "simulation", "modes": "natural frequencies and modes", "study": "convergence study"}
+MADE_BY = "Made by scripts/report of corotet"
 LICENCE = "three.js r111, copyright 2010-2019 three.js authors, MIT licence: see its end"
 MIT = """three.js is distributed under the MIT licence. Permission is hereby granted, free of charge, to any person obtaining a copy of this software
 and associated documentation files (the "Software"), to deal in the Software without restriction, including without limitation the rights to use, copy,
@@ -203,7 +206,7 @@ def page(folder):
         links = ([("view", "View")] if encoder else []) + [(name, title.split(" that")[0]) for name, title, _ in found]
         body = [view_section(run, encoder, states)] if encoder else []
         body += [section(*one) for one in found]
-        about = f"<p>Made by scripts/report of corotet from {escape(run.name)}, {run.date}.</p>"
+        about = f"<p>{MADE_BY} from {escape(run.name)}, {run.date}.</p>"
         if encoder:
             about += ("<p>Numbers of the view have 16 bits, an error of 1.5 × 10<sup>−5</sup> of the largest one of each state. Drawn with "
                       "three.js (MIT licence).</p>")
@@ -224,22 +227,27 @@ def page(folder):
     return assemble([state for _, state in states], "\n".join(f'<script type="text/plain" id="{name}">{block}</script>' for name, block in blocks))
 
 
-def write_report(folder, out=None):
+def check_place(out, overwrite):
+    """A page may be written there: nothing of others is lost, unless that is wanted."""
+    check_folder(out)
+    if out.is_dir():
+        raise ReportError(f"{out} cannot be written: it is a folder")
+    if out.exists() and not overwrite and MADE_BY.encode() not in out.read_bytes():
+        raise ReportError(f"{out} exists and is no page of a run; --overwrite replaces it")
+
+
+def write_report(folder, out=None, overwrite=False):
     """Writes the page: the whole of it, or nothing."""
+    if out:
+        check_place(out, overwrite)
+    text = page(folder).encode()
+    # That of the folder is one of the files of the run, which these replace.
     out = out or folder / "report.html"
-    text = page(folder)
-    try:
-        handle, name = tempfile.mkstemp(dir=out.parent, prefix=f".{out.name}.")
-    except OSError as error:
-        raise ReportError(f"{out} cannot be written: {error.strerror}") from error
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+    check_place(out, overwrite=True)
+    handle, name = tempfile.mkstemp(dir=out.parent, prefix=f".{out.name}.")
+    with moved_to(out, name), os.fdopen(handle, "wb") as file:
+        file.write(text)
         umask = os.umask(0)
         os.umask(umask)
         os.chmod(name, 0o666 & ~umask)
-        os.replace(name, out)
-    except OSError as error:
-        os.unlink(name)
-        raise ReportError(f"{out} cannot be written: {error.strerror}") from error
-    return out, len(text.encode())
+    return out, len(text)

@@ -11,6 +11,8 @@ import pathlib
 import re
 import time
 
+from commands import WrongInput
+
 from .parameters import read_parameters
 
 SIGNATURE = "Results of corotet."
@@ -18,7 +20,7 @@ KINDS = {"simulation": "simulation", "modes": "modes", "convergence study": "stu
 LOG_BYTES = 100_000
 
 
-class ReportError(Exception):
+class ReportError(WrongInput):
     """The folder or the place of the page is not what is needed."""
 
 

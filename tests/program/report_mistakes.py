@@ -13,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-from support import ROOT, ProgramTest
+from support import ROOT, ProgramTest, limit_files
 
 RUN = ("Time integration/End time = 0.04", "Discretization/Degree = 1")
 
@@ -30,9 +30,9 @@ class ReportMistakes(ProgramTest):
             self.addClassCleanup(self.run_of_all.cleanup)
         shutil.copytree(pathlib.Path(self.run_of_all.name) / "run", self.folder / "run")
 
-    def report(self, *words, status=0):
+    def report(self, *words, status=0, **others):
         before = self.files()
-        run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "report", *words], cwd=self.folder, capture_output=True, text=True, check=False)
+        run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "report", *words], cwd=self.folder, capture_output=True, text=True, check=False, **others)
         self.assertEqual(run.returncode, status, run.stdout + run.stderr)
         if status:
             self.assertEqual(self.files(), before, "something was written")
@@ -68,7 +68,23 @@ class ReportMistakes(ProgramTest):
         self.assertIn("no_rows has no states", self.report("no_rows", status=1))
         self.assertIn("no_series has no states: solution.vtkhdf is missing", self.report("no_series", status=1))
         self.assertIn("step_000000.h5 is missing, to which solution.vtkhdf refers", self.report("no_files", status=1))
-        self.assertIn("nowhere/page.html cannot be written: No such file or directory", self.report("run", "--out", "nowhere/page.html", status=1))
+        self.assertIn("nowhere/page.html cannot be written: the folder nowhere does not exist", self.report("run", "--out", "nowhere/page.html", status=1))
+
+    def test_files_that_are_there(self):
+        """Pages of runs are replaced, files of others if that is wanted; what cannot be written whole leaves the old page as it was."""
+        file = self.folder / "run" / "history.csv"
+        history = file.read_bytes()
+        self.assertIn("run/history.csv exists and is no page of a run; --overwrite replaces it", self.report("run", "--out", "run/history.csv", status=1))
+        self.assertEqual(file.read_bytes(), history)
+        self.assertIn("run/solution cannot be written: it is a folder", self.report("run", "--out", "run/solution", status=1))
+        page = self.folder / "page.html"
+        page.write_text("of someone else")
+        self.report("run", "--out", "page.html", "--overwrite")
+        self.report("run", "--out", "page.html")
+        before = page.read_bytes()
+        self.assertIn(b"<!DOCTYPE html>", before[:20])
+        self.assertEqual(self.report("run", "--out", "page.html", status=3, preexec_fn=limit_files), "report: error: page.html: File too large\n")
+        self.assertEqual(page.read_bytes(), before)
 
     def test_damaged_files(self):
         for name, file, damage, message in (
