@@ -36,7 +36,13 @@ class DocsSite(ProgramTest):
 
     def test_site(self):
         site = self.folder / "site"
+        beside = self.folder / "docs-pages" / "kept.txt"
+        beside.parent.mkdir()
+        beside.write_text("kept", encoding="utf-8")
         self.make("--out", site)
+        # Nothing beside it is touched, and nothing is left there.
+        self.assertEqual(beside.read_text(encoding="utf-8"), "kept")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["docs-pages", "site"])
         self.has(site / "doc" / "parameters" / "damping.html", "Stiffness coefficient", "alpha_K [s] of Rayleigh damping", "critical damping at 5 Hz",
                  '<span class="na"> Frequencies </span>', "shaken_mast")
         self.has(site / "doc" / "physics.html", "MathJax.js", r"\zeta = \frac{\alpha_M}{2 \omega} + \frac{\alpha_K \omega}{2}",
@@ -55,6 +61,7 @@ class DocsSite(ProgramTest):
         (other / "kept.txt").write_text("kept", encoding="utf-8")
         self.assertIn("no site", self.make("--out", other, status=1).stderr)
         self.assertEqual((other / "kept.txt").read_text(encoding="utf-8"), "kept")
+        self.assertIn("kept.txt is a file, and no site", self.make("--out", other / "kept.txt", status=1).stderr)
 
     def check_in_browser(self, site):
         browser = Browser()
