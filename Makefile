@@ -12,8 +12,10 @@ QUICK ?=
 # no: `make docs` leaves out the gallery, whose cases take most of its time.
 GALLERY ?= yes
 
-# Where results of the case are by default. The page of an earlier run there is no result that the program replaces.
-OUTPUT = output/$(basename $(notdir $(PRM)))
+# Names may have spaces: recipes have that of the case from their environment.
+export PRM
+# Where results of the case are by default. The page of an earlier run is removed: that of another run must not stay there.
+SET_OUTPUT = name=$${PRM\#\#*/}; output=output/$${name%.*}
 
 .PHONY: help run report test verify bench docs format check clean
 
@@ -31,17 +33,17 @@ help:
 run:
 	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
 	  cmake --build --preset release --target corotet'
-	@rm -f $(OUTPUT)/report.html
-	@$(TOOLCHAIN) build/release/corotet $(PRM) --set "Output/Overwrite = true" $(ARGUMENTS)
+	@$(SET_OUTPUT); rm -f "$$output/report.html"
+	@$(TOOLCHAIN) build/release/corotet "$$PRM" --set "Output/Overwrite = true" $(ARGUMENTS)
 
 # A run whose computation failed, or that was stopped, has a page, too.
 report:
 	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
 	  cmake --build --preset release --target corotet'
-	@rm -f $(OUTPUT)/report.html
-	@status=0; \
-	  $(TOOLCHAIN) build/release/corotet $(PRM) --output $(OUTPUT) --set "Output/Overwrite = true" $(ARGUMENTS) || status=$$?; \
-	  case $$status in 0 | 2 | 4) $(TOOLCHAIN) scripts/report $(OUTPUT) || exit ;; esac; \
+	@$(SET_OUTPUT); rm -f "$$output/report.html"
+	@$(SET_OUTPUT); status=0; \
+	  $(TOOLCHAIN) build/release/corotet "$$PRM" --output "$$output" --set "Output/Overwrite = true" $(ARGUMENTS) || status=$$?; \
+	  case $$status in 0 | 2 | 4) $(TOOLCHAIN) scripts/report "$$output" || exit ;; esac; \
 	  exit $$status
 
 test:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Options that answer instead of running, and --validate."""
+"""Options that answer instead of running, and --validate; how make starts the program; parameter files as XML."""
 
 import fcntl
 import json
@@ -11,10 +11,11 @@ import pty
 import re
 import struct
 import subprocess
+import sys
 import termios
 import unittest
 
-from support import CASES, ROOT, ProgramTest
+from support import CASES, ROOT, ProgramTest, limit_files
 
 
 class CommandLine(ProgramTest):
@@ -114,6 +115,49 @@ class CommandLine(ProgramTest):
     def test_quiet(self):
         run = self.run_program(ROOT / "parameters" / "gravity_linear.prm", "--quiet", "--output", "results")
         self.assertEqual(run.stdout, "")
+
+    def test_make(self):
+        """make hands over names with spaces and quotes as they are, and touches no other folder; in place of the toolchain a script shows its words."""
+        toolchain = self.folder / "toolchain"
+        toolchain.write_text("""#!/bin/sh\nprintf '[%s]' "$@"\necho\n""", encoding="utf-8")
+        toolchain.chmod(0o755)
+        for name, more in (("my case", ["--output", "output/my case"]), ("it's \"one\" case.v2", ["--output", "output/it's \"one\" case.v2"])):
+            own, other = self.folder / "output" / name / "report.html", self.folder / "output" / "my" / "case" / "report.html"
+            for target, output in (("run", []), ("report", more)):
+                for page in (own, other):
+                    page.parent.mkdir(parents=True, exist_ok=True)
+                    page.write_text("a page")
+                run = subprocess.run(["make", "-s", "-f", ROOT / "Makefile", "TOOLCHAIN=./toolchain", target, f"PRM=some cases/{name}.prm"], cwd=self.folder,
+                                     capture_output=True, text=True, check=False)
+                self.assertEqual((run.returncode, run.stderr), (0, ""))
+                words = ["build/release/corotet", f"some cases/{name}.prm", *output, "--set", "Output/Overwrite = true"]
+                self.assertIn("".join(f"[{word}]" for word in words), run.stdout.splitlines())
+                if output:
+                    self.assertEqual(run.stdout.splitlines()[-1], f"[scripts/report][{output[-1]}]")
+                self.assertEqual((own.exists(), other.exists()), (False, True))
+
+    def to_xml(self, *words, status=0, **others):
+        command = [sys.executable, "-B", ROOT / "scripts" / "parameters_to_xml", "--program", os.environ["COROTET_PROGRAM"], *words]
+        run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False, **others)
+        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (status, 1 if status else 0), run.stderr)
+        return run.stderr
+
+    def test_parameters_to_xml(self):
+        """Parameter files in XML are replaced, files of others if that is wanted, and an old one stays where a new one cannot be written whole."""
+        case = self.folder / "case.prm"
+        case.write_text("set Type = modes\n", encoding="utf-8")
+        self.assertIn("case.prm exists and is no parameter file in XML; --overwrite replaces it", self.to_xml("case.prm", "--out", "case.prm", status=1))
+        self.assertEqual(case.read_text(encoding="utf-8"), "set Type = modes\n")
+        self.to_xml("case.prm", "--out", "case.xml")
+        before = (self.folder / "case.xml").read_bytes()
+        self.assertIn(b"<value>modes</value>", before)
+        self.assertEqual(self.to_xml("--out", "case.xml", status=3, preexec_fn=limit_files), "parameters_to_xml: error: case.xml: File too large\n")
+        self.assertEqual((self.folder / "case.xml").read_bytes(), before)
+        self.to_xml("--out", "case.xml")
+        self.assertNotEqual((self.folder / "case.xml").read_bytes(), before)
+        self.to_xml("--out", "case.prm", "--overwrite")
+        self.assertIn("no_where does not exist", self.to_xml("--out", "no_where/case.xml", status=1))
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["case.prm", "case.xml"])
 
 
 if __name__ == "__main__":
