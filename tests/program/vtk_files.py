@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonDataModel import VTK_LAGRANGE_TETRAHEDRON, VTK_QUADRATI
 from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from support import ROOT, ProgramTest, parameter_text
+from support import ROOT, ProgramTest, limit_files, parameter_text
 
 sys.path.insert(0, str(ROOT / "scripts"))
 
@@ -166,6 +166,13 @@ class VtkFiles(ProgramTest):
         file.write_text('<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid><Piece NumberOfPoints="1000000000000" NumberOfCells="1">'
                         '</Piece></UnstructuredGrid></VTKFile>', encoding="ascii")
         self.refuse(file)
+
+    def test_full_disk(self):
+        """What is said of it is for the program, with the status of the machine's mistakes."""
+        write(two_cubes(3, VTK_LAGRANGE_TETRAHEDRON), self.folder / "part.vtu", [])
+        run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "read_vtk", "part.vtu", "part.msh"], cwd=self.folder, capture_output=True, text=True,
+                             check=False, preexec_fn=limit_files)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (3, "part.msh: File too large\n", ""))
 
     def test_no_python(self):
         """Without Python the files of VTK cannot be read; it is said what is missing."""
