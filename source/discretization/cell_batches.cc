@@ -31,8 +31,8 @@ namespace corotet
   void
   Nodes::make_batches()
   {
-    cell_batches   = std::make_unique<CellBatches>(*this);
-    nodes_of_cells = {};
+    cell_batches = std::make_unique<CellBatches>(*this);
+    std::vector<unsigned int>().swap(nodes_of_cells);
   }
 
   CellNodes

@@ -185,6 +185,8 @@ namespace corotet
     const auto release_values = [&] {
       if (assembled)
         assembled->release_values();
+      else if (!motions)
+        A.release_matrix();
     };
     if (solver == "direct")
       {

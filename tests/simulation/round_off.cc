@@ -210,10 +210,13 @@ TEST_P(LinearStatics, IsCarriedBySupport)
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
   ASSERT_EQ(steps.size(), 4u);
-  EXPECT_NEAR(steps[1].max_displacement, 0.1, slender * 0.1);
-  EXPECT_LE(distance_from(beam.recorder().displacement, 0), slender * 0.1);
+  // Forces of cells that are crushed at the support do not count: solves go on
+  // until nothing but their round-off is left.
+  constexpr double exact = 1e-6 * slender;
+  EXPECT_NEAR(steps[1].max_displacement, 0.1, exact * 0.1);
+  EXPECT_LE(distance_from(beam.recorder().displacement, 0), exact * 0.1);
   for (const StepRecord &step : steps)
-    EXPECT_EQ(step.newton_iterations, 1u);
+    EXPECT_LE(step.newton_iterations, 3u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers,
@@ -224,6 +227,38 @@ INSTANTIATE_TEST_SUITE_P(Solvers,
                            std::erase(name, '-');
                            return name;
                          });
+
+// A plate that is let go in long steps: at the guess for the first one, the
+// accelerations of the fastest waves make forces that are 1e8 times those of
+// the solution. A part of them is no tolerance.
+TEST(RoundOff, ForcesOfAGuessDoNotCount)
+{
+  for (const std::string solver : {"automatic", "direct"})
+    {
+      CompleteRun plate(
+        box_mesh("1, 0.02, 0.3", "10, 1, 3") +
+        section("Discretization", {{"Degree", 3}}) +
+        material_text(2e11, 0.3, 7800) + material_type("linear") +
+        fixed("x-min") + initial_conditions("0; 0.01 * x^2; 0", "0; 0; 0") +
+        time_integration("Newmark", 0.02, 0.01) + linear_solver(solver));
+      ASSERT_EQ(plate.run(), "");
+      const StepRecord &last   = plate.recorder().steps.back();
+      const double      energy = last.kinetic_energy + last.elastic_energy;
+      // This method keeps the energy: the solver's tolerance is left.
+      EXPECT_LE(std::abs(last.energy_balance), 1e-8 * energy) << solver;
+    }
+}
+
+// Springs that are gone at the end: nothing resists the weight any more, and
+// round-off of ever larger displacements is no excuse for a residual.
+TEST(RoundOff, NothingResists)
+{
+  CompleteRun body(box_mesh("1, 1, 1", "3, 3, 3") + fixed("") +
+                   gravity("0; 0; -9.81") +
+                   supports("z-min: 1e6*(1-t); 1e6*(1-t); 1e6*(1-t)") +
+                   statics(2, 1) + linear_solver("direct"));
+  EXPECT_NE(body.run(), "");
+}
 
 // A beam of a thickness of 1 / 3,750 of its length: its residual cannot fall
 // below some 1e-7 of the forces, for whatever solver.

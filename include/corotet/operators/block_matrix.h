@@ -175,7 +175,7 @@ namespace corotet
     void
     release_values()
     {
-      values = {};
+      std::vector<double>().swap(values);
     }
 
     void

@@ -58,6 +58,16 @@ namespace corotet
     const BlockMatrix &
     matrix() const;
 
+    /// Gives back the memory of the matrix' numbers until the next call of
+    /// matrix() or other_matrix().
+    void
+    release_matrix() const
+    {
+      if (assembled)
+        assembled->release_values();
+      is_assembled = false;
+    }
+
     /**
      * The matrix of cells that @p update writes to the object that is behind
      * matrix(), and @p stiffness_factor times the stiffness of the vertices'
