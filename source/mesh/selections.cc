@@ -17,7 +17,19 @@ namespace corotet
 
 
 
-    // Which members have an id that a name means.
+    bool
+    is_meant(const NamedSets &named, const unsigned int id)
+    {
+      return std::any_of(
+        named.sets.begin(), named.sets.end(), [&](const auto &set) {
+          return std::binary_search(set.second.begin(), set.second.end(), id);
+        });
+    }
+
+
+
+    // Which members have an id that a name means. @p unnamed: of those that
+    // have no name, unless a selection means them.
     template <typename Id>
     std::function<std::vector<bool>(const std::string &)>
     by_name(const std::string &kind,
@@ -30,8 +42,9 @@ namespace corotet
       return [=, &named](const std::string &name) {
         NamedSets                 known = named;
         std::vector<unsigned int> used;
+        const bool                has_unnamed = is_meant(named, unnamed);
         for (std::size_t i = 0; i < n; ++i)
-          if (id(i) != unnamed)
+          if (id(i) != unnamed || has_unnamed)
             used.push_back(id(i));
         known.restrict_to(used);
         const std::vector<unsigned int> ids =
@@ -75,15 +88,7 @@ namespace corotet
           mesh.boundaries.add(name, chosen, ids);
         },
         log);
-      const bool is_meant =
-        std::any_of(mesh.boundaries.sets.begin(),
-                    mesh.boundaries.sets.end(),
-                    [&](const auto &set) {
-                      return std::binary_search(set.second.begin(),
-                                                set.second.end(),
-                                                unnamed);
-                    });
-      if (!is_meant)
+      if (!is_meant(mesh.boundaries, unnamed))
         std::erase_if(mesh.faces, [&](const SerialMesh::Face &face) {
           return face.boundary == unnamed;
         });

@@ -150,6 +150,16 @@ namespace
     const SerialMesh all = with(mesh, "all: sphere 0 0 0 9");
     EXPECT_NEAR(tests::area(all, "all"), 10, 1e-13);
 
+    // What had no name keeps it for later selections.
+    const SerialMesh later = with(
+      part,
+      "sides: not top, same: sides, upper: not sides, some: same and normal 1 0 0, most: sides and not some");
+    EXPECT_NEAR(tests::area(later, "sides"), 8, 1e-13);
+    EXPECT_NEAR(tests::area(later, "same"), 8, 1e-13);
+    EXPECT_NEAR(tests::area(later, "upper"), 2, 1e-14);
+    EXPECT_NEAR(tests::area(later, "some"), 1, 1e-14);
+    EXPECT_NEAR(tests::area(later, "most"), 7, 1e-13);
+
     // A cap of a sphere, as seen from outside: 2 pi (1 - cos 30 degrees).
     const double cap   = 2 * std::numbers::pi * (1 - std::sqrt(0.75));
     const auto   round = with(sphere(),
