@@ -146,7 +146,7 @@ namespace corotet::abaqus
     else if (keyword.name == "END INSTANCE")
       end_instance();
     else if (keyword.name == "ELSET" || keyword.name == "NSET")
-      target_of_set();
+      begin_set();
     else if (keyword.name == "SURFACE")
       begin_surface();
     else if (keyword.name != "ASSEMBLY" && keyword.name != "END ASSEMBLY" &&

@@ -87,6 +87,14 @@ namespace corotet::abaqus
     std::vector<std::uint32_t> &
     target_of_set();
 
+    // A set of nodes may be that of the nodes of a set of elements.
+    void
+    begin_set();
+
+    // What a word of a line of data means, by its number or as a set.
+    std::vector<std::uint32_t>
+    members_of(const std::string &word, const Place &place);
+
     void
     add_to_set(const std::vector<std::string> &words, const Place &place);
 

@@ -80,39 +80,90 @@ namespace corotet::abaqus
 
 
   void
+  Reader::begin_set()
+  {
+    std::vector<std::uint32_t> &target = target_of_set();
+    if (keyword.name != "NSET" || !keyword.has("ELSET"))
+      return;
+    const Place       place  = keyword.place;
+    const std::string name   = keyword.needed("ELSET");
+    const auto [scope, what] = scope_and_name(name, place);
+    const Model &of          = current_model();
+    const auto  *elements    = scope->element_sets.find(what);
+    if (elements == nullptr)
+      place.refuse("there is no set of elements '" + shortened(name) +
+                   "' before this line");
+    std::vector<std::uint32_t> nodes;
+    for (const std::uint32_t e : *elements)
+      {
+        const Element &element = of.elements[e];
+        const auto     first   = of.element_nodes.begin() + element.first;
+        spend(element.kind.n_nodes, place);
+        nodes.insert(nodes.end(), first, first + element.kind.n_nodes);
+      }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    target.insert(target.end(), nodes.begin(), nodes.end());
+  }
+
+
+
+  std::vector<std::uint32_t>
+  Reader::members_of(const std::string &word, const Place &place)
+  {
+    const bool  of_elements = keyword.name == "ELSET";
+    const auto *own         = of_elements ?
+                                scope_of_members(place).element_sets.find(word) :
+                                scope_of_members(place).node_sets.find(word);
+    // Names of sets may have a point, too.
+    const auto [scope, name] = own != nullptr ?
+                                 std::pair(&scope_of_members(place), word) :
+                                 scope_and_name(word, place);
+    const auto &known        = of_elements ? scope->elements : scope->nodes;
+    const auto &sets = of_elements ? scope->element_sets : scope->node_sets;
+    const std::string what = of_elements ? "element" : "node";
+    if (const auto number = whole_number(name))
+      {
+        const auto found = known.find(*number);
+        if (found == known.end())
+          place.refuse(fmt::format("there is no {} {}",
+                                   what,
+                                   name == word ? name : shortened(word)));
+        return {found->second};
+      }
+    const auto *set = sets.find(name);
+    if (set == nullptr)
+      place.refuse(fmt::format("there is no {} and no set of {}s "
+                               "'{}' before this line",
+                               what,
+                               what,
+                               shortened(word)));
+    spend(set->size(), place);
+    return *set;
+  }
+
+
+
+  void
   Reader::add_to_set(const std::vector<std::string> &words, const Place &place)
   {
-    const bool        of_elements = keyword.name == "ELSET";
-    const Scope      &from        = scope_of_members(place);
-    const auto       &known       = of_elements ? from.elements : from.nodes;
-    const auto       &sets = of_elements ? from.element_sets : from.node_sets;
-    const std::string what = of_elements ? "element" : "node";
     std::vector<std::uint32_t> members;
     if (keyword.has("GENERATE"))
       {
-        members = generated(words, known, place);
+        const Scope &from = scope_of_members(place);
+        members =
+          generated(words,
+                    keyword.name == "ELSET" ? from.elements : from.nodes,
+                    place);
         spend(members.size(), place);
       }
     else
       for (const std::string &word : words)
-        if (const auto number = whole_number(word))
+        if (!word.empty())
           {
-            const auto found = known.find(*number);
-            if (found == known.end())
-              place.refuse(fmt::format("there is no {} {}", what, *number));
-            members.push_back(found->second);
+            const auto more = members_of(word, place);
+            members.insert(members.end(), more.begin(), more.end());
           }
-        else if (const auto *set = sets.find(word))
-          {
-            spend(set->size(), place);
-            members.insert(members.end(), set->begin(), set->end());
-          }
-        else if (!word.empty())
-          place.refuse(fmt::format("there is no {} and no set of {}s "
-                                   "'{}' before this line",
-                                   what,
-                                   what,
-                                   shortened(word)));
     std::vector<std::uint32_t> &target = target_of_set();
     target.insert(target.end(), members.begin(), members.end());
   }

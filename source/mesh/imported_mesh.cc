@@ -152,9 +152,10 @@ namespace corotet
           for (const unsigned int i : places.faces[face.number])
             state[nodes[i]] = on_face;
         }
-      // Most sets are whole faces.
-      if (std::find(state.begin(), state.end(), inside) == state.end())
-        return result;
+      std::set<std::array<unsigned int, 2>> edges_of_faces;
+      for (const ImportedFace &face : result.faces)
+        for (unsigned int k = 0; k < 3; ++k)
+          edges_of_faces.insert(ascending_ends(face[k], face[(k + 1) % 3]));
       for (const SurfaceFace &face : surface)
         for (unsigned int e = 0; e < 6; ++e)
           {
@@ -163,11 +164,7 @@ namespace corotet
             const auto         &of_edge = places.edges[e];
             if (a == face.number || b == face.number ||
                 !is_whole(nodes, of_edge) ||
-                std::all_of(of_edge.begin(),
-                            of_edge.end(),
-                            [&](const unsigned int i) {
-                              return state[nodes[i]] == on_face;
-                            }))
+                edges_of_faces.contains(ascending_ends(nodes[a], nodes[b])))
               continue;
             result.edges.insert(ascending_ends(nodes[a], nodes[b]));
             for (const unsigned int i : of_edge)

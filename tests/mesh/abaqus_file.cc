@@ -14,6 +14,7 @@
 #include <set>
 
 #include "mesh/tools.h"
+#include "mesh/two_cubes.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -172,6 +173,75 @@ TEST_F(AbaqusFile, PartsAndInstances)
   EXPECT_NEAR(area(mesh, "two.foot"), 0.5, 1e-14);
   // (1, 0, 0) goes to (10, 1, 0).
   EXPECT_LT(mesh.vertices[6].distance(dealii::Point<3>(10, 1, 0)), 1e-14);
+}
+
+// "instance.member", also where a set of the assembly has a point in its name.
+TEST_F(AbaqusFile, MembersOfInstances)
+{
+  const std::string start =
+    "*PART, NAME=block\n" + nodes + cells +
+    "*NSET, NSET=foot-1\n10, 20, 30\n*END PART\n"
+    "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one, PART=block\n*END INSTANCE\n"
+    "*INSTANCE, NAME=two, PART=block\n10., 0, 0\n*END INSTANCE\n";
+  const SerialMesh mesh =
+    read(start + "*NSET, NSET=held\none.foot-1, Two.20, TWO.30, two.10\n"
+                 "*NSET, NSET=one.foot-1\ntwo.foot-1, two.50\n"
+                 "*NSET, NSET=again\none.foot-1\n"
+                 "*ELSET, ELSET=both\none.7, two.Body\n");
+  EXPECT_NEAR(area(mesh, "held"), 1, 1e-14);
+  EXPECT_NEAR(area(mesh, "again"), 0.5 + std::sqrt(0.75), 1e-14);
+  EXPECT_NEAR(volume(mesh, "both"), 1 / 6. + 0.5, 1e-14);
+  EXPECT_EQ(message(start + "*NSET, NSET=a\ntwo.12\n"),
+            "part.inp:22: there is no node two.12");
+  EXPECT_EQ(message(start + "*NSET, NSET=a\ntwo.hand\n"),
+            "part.inp:22: there is no node and no set of nodes 'two.hand' "
+            "before this line");
+}
+
+// A set of the nodes of elements.
+TEST_F(AbaqusFile, NodesOfElements)
+{
+  const std::string start =
+    nodes + cells +
+    "*ELSET, ELSET=one\n7\n*ELEMENT, TYPE=S3, ELSET=side\n"
+    "11, 20, 30, 40\n";
+  const SerialMesh mesh = read(start + "*NSET, NSET=of one, ELSET=one\n"
+                                       "*NSET, NSET=of side, ELSET=SIDE\n50\n");
+  // Three right triangles with legs of 1, and three faces of the other cell.
+  EXPECT_NEAR(area(mesh, "of one"), 1.5, 1e-14);
+  EXPECT_NEAR(area(mesh, "of side"), 1.5 * std::sqrt(3.), 1e-14);
+  EXPECT_EQ(message(start + "*NSET, NSET=a, ELSET=two\n"),
+            "part.inp:15: there is no set of elements 'two' before this line");
+}
+
+// An edge whose ends are on faces of the set, but which is on none of these,
+// is in the set as well: here between the sides x = 0 and the triangle at z =
+// 0, and to a node that is alone.
+TEST_F(AbaqusFile, EdgesBetweenFacesOfASet)
+{
+  const std::string text =
+    "*NODE\n" + two_cubes::node_lines([](const int number, const auto &x) {
+      return fmt::format("{}, {}\n", number, fmt::join(x, ", "));
+    }) +
+    "*ELEMENT, TYPE=C3D4\n" +
+    two_cubes::element_lines(
+      [](const int number, const int, const std::vector<int> &of_element) {
+        return of_element.size() < 4 ?
+                 "" :
+                 fmt::format("{}, {}\n", number, fmt::join(of_element, ", "));
+      });
+  // Of the side x = 0: 1, 4, 7, 10; of the side z = 0: 2, 3, 6.
+  const SerialMesh both = read(text + "*NSET, NSET=s\n1, 4, 7, 10, 2, 3, 6\n");
+  EXPECT_NEAR(area(both, "s"), 1.5, 1e-14);
+  ASSERT_EQ(both.edges.size(), 1u);
+  EXPECT_EQ(both.vertices[both.edges[0].vertices[0]][0] +
+              both.vertices[both.edges[0].vertices[1]][0],
+            1);
+  EXPECT_TRUE(both.corners.empty());
+  const SerialMesh one = read(text + "*NSET, NSET=s\n1, 4, 7, 10, 2\n");
+  EXPECT_EQ(one.edges.size(), 1u);
+  // Whole faces have no edges besides.
+  EXPECT_TRUE(read(text + "*NSET, NSET=s\n1, 4, 7, 10\n").edges.empty());
 }
 
 TEST_F(AbaqusFile, IncludedFiles)

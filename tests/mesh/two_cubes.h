@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_mesh_two_cubes_h
+#define corotet_tests_mesh_two_cubes_h
+
+#include <fmt/format.h>
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+/**
+ * Two unit cubes side by side in x, of six tetrahedra each, and of two
+ * triangles each the sides at x = 0 and x = 2, for the text of a mesh file.
+ */
+namespace corotet::tests::two_cubes
+{
+  constexpr std::array<std::array<int, 3>, 12> nodes{{{{0, 0, 0}},
+                                                      {{1, 0, 0}},
+                                                      {{2, 0, 0}},
+                                                      {{0, 1, 0}},
+                                                      {{1, 1, 0}},
+                                                      {{2, 1, 0}},
+                                                      {{0, 0, 1}},
+                                                      {{1, 0, 1}},
+                                                      {{2, 0, 1}},
+                                                      {{0, 1, 1}},
+                                                      {{1, 1, 1}},
+                                                      {{2, 1, 1}}}};
+
+  using Numbers = std::vector<int>;
+
+  /// Nodes, which count from one: the four triangles, then the twelve
+  /// tetrahedra.
+  inline const std::vector<Numbers> elements{{1, 4, 10},
+                                             {1, 7, 10},
+                                             {3, 6, 12},
+                                             {3, 12, 9},
+                                             {1, 2, 5, 11},
+                                             {1, 2, 11, 8},
+                                             {1, 4, 11, 5},
+                                             {1, 4, 10, 11},
+                                             {1, 7, 8, 11},
+                                             {1, 7, 11, 10},
+                                             {2, 3, 6, 12},
+                                             {2, 3, 12, 9},
+                                             {2, 5, 12, 6},
+                                             {2, 5, 11, 12},
+                                             {2, 8, 9, 12},
+                                             {2, 8, 12, 11}};
+
+  /// The text that @p line gives for each node.
+  inline std::string
+  node_lines(
+    const std::function<std::string(int, const std::array<int, 3> &)> &line)
+  {
+    std::string result;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      result += line(static_cast<int>(i) + 1, nodes[i]);
+    return result;
+  }
+
+  /// The same for each element: its number, which cube it belongs to (0 or 1),
+  /// and its nodes.
+  inline std::string
+  element_lines(
+    const std::function<std::string(int, int, const Numbers &)> &line)
+  {
+    std::string result;
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      result +=
+        line(static_cast<int>(e) + 1,
+             e < 4 ? static_cast<int>(e) / 2 : static_cast<int>(e - 4) / 6,
+             elements[e]);
+    return result;
+  }
+} // namespace corotet::tests::two_cubes
+
+#endif
