@@ -285,13 +285,19 @@ namespace corotet
     catch (const nlohmann::json::exception &error)
       {
         // "[...] parse error at line 3, column 5: reason"
-        const std::string text = error.what();
-        std::smatch       match;
-        const bool        found = std::regex_search(
-          text, match, std::regex("at line ([0-9]+), column [0-9]+: (.*)"));
-        refuse_statement(found ? path + ":" + match[1].str() : path,
-                         "it is no valid JSON: " +
-                           shortened(found ? match[2].str() : text, 200));
+        const std::string text  = error.what();
+        const std::string start = "at line ";
+        const std::size_t line  = text.find(start);
+        const std::size_t comma = text.find(", column ", line);
+        const std::size_t colon = text.find(": ", comma);
+        const bool        found = line != std::string::npos &&
+                           comma != std::string::npos &&
+                           colon != std::string::npos;
+        const std::size_t number = line + start.size();
+        refuse_statement(
+          found ? path + ":" + text.substr(number, comma - number) : path,
+          "it is no valid JSON: " +
+            shortened(found ? text.substr(colon + 2) : text, 200));
       }
     if (!tree.is_object())
       refuse_statement(path, "it must be one JSON object, {...}");

@@ -215,7 +215,11 @@ namespace corotet::abaqus
       triangle("(S|DS|STRI|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DC2D|AC2D)(3|6|65)"
                "[A-Z]*"),
       line("(T2D|T3D|DC1D|AC1D|R2D)(2|3)[A-Z]*|(B2|B3|PIPE2|PIPE3)(1|2)[A-Z]*");
-    std::smatch found;
+    // The matching of longer ones could fill the stack.
+    constexpr std::size_t most = 40;
+    std::smatch           found;
+    if (type.size() > most)
+      return {};
     if (std::regex_match(type, found, tetrahedron))
       return {Shape::tetrahedron, found[2] == "4" ? 4U : 10U};
     if (std::regex_match(type, found, triangle))

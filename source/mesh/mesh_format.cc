@@ -239,8 +239,10 @@ namespace corotet
               last        = std::move(line);
             }
         }
+      // The matching of longer lines could fill the stack.
+      constexpr std::size_t   most = 100;
       static const std::regex whole("[+-]\\d+ \\d+");
-      if (!has_shapes || !before_last.ends_with('*') ||
+      if (!has_shapes || last.size() > most || !before_last.ends_with('*') ||
           !std::regex_match(last, whole))
         throw InputError("",
                          path + ": the file does not end with a shape behind "

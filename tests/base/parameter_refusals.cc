@@ -100,6 +100,12 @@ TEST(ParameterFile, RefusesBrokenJson)
   Example           example;
   const std::string message = example.refusal("a.json", "{\n\"Material\" 3}");
   EXPECT_EQ(message.rfind("a.json:2: it is no valid JSON: ", 0), 0) << message;
+  // However long what was read last is.
+  const std::string start = "{\n\"Material\": \"";
+  const std::string far_away =
+    example.refusal("a.json", start + std::string(1'000'000, 'x') + "\" y}");
+  EXPECT_EQ(far_away.rfind("a.json:2: it is no valid JSON: ", 0), 0);
+  EXPECT_LT(far_away.size(), 400u);
   EXPECT_EQ(example.refusal("a.json", "[]"),
             "a.json: it must be one JSON object, {...}");
   EXPECT_EQ(example.refusal("a.json", R"({"Material": {"Density": [1]}})"),

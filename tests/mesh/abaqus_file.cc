@@ -296,6 +296,13 @@ TEST_F(AbaqusFile, Refusals)
     {nodes + "*ELEMENT, TYPE=C3D4\n1, 10, 20, 30, 41\n",
      ":9: there is no node 41"},
     {nodes + cells + "7, 10, 20, 30, 40\n", ":11: element 7 is there already"},
+    {nodes + "*ELEMENT, TYPE=C3D4" + std::string(1'000'000, 'A') +
+       "\n1,10,20,30,40\n",
+     ": cells other than tetrahedra: found 1 of the type 'C3D4" +
+       std::string(281, 'A') +
+       "... (1000020 characters); allowed are C3D4 and C3D10 with their "
+       "variants, and triangles and lines, which give their names to faces and "
+       "nodes"},
     {nodes + cells + "*NSET, NSET=a\n12\n", ":12: there is no node 12"},
     {nodes + cells + "*ELSET, ELSET=a\nbodi\n",
      ":12: there is no element and no set of elements 'bodi' before this line"},

@@ -286,6 +286,15 @@ TEST(FileMesh, Refusals)
               (folder / "cut.brep") + ": the file does not end with a shape "
                                       "behind those of TShapes: is the rest "
                                       "missing?");
+  // The end of a line is as long as any.
+  EXPECT_EQ(refusal([&] {
+              read_file(folder.write("long.brep",
+                                     bytes.str() + "*\n+" +
+                                       std::string(1'000'000, '1') + " 0\n"));
+            }),
+            (folder / "long.brep") + ": the file does not end with a shape "
+                                     "behind those of TShapes: is the rest "
+                                     "missing?");
 
   const std::string open = folder / "open.step";
   write_shapes(open, [] {
