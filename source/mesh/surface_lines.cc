@@ -8,8 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 namespace corotet::surface_files
 {
@@ -28,6 +31,103 @@ namespace corotet::surface_files
       const auto [end, error] =
         std::from_chars(word.data(), word.data() + word.size(), number);
       return error == std::errc() && end == word.data() + word.size();
+    }
+
+
+
+    // A polygon in its plane: twice the area of triangles of it, positive if
+    // they turn as the polygon does.
+    class FlatPolygon
+    {
+    public:
+      FlatPolygon(const TriangleSurface           &surface,
+                  const std::vector<unsigned int> &corners)
+      {
+        dealii::Tensor<1, 3> normal;
+        for (std::size_t i = 2; i < corners.size(); ++i)
+          normal += dealii::cross_product_3d(surface.vertices[corners[i - 1]] -
+                                               surface.vertices[corners[0]],
+                                             surface.vertices[corners[i]] -
+                                               surface.vertices[corners[0]]);
+        unsigned int axis = 0;
+        for (unsigned int d = 1; d < 3; ++d)
+          if (std::abs(normal[d]) > std::abs(normal[axis]))
+            axis = d;
+        const unsigned int a = (axis + 1) % 3, b = (axis + 2) % 3;
+        for (const unsigned int v : corners)
+          points.push_back({{surface.vertices[v][normal[axis] < 0 ? b : a],
+                             surface.vertices[v][normal[axis] < 0 ? a : b]}});
+      }
+
+      double
+      area(const std::size_t i, const std::size_t j, const std::size_t k) const
+      {
+        const auto &[x, y] = points[i];
+        return (points[j][0] - x) * (points[k][1] - y) -
+               (points[j][1] - y) * (points[k][0] - x);
+      }
+
+      bool
+      is_convex() const
+      {
+        const std::size_t n = points.size();
+        for (std::size_t i = 0; i < n; ++i)
+          if (area(i, (i + 1) % n, (i + 2) % n) < 0)
+            return false;
+        return true;
+      }
+
+      // Whether a triangle of three corners that follow each other, of those
+      // that are left, is inside of the polygon.
+      bool
+      is_ear(const std::vector<std::size_t> &left,
+             const std::size_t               i,
+             const std::size_t               j,
+             const std::size_t               k) const
+      {
+        return area(i, j, k) > 0 &&
+               std::none_of(left.begin(), left.end(), [&](const auto p) {
+                 return points[p] != points[i] && points[p] != points[j] &&
+                        points[p] != points[k] && area(i, j, p) >= 0 &&
+                        area(j, k, p) >= 0 && area(k, i, p) >= 0;
+               });
+      }
+
+    private:
+      std::vector<std::array<double, 2>> points;
+    };
+
+
+
+    // Triangles of a polygon, by its corners: those that share the first or, if
+    // it is not convex, ears that are cut off one after another.
+    std::vector<std::array<std::size_t, 3>>
+    triangles_of(const FlatPolygon &polygon, const std::size_t n)
+    {
+      // Cutting takes the cube of the number at worst.
+      constexpr std::size_t                   most = 1000;
+      std::vector<std::array<std::size_t, 3>> result;
+      std::vector<std::size_t>                left(n);
+      std::iota(left.begin(), left.end(), std::size_t(0));
+      const bool has_ears = n > 3 && n <= most && !polygon.is_convex();
+      for (bool is_cut = has_ears; is_cut && left.size() > 3;)
+        {
+          is_cut = false;
+          for (std::size_t i = 0; i < left.size() && !is_cut; ++i)
+            {
+              const std::size_t m      = left.size();
+              const std::size_t before = left[(i + m - 1) % m], own = left[i],
+                                next = left[(i + 1) % m];
+              if (!polygon.is_ear(left, before, own, next))
+                continue;
+              result.push_back({{before, own, next}});
+              left.erase(left.begin() + i);
+              is_cut = true;
+            }
+        }
+      for (std::size_t i = 2; i < left.size(); ++i)
+        result.push_back({{left[0], left[i - 1], left[i]}});
+      return result;
     }
   } // namespace
 
@@ -143,9 +243,10 @@ namespace corotet::surface_files
               const std::vector<unsigned int> &corners,
               const unsigned int               group)
   {
-    for (std::size_t i = 2; i < corners.size(); ++i)
+    const FlatPolygon polygon(surface, corners);
+    for (const auto &[i, j, k] : triangles_of(polygon, corners.size()))
       {
-        surface.triangles.push_back({{corners[0], corners[i - 1], corners[i]}});
+        surface.triangles.push_back({{corners[i], corners[j], corners[k]}});
         surface.groups.push_back(group);
       }
   }

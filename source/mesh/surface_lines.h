@@ -84,8 +84,8 @@ namespace corotet::surface_files
   void
   read_off(const std::string &bytes, TriangleSurface &surface);
 
-  /// Adds the triangles of a polygon: its corners, of which there are at least
-  /// three.
+  /// Adds the triangles of a polygon in a plane: its corners, of which there
+  /// are at least three, whose vertices the surface has already.
   void
   add_polygon(TriangleSurface                 &surface,
               const std::vector<unsigned int> &corners,

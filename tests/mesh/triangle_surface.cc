@@ -90,6 +90,59 @@ namespace
 
 
 
+  // An L and a comb, extruded, whose ends are polygons that are not convex,
+  // from any of their corners on.
+  TEST_F(SurfaceFiles, ConcavePolygons)
+  {
+    const std::vector<std::pair<std::vector<std::array<int, 2>>, double>> ends{
+      {{{{0, 0}}, {{2, 0}}, {{2, 1}}, {{1, 1}}, {{1, 2}}, {{0, 2}}}, 3},
+      {{{{0, 0}},
+        {{5, 0}},
+        {{5, 2}},
+        {{4, 2}},
+        {{4, 1}},
+        {{3, 1}},
+        {{3, 2}},
+        {{2, 2}},
+        {{2, 1}},
+        {{1, 1}},
+        {{1, 2}},
+        {{0, 2}}},
+       8}};
+    for (const auto &[corners, area] : ends)
+      for (std::size_t first = 0; first < corners.size(); ++first)
+        {
+          const std::size_t n = corners.size();
+          std::string       text, bottom, top, sides;
+          for (const int z : {0, 1})
+            for (const auto &[x, y] : corners)
+              text += fmt::format("v {} {} {}\n", y, z, x);
+          for (std::size_t i = 0; i < n; ++i)
+            {
+              const std::size_t own = (first + i) % n, next = (own + 1) % n;
+              bottom = fmt::format(" {}", own + 1) + bottom;
+              top += fmt::format(" {}", own + 1 + n);
+              sides += fmt::format("f {} {} {} {}\n",
+                                   own + 1,
+                                   next + 1,
+                                   next + 1 + n,
+                                   own + 1 + n);
+            }
+          TriangleSurface surface =
+            read_triangle_file(folder.write("prism.obj",
+                                            text + "f" + bottom + "\nf" + top +
+                                              "\n" + sides),
+                               MeshFormat::obj);
+          EXPECT_EQ(surface.triangles.size(), 4 * n - 4);
+          mend_surface(surface);
+          EXPECT_NO_THROW(check_intersections(surface));
+          EXPECT_TRUE(surface.remarks.empty());
+          EXPECT_NEAR(volume_inside(surface), area, 1e-14);
+        }
+  }
+
+
+
   // Polygons, indices from the end, names of several kinds.
   TEST_F(SurfaceFiles, NamesOfObj)
   {

@@ -35,8 +35,8 @@ namespace corotet
 
   /**
    * The triangles of a file of the format STL (ASCII or binary), PLY (ASCII or
-   * binary), OBJ or OFF; of polygons with more corners those that share the
-   * first. Names are those of solids (STL) or of objects, groups and materials
+   * binary), OBJ or OFF; polygons with more corners are cut into triangles.
+   * Names are those of solids (STL) or of objects, groups and materials
    * (OBJ). Throws InputError that names file and line.
    */
   TriangleSurface
