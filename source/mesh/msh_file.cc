@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "msh_nodes.h"
@@ -33,11 +34,12 @@ namespace corotet
       const std::vector<MshNode> &nodes;
     };
 
-    // Corners of the box around what has one id.
+    // Corners of the box around what has one id, and its number as an entity.
     struct Extent
     {
       Point<3> low, high;
       bool     is_empty = true;
+      int      tag      = 0;
 
       void
       add(const Point<3> &x)
@@ -59,20 +61,45 @@ namespace corotet
       std::map<unsigned int, std::vector<int>> groups_of_id;
       std::map<int, std::string>               names;
 
-      // gmsh's tags are positive.
-      static int
-      tag(const unsigned int id)
+      // gmsh's tags are positive: here in the order of the ids, which may be
+      // any.
+      int
+      tag(const unsigned int id) const
       {
-        return static_cast<int>(id) + 1;
+        return extents.at(id).tag;
+      }
+
+      void
+      number()
+      {
+        int last = 0;
+        for (auto &[id, extent] : extents)
+          extent.tag = ++last;
+      }
+
+      // A number that no id is.
+      int
+      free_group(int &last) const
+      {
+        while (extents.contains(++last))
+          ;
+        return last;
       }
 
       // Ids are those of groups, so that those without a name are known by the
-      // same number again. Names of several ids are further groups.
+      // same number again; gmsh has no group 0, which gets its number for a
+      // name. Names of several ids are further groups.
       void
       add_groups(const NamedSets &named)
       {
-        int next =
-          1 + (extents.empty() ? 0 : static_cast<int>(extents.rbegin()->first));
+        constexpr unsigned int largest = std::numeric_limits<int>::max();
+        // Behind all ids, if there is room for all that may be needed.
+        int last = 0;
+        if (!extents.empty() &&
+            extents.rbegin()->first < largest - extents.size() - 1 &&
+            named.sets.size() <
+              largest - extents.size() - 1 - extents.rbegin()->first)
+          last = static_cast<int>(extents.rbegin()->first);
         const auto add =
           [&](const std::string &name, const int group, const auto &ids) {
             // Files have no way to write a quotation mark.
@@ -93,7 +120,7 @@ namespace corotet
         std::set<unsigned int> in_sets;
         for (const auto &[name, ids] : named.sets)
           {
-            add(name, next++, ids);
+            add(name, free_group(last), ids);
             in_sets.insert(ids.begin(), ids.end());
           }
         for (const auto &[id, extent] : extents)
@@ -103,7 +130,10 @@ namespace corotet
               found == named.names.end() ? "" : found->second;
             if (name.empty() && in_sets.contains(id))
               continue;
-            add(name, id > 0 ? static_cast<int>(id) : next++, std::vector{id});
+            const bool is_group = id > 0 && id <= largest;
+            add(is_group || !name.empty() ? name : std::to_string(id),
+                is_group ? static_cast<int>(id) : free_group(last),
+                std::vector{id});
           }
       }
     };
@@ -127,6 +157,8 @@ namespace corotet
           all[1].extents[edge.id].add(x[v]);
       for (const SerialMesh::Corner &corner : mesh.corners)
         all[0].extents[corner.id].add(x[corner.vertex]);
+      for (Entities &entities : all)
+        entities.number();
       all[3].add_groups(mesh.regions);
       all[2].add_groups(mesh.boundaries);
       all[1].add_groups(mesh.edge_names);
@@ -187,7 +219,7 @@ namespace corotet
       for (unsigned int dimension = 1; dimension < 4; ++dimension)
         for (const auto &[id, extent] : all[dimension].extents)
           {
-            fmt::format_to(text, "{}", Entities::tag(id));
+            fmt::format_to(text, "{}", all[dimension].tag(id));
             for (const Point<3> &x : {extent.low, extent.high})
               fmt::format_to(text, " {} {} {}", x[0], x[1], x[2]);
             write_groups(text, all[dimension], id);
@@ -217,6 +249,7 @@ namespace corotet
                  const Elements    &all,
                  const Id          &id_of,
                  const ElementType &type,
+                 const Entities    &entities,
                  const MshNodes    &nodes,
                  std::size_t       &tag)
     {
@@ -228,7 +261,7 @@ namespace corotet
           fmt::format_to(text,
                          "{} {} {} {}\n",
                          type.dimension,
-                         Entities::tag(id),
+                         entities.tag(id),
                          type.type,
                          members.size());
           for (const std::size_t i : members)
@@ -255,10 +288,8 @@ namespace corotet
     Text        text(result);
     write_names(text, all);
     write_entities(text, all, mesh);
-    write_nodes(text,
-                nodes,
-                Entities::tag(
-                  all[3].extents.empty() ? 0 : all[3].extents.begin()->first));
+    // Those of all cells belong to the first volume.
+    write_nodes(text, nodes, 1);
     const std::size_t n = mesh.corners.size() + mesh.edges.size() +
                           mesh.faces.size() + mesh.cells.size();
     fmt::format_to(text,
@@ -278,6 +309,7 @@ namespace corotet
       mesh.edges,
       [](const SerialMesh::Edge &edge) { return edge.id; },
       {1, line_types[q], line_nodes[q]},
+      all[1],
       nodes,
       tag);
     write_blocks(
@@ -285,6 +317,7 @@ namespace corotet
       mesh.faces,
       [](const SerialMesh::Face &face) { return face.boundary; },
       {2, triangle_types[q], triangle_nodes[q]},
+      all[2],
       nodes,
       tag);
     write_blocks(
@@ -292,6 +325,7 @@ namespace corotet
       mesh.cells,
       [](const SerialMesh::Cell &cell) { return cell.region; },
       {3, tetrahedron_types[q], tetrahedron_nodes[q]},
+      all[3],
       nodes,
       tag);
     fmt::format_to(text, "$EndElements\n");

@@ -206,6 +206,32 @@ TEST(MshFile, NumbersWithoutNames)
   expect_the_same_again(mesh);
 }
 
+// Region and boundary 0, which gmsh has no groups for, and the largest numbers
+// that it has.
+TEST(MshFile, SmallestAndLargestNumbers)
+{
+  for (const unsigned int number : {0u, 1u, 2147483646u, 2147483647u})
+    {
+      SerialMesh mesh   = tests::box("1, 2, 3", "2, 2, 2");
+      mesh.regions      = {};
+      mesh.boundaries   = {};
+      const auto halves = mesh.cells.size() / 2;
+      for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+        mesh.cells[i].region = i < halves ? number : 5;
+      for (std::size_t i = 0; i < mesh.faces.size(); ++i)
+        mesh.faces[i].boundary = i % 2 == 0 ? number : 5;
+      for (NamedSets *named : {&mesh.regions, &mesh.boundaries})
+        named->names = {{number, ""}, {5, ""}};
+      std::vector<unsigned int *> regions;
+      for (SerialMesh::Cell &cell : mesh.cells)
+        regions.push_back(&cell.region);
+      SCOPED_TRACE(number);
+      expect_the_same_again(mesh);
+      mesh.regions.add("all", {0, 1, halves}, regions);
+      expect_the_same_again(mesh);
+    }
+}
+
 // Names of edges and corners that overlap, with and without names, of cells
 // of all degrees.
 TEST(MshFile, EdgesAndCorners)
