@@ -81,15 +81,30 @@ namespace corotet::gmsh_program
 
 
 
+    // The entities of a dimension, without those that repeat cells of others
+    // for neighbours of a partition.
+    gmsh::vectorpair
+    entities_without_ghosts(const int dimension)
+    {
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dimension);
+      std::erase_if(entities, [](const auto &entity) {
+        std::string type;
+        gmsh::model::getType(entity.first, entity.second, type);
+        return type.starts_with("Ghost");
+      });
+      return entities;
+    }
+
+
+
     // Those of each entity and type that there are.
     template <typename Types>
     std::vector<GmshModel::Elements>
     elements(const int dimension, const Types &types)
     {
       std::vector<GmshModel::Elements> result;
-      gmsh::vectorpair                 entities;
-      gmsh::model::getEntities(entities, dimension);
-      for (const auto &[dim, entity] : entities)
+      for (const auto &[dim, entity] : entities_without_ghosts(dimension))
         for (const int type : types)
           {
             std::vector<std::size_t> tags, nodes;
@@ -333,6 +348,14 @@ namespace corotet::gmsh_program
     std::vector<double>      parameters;
     gmsh::model::mesh::getNodes(tags, model.coordinates, parameters);
     model.node_tags.assign(tags.begin(), tags.end());
+    if (request.format == "geo")
+      {
+        // Which gmsh applies when it writes a file.
+        double factor = 1;
+        gmsh::option::getNumber("Mesh.ScalingFactor", factor);
+        for (double &x : model.coordinates)
+          x *= factor;
+      }
     return model;
   }
 } // namespace corotet::gmsh_program

@@ -28,6 +28,32 @@ namespace corotet
 
 
 
+    // The groups of one dimension. Those of the same name are one, with the id
+    // of the first.
+    std::vector<GmshModel::Group>
+    groups_of(const GmshModel &model, const int dimension)
+    {
+      std::vector<GmshModel::Group>      groups;
+      std::map<std::string, std::size_t> places;
+      for (const GmshModel::Group &group : model.groups)
+        if (group.dimension == dimension)
+          {
+            const auto [place, is_new] =
+              group.name.empty() ? std::pair(places.end(), true) :
+                                   places.emplace(group.name, groups.size());
+            if (is_new)
+              groups.push_back(group);
+            else
+              groups[place->second].entities.insert(
+                groups[place->second].entities.end(),
+                group.entities.begin(),
+                group.entities.end());
+          }
+      return groups;
+    }
+
+
+
     // An entity of one group has the group's id, and one of several has an id
     // that it shares with the entities of the same groups.
     PhysicalGroups
@@ -36,14 +62,13 @@ namespace corotet
       std::map<unsigned int, std::string>            names;
       std::map<int, std::set<unsigned int>>          groups_of_entity;
       std::map<std::set<unsigned int>, unsigned int> ids;
-      for (const GmshModel::Group &group : model.groups)
-        if (group.dimension == dimension)
-          {
-            names[group.id]                            = group.name;
-            ids[{static_cast<unsigned int>(group.id)}] = group.id;
-            for (const int entity : group.entities)
-              groups_of_entity[entity].insert(group.id);
-          }
+      for (const GmshModel::Group &group : groups_of(model, dimension))
+        {
+          names[group.id]                            = group.name;
+          ids[{static_cast<unsigned int>(group.id)}] = group.id;
+          for (const int entity : group.entities)
+            groups_of_entity[entity].insert(group.id);
+        }
       PhysicalGroups result;
       unsigned int   next = names.empty() ? 0 : names.rbegin()->first + 1;
       std::map<unsigned int, std::set<unsigned int>> meaning;
@@ -222,10 +247,8 @@ namespace corotet
       for (const GmshModel::Elements &elements : all)
         of_entity.emplace(elements.entity, &elements);
       NamedSets &named = dimension == 1 ? mesh.edge_names : mesh.corner_names;
-      for (const GmshModel::Group &group : model.groups)
+      for (const GmshModel::Group &group : groups_of(model, dimension))
         {
-          if (group.dimension != dimension)
-            continue;
           named.names[group.id]  = group.name;
           std::size_t n_left_out = 0;
           for (const int entity :
@@ -305,7 +328,8 @@ namespace corotet
     read_cells(mesh, model, nodes, kind, volumes);
     read_faces(mesh, model, nodes, surfaces);
     read_edges_and_corners(mesh, model, nodes);
-    if (kind.degree > 1)
+    // Cells that are straight may have more nodes in the file.
+    if (mesh.geometry_degree > 1)
       return mesh;
     std::set<unsigned int> curved;
     for (const int entity : model.curved_surfaces)

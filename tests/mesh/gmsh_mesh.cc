@@ -129,6 +129,43 @@ TEST(GmshMesh, ElementSize)
   expect_bricks(fine);
 }
 
+// gmsh scales what it writes.
+TEST(GmshMesh, ScalingFactor)
+{
+  const TemporaryFolder folder;
+  const SerialMesh      mesh =
+    read_gmsh(folder.write("box.geo",
+                           "SetFactory(\"OpenCASCADE\");\n"
+                           "Mesh.ScalingFactor = 0.5;\n"
+                           "Box(1) = {0, 0, 0, 1, 2, 3};\n"));
+  EXPECT_NEAR(total(region_volumes(mesh)), 6 / 8., 1e-12);
+}
+
+// Straight cells along a curved surface are remarked on, also if they have as
+// many nodes as curved ones.
+TEST(GmshMesh, StraightCellsOfTenNodes)
+{
+  const TemporaryFolder    folder;
+  std::vector<std::string> remarks[2];
+  for (const int order : {1, 2})
+    {
+      const std::string file = folder / "rod.msh";
+      write_shapes(file, [&] {
+        gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, 1, 1);
+        gmsh::model::occ::synchronize();
+        gmsh::option::setNumber("Mesh.MeshSizeMax", 0.4);
+        gmsh::option::setNumber("Mesh.SecondOrderLinear", 1);
+        gmsh::option::setNumber("Mesh.ElementOrder", order);
+        gmsh::model::mesh::generate(3);
+      });
+      const SerialMesh mesh = read_gmsh(file);
+      EXPECT_EQ(mesh.geometry_degree, 1u);
+      remarks[order - 1] = mesh.remarks;
+    }
+  EXPECT_EQ(remarks[0].size(), 1u);
+  EXPECT_EQ(remarks[0], remarks[1]);
+}
+
 // Without physical groups everything is region 0 and there are no boundaries.
 TEST(GmshMesh, NoPhysicalGroups)
 {

@@ -21,10 +21,11 @@ namespace corotet
   /**
    * The mesh that a model, whose parts fit together, consists of: physical
    * volumes become regions, physical surfaces boundaries, and physical curves
-   * and points names of edges and corners, with gmsh's names and ids. Without
-   * any physical volume all cells belong to region 0; if there are some,
-   * tetrahedra outside of them are left out with a remark, as gmsh does when it
-   * writes a file. Nodes that no element uses are dropped.
+   * and points names of edges and corners, with gmsh's names and ids. Groups of
+   * one dimension and name are one, with the id of the first. Without any
+   * physical volume all cells belong to region 0; if there are some, tetrahedra
+   * outside of them are left out with a remark, as gmsh does when it writes a
+   * file. Nodes that no element uses are dropped.
    *
    * Throws InputError that blames the file @p path if it has other cells than
    * tetrahedra of one degree, or nodes without coordinates. @p has_geometry:
