@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -279,24 +280,38 @@ namespace corotet
 
 
 
-  void
+  double
   check_msh(const std::string &path)
   {
-    const std::string text = content_of(path);
-    if (!text.starts_with("$MeshFormat"))
+    const std::string text   = content_of(path);
+    const std::string format = "$MeshFormat";
+    std::size_t       begin  = 0;
+    while (text.compare(begin, 9, "$Comments") == 0)
+      {
+        const std::size_t end = text.find("\n$EndComments", begin);
+        begin                 = text.find_first_not_of(" \t\r\n",
+                                       std::min(text.find('\n', end + 1),
+                                                text.size()));
+        if (end == std::string::npos || begin == std::string::npos)
+          break;
+      }
+    if (begin >= text.size() || text.compare(begin, format.size(), format) != 0)
       throw InputError("",
                        path + ": is no gmsh mesh: it must start with "
                               "'$MeshFormat'");
     for (const std::string section : {"MeshFormat", "Nodes", "Elements"})
       for (const std::string start : {"\n$", "\n$End"})
         if (section != "MeshFormat" || start != "\n$")
-          if (text.find(start + section) == std::string::npos)
+          if (text.find(start + section) == std::string::npos &&
+              (section != "Nodes" ||
+               text.find(start + "Parametric" + section) == std::string::npos))
             throw InputError("",
                              fmt::format("{}: is no whole gmsh mesh: found no "
                                          "'{}{}'",
                                          path,
                                          start.substr(1),
                                          section));
+    return std::strtod(text.c_str() + begin + format.size(), nullptr);
   }
 
 

@@ -12,6 +12,7 @@
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
 #include <corotet/mesh/hdf5_mesh.h>
+#include <corotet/mesh/mesh_readers.h>
 #include <corotet/mesh/spread_mesh.h>
 #include <corotet/mesh/surface_mesh.h>
 #include <corotet/mesh/vtk_file.h>
@@ -41,33 +42,39 @@ namespace corotet
 
 
 
-    // What gmsh reads or makes of it.
-    SerialMesh
-    mesh_by_gmsh(const GmshRequest &request)
+    // A file of VTK, as its script has written it again.
+    GmshModel
+    model_by_vtk(const GmshRequest &request)
     {
-      return mesh_of_model(run_gmsh(request),
-                           request.path,
-                           request.is_geometry);
+      const ScratchFolder folder;
+      const std::string   converted = folder.path("mesh.msh");
+      write_msh_of_vtk_file(request.path,
+                            converted,
+                            request.time_limit,
+                            request.time_limit_entry);
+      return read_msh_2(converted, true, request.path);
     }
 
 
 
-    // The same of a file of VTK.
-    SerialMesh
-    mesh_by_vtk(const GmshRequest &request)
+    // What we read of it or, of other formats, gmsh reads or makes. @p version:
+    // of gmsh's files.
+    GmshModel
+    model_of_file(const GmshRequest &request,
+                  const MeshFormat   format,
+                  const double       version)
     {
-      const ScratchFolder folder;
-      GmshRequest         converted = request;
-      converted.path                = folder.path("mesh.msh");
-      converted.format              = "msh";
-      converted.extension           = "";
-      write_msh_of_vtk_file(request.path,
-                            converted.path,
-                            request.time_limit,
-                            request.time_limit_entry);
-      return mesh_of_model(run_gmsh(converted, request.path),
-                           request.path,
-                           request.is_geometry);
+      if (format == MeshFormat::vtk)
+        return model_by_vtk(request);
+      if (format == MeshFormat::nastran)
+        return read_nastran(request.path);
+      if (format == MeshFormat::unv)
+        return read_unv(request.path);
+      if (format == MeshFormat::msh && version < 3)
+        return read_msh_2(request.path);
+      if (format == MeshFormat::medit)
+        check_medit(request.path);
+      return run_gmsh(request);
     }
 
 
@@ -194,8 +201,9 @@ namespace corotet
                    const unsigned int n_refinements) const
   {
     const auto [path, format] = checked_file(folder);
+    double version            = 0;
     if (format.format == MeshFormat::msh)
-      check_msh(path);
+      version = check_msh(path);
     else if (format.format == MeshFormat::geo)
       check_geo(path);
     else
@@ -222,10 +230,10 @@ namespace corotet
     SerialMesh mesh;
     if (format.is_surface)
       mesh = mesh_of_surface(request, format.format);
-    else if (format.format == MeshFormat::vtk)
-      mesh = mesh_by_vtk(request);
     else
-      mesh = mesh_by_gmsh(request);
+      mesh = mesh_of_model(model_of_file(request, format.format, version),
+                           path,
+                           format.is_geometry);
     mesh.n_refinements = request.n_refinements;
     return mesh;
   }

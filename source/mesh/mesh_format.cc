@@ -179,7 +179,8 @@ namespace corotet
       };
       const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
       if (begin != std::string::npos &&
-          bytes.compare(begin, 11, "$MeshFormat") == 0)
+          (bytes.compare(begin, 11, "$MeshFormat") == 0 ||
+           bytes.compare(begin, 9, "$Comments") == 0))
         return MeshFormat::msh;
       const std::string first =
         begin == std::string::npos ?

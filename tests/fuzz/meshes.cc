@@ -14,6 +14,7 @@
 #include <corotet/mesh/hdf5_mesh.h>
 #include <corotet/mesh/mesh.h>
 #include <corotet/mesh/mesh_format.h>
+#include <corotet/mesh/mesh_readers.h>
 #include <corotet/mesh/triangle_surface.h>
 
 #include <mpi.h>
@@ -37,13 +38,41 @@ namespace fuzz
           mesh, n_refinements, 1., MPI_COMM_SELF, log, degree);
       });
     }
+
+    // A mesh that one of our readers gives, if it does not refuse the file.
+    template <typename Read>
+    void
+    use_model(const std::string &path, const Read &read)
+    {
+      corotet::SerialMesh mesh;
+      if (is_accepted(
+            [&] { mesh = corotet::mesh_of_model(read(path), path, false); }))
+        use(mesh, 0, 2);
+    }
   } // namespace
 
+  // gmsh reads those of version 4.
   void
   read_mesh_file(const std::string &input)
   {
-    const std::string path = write("mesh.msh", input);
-    is_accepted([&] { corotet::check_msh(path); });
+    const std::string path    = write("mesh.msh", input);
+    double            version = 0;
+    if (is_accepted([&] { version = corotet::check_msh(path); }) && version < 3)
+      use_model(path, [&](const std::string &file) {
+        return corotet::read_msh_2(file, input.size() % 2 == 1);
+      });
+  }
+
+  void
+  read_nastran_file(const std::string &input)
+  {
+    use_model(write("part.bdf", input), corotet::read_nastran);
+  }
+
+  void
+  read_unv_file(const std::string &input)
+  {
+    use_model(write("part.unv", input), corotet::read_unv);
   }
 
   // Behind a line "//====" is a second file, part.geo, which the first may

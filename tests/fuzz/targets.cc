@@ -28,9 +28,11 @@ namespace fuzz
       {"hdf5_meshes", read_hdf5_file},
       {"lists", read_list},
       {"mesh_files", read_mesh_file},
+      {"nastran_files", read_nastran_file},
       {"parameters", read_parameters},
       {"surfaces", read_surface},
-      {"tables", read_table}};
+      {"tables", read_table},
+      {"unv_files", read_unv_file}};
     return all;
   }
 

@@ -50,11 +50,15 @@ namespace fuzz
   void
   read_mesh_file(const std::string &input);
   void
+  read_nastran_file(const std::string &input);
+  void
   read_parameters(const std::string &input);
   void
   read_surface(const std::string &input);
   void
   read_table(const std::string &input);
+  void
+  read_unv_file(const std::string &input);
 
   /// Whether @p action comes to its end without refusing its input.
   template <typename Action>

@@ -177,12 +177,18 @@ TEST(GmshProcess, TimeLimit)
 TEST(GmshProcess, MemoryLimit)
 {
   const TemporaryFolder folder;
-  const std::string start = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
-  const std::string file =
-    folder.write("x.msh",
-                 start + "2000000000\n$EndNodes\n$Elements\n0\n$EndElements\n");
-  const std::string message = message_of(file);
-  EXPECT_EQ(message.find(file + ": "), 0u) << message;
+  for (const std::string start :
+       {"4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2000000000 1 2000000000\n"
+        "3 1 0 2000000000\n",
+        "2.2 0 8\n$EndMeshFormat\n$Nodes\n2000000000\n"})
+    {
+      const std::string file =
+        folder.write("x.msh",
+                     "$MeshFormat\n" + start +
+                       "$EndNodes\n$Elements\n0\n$EndElements\n");
+      const std::string message = message_of(file);
+      EXPECT_EQ(message.find(file + ":"), 0u) << message;
+    }
 }
 
 // Bytes that are not as they were: a mesh, or a message about the file. Some of

@@ -104,6 +104,19 @@ class VtkFiles(ProgramTest):
                 self.assertEqual(self.volumes(file), ({"7": 1, "9": 1, "4": 1}, 12))
                 self.assertNotIn("curved", self.run_program("mesh", file).stdout)
 
+    def test_zero(self):
+        """0 is a number like others; without numbers all is one region, and triangles mean nothing."""
+        for numbers, expected in ((0, 1, 5), {"0": 1, "1": 1, "5": 1}), ((1, 2, 0), {"1": 1, "2": 1, "0": 1}), (None, {"0": 2}):
+            with self.subTest(numbers=numbers):
+                grid = two_cubes(1, VTK_TETRA)
+                grid.GetCellData().Initialize()
+                if numbers:
+                    array = numpy_to_vtk(np.repeat(np.array(numbers, dtype=np.int32), (6, 6, 2)), deep=True)
+                    array.SetName("region")
+                    grid.GetCellData().AddArray(array)
+                write(grid, self.folder / "zero.vtu", [])
+                self.assertEqual(self.volumes(self.folder / "zero.vtu"), (expected, 12))
+
     def test_any_name(self):
         for name in "text_4.vtk", "raw.vtu":
             write(two_cubes(1, VTK_TETRA), self.folder / name, FORMS[name])

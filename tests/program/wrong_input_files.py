@@ -49,7 +49,6 @@ def mesh_rows():
             ("duplicate nodes", mesh([GOOD, (4, 1, 1, 5, 7, 6, 8)], (*NODES[:4], (1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 1, 1))), "duplicate nodes"),
             ("pyramid", mesh([(7, 1, 1, 1, 2, 3, 4, 5)]), "cells other than tetrahedra", "'Pyramid 5'"),
             ("triangle beside the body", mesh([GOOD, (2, 2, 1, 1, 2, 5)]), "which is no face of a cell"),
-            ("face of two boundaries", mesh([GOOD, (2, 2, 1, 1, 2, 3), (2, 3, 2, 1, 2, 3)], groups=((2, 2, "a"), (2, 3, "b"))), "boundaries 'a' and 'b'"),
             ("empty file", "", "must start with"), ("text", "tetrahedra, please\n", "must start with"),
             ("bytes", bytes(range(256)) * 20, "must start with"), ("unknown version", mesh([GOOD], version="7.3"), "x.msh"),
             ("cut off", GOOD_MESH[:GOOD_MESH.index("$EndElements") - 8], "$EndElements"), ("no elements", GOOD_MESH.split("$Elements")[0], "$Elements"),

@@ -9,11 +9,12 @@
 namespace corotet
 {
   /**
-   * Refuses a .msh that is not a whole one, before gmsh sees it: it must start
-   * with '$MeshFormat' and have all of '$Nodes' and '$Elements'. Throws
+   * Refuses a .msh that is not a whole one, before it is read: it must start
+   * with '$MeshFormat', or comments before it, and have all of '$Nodes', or
+   * '$ParametricNodes', and '$Elements'. Returns its version. Throws
    * InputError, and MachineError if it cannot be read.
    */
-  void
+  double
   check_msh(const std::string &path);
 
   /**

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_source_mesh_model_builder_h
+#define corotet_source_mesh_model_builder_h
+
+#include <corotet/mesh/gmsh_model.h>
+
+#include <deal.II/base/point.h>
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace corotet
+{
+  /// A type of gmsh's elements.
+  struct GmshType
+  {
+    int          dimension;
+    unsigned int n_nodes;
+    std::string  name;
+  };
+
+  /// By gmsh's numbers.
+  const std::map<int, GmshType> &
+  gmsh_types();
+
+
+
+  /**
+   * Makes a GmshModel of nodes and elements, for files that we read ourselves.
+   * Elements may be in any number of groups, each by itself: those of one
+   * dimension that are in the same groups become one entity.
+   */
+  class ModelBuilder
+  {
+  public:
+    void
+    add_node(const std::uint64_t tag, const dealii::Point<3> &x);
+
+    /// Returns its number. @p type: of those in gmsh_types(), with its @p nodes
+    /// in gmsh's order.
+    std::size_t
+    add_element(const int type, const std::span<const std::uint64_t> nodes);
+
+    std::size_t
+    n_elements() const
+    {
+      return elements.size();
+    }
+
+    int
+    dimension(const std::size_t element) const
+    {
+      return gmsh_types().at(elements[element].type).dimension;
+    }
+
+    /// @p group: of those of its dimension, 0 or more.
+    void
+    add_to_group(const std::size_t element, const int group);
+
+    bool
+    has_group(const std::size_t element) const
+    {
+      return elements[element].combination != 0;
+    }
+
+    void
+    name_group(const int dimension, const int group, const std::string &name)
+    {
+      names[{dimension, group}] = name;
+    }
+
+    /// Elements of the same type and nodes become one, in the groups of all of
+    /// them: some programs write an element once for each of its groups. Those
+    /// that are in the same group twice are left as they are.
+    void
+    join_copies();
+
+    GmshModel
+    model() const;
+
+  private:
+    struct Element
+    {
+      int           type;
+      std::uint32_t combination;
+      std::size_t   first_node;
+    };
+
+    std::span<const std::uint64_t>
+    nodes_of(const Element &element) const
+    {
+      return {nodes.data() + element.first_node,
+              gmsh_types().at(element.type).n_nodes};
+    }
+
+    // Whether there are the same nodes, in any order.
+    bool
+    are_copies(const Element &a, const Element &b) const;
+
+    // Adds the groups of a copy to an element; false if it is none, or is in
+    // the same group or in none.
+    bool
+    join(const std::size_t first, const std::size_t other);
+
+    std::vector<std::uint64_t>                 tags;
+    std::vector<double>                        coordinates;
+    std::vector<Element>                       elements;
+    std::vector<std::uint64_t>                 nodes;
+    std::map<std::pair<int, int>, std::string> names;
+    // Sorted; the first one is that of no group.
+    std::vector<std::vector<int>> combinations{{}};
+    // By a combination and the group that is added to it.
+    std::map<std::pair<std::uint32_t, int>, std::uint32_t> with_group;
+    std::map<std::vector<int>, std::uint32_t>              numbers{{{}, 0}};
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Groups of gmsh's files of version 2 and of universal files are those of their
+// elements, one by one, however entities, materials and numbers are. The
+// volumes and areas of two cubes and their sides are known.
+
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include "mesh/tools.h"
+#include "mesh/two_cubes.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  using two_cubes::Numbers;
+  using Known = std::vector<std::string>;
+
+  const std::string names_of_cubes =
+    "$PhysicalNames\n4\n2 1 \"left\"\n2 2 \"right\"\n3 3 \"A\"\n3 4 \"B\"\n"
+    "$EndPhysicalNames\n";
+
+  // Each element has the tags that @p tags gives for its dimension and its
+  // cube.
+  std::string
+  elements_of_cubes(const std::function<std::string(int, int)> &tags)
+  {
+    return two_cubes::element_lines(
+      [&](const int number, const int cube, const Numbers &nodes) {
+        const int dimension = static_cast<int>(nodes.size()) - 1;
+        return fmt::format("{} {} {} {}\n",
+                           number,
+                           dimension == 2 ? 2 : 4,
+                           tags(dimension, cube),
+                           fmt::join(nodes, " "));
+      });
+  }
+
+  std::string
+  msh_of_cubes(const std::string &elements,
+               const std::size_t  n_elements = 16,
+               const std::string &names      = names_of_cubes)
+  {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + "$Nodes\n12\n" +
+           two_cubes::node_lines([](const int number, const auto &x) {
+             return fmt::format("{} {}\n", number, fmt::join(x, " "));
+           }) +
+           "$EndNodes\n$Elements\n" + std::to_string(n_elements) + "\n" +
+           elements + "$EndElements\n";
+  }
+
+  // The physical group, of triangles 1 and 2, of tetrahedra 3 and 4.
+  int
+  group_of(const int dimension, const int cube)
+  {
+    return 1 + cube + (dimension == 3 ? 2 : 0);
+  }
+
+  void
+  expect_cubes(const SerialMesh  &mesh,
+               const std::string &a     = "A",
+               const std::string &b     = "B",
+               const std::string &left  = "left",
+               const std::string &right = "right")
+  {
+    EXPECT_EQ(mesh.cells.size(), 12u);
+    EXPECT_NEAR(volume(mesh, a), 1, 1e-14);
+    EXPECT_NEAR(volume(mesh, b), 1, 1e-14);
+    EXPECT_NEAR(area(mesh, left), 1, 1e-14);
+    EXPECT_NEAR(area(mesh, right), 1, 1e-14);
+    EXPECT_EQ(mesh.faces.size(), 4u);
+  }
+
+  // A universal file of two cubes. @p numbers: of the property and the
+  // material, for the dimension and the cube.
+  std::string
+  unv_of_cubes(const std::function<std::string(int, int)> &numbers,
+               const std::string                          &groups = "")
+  {
+    return "    -1\n  2411\n" +
+           two_cubes::node_lines([](const int number, const auto &x) {
+             return fmt::format("{:10}{:10}{:10}{:10}\n", number, 1, 1, 11) +
+                    fmt::format("{:25}{:25}{:25}\n",
+                                fmt::format("{}.0D+00", x[0]),
+                                fmt::format("{}.0D+00", x[1]),
+                                fmt::format("{}.0D+00", x[2]));
+           }) +
+           "    -1\n    -1\n  2412\n" +
+           two_cubes::element_lines(
+             [&](const int number, const int cube, const Numbers &nodes) {
+               const int dimension = static_cast<int>(nodes.size()) - 1;
+               return fmt::format("{:10}{:10} {} {:9}{:10}\n{}\n",
+                                  number,
+                                  dimension == 2 ? 41 : 111,
+                                  numbers(dimension, cube),
+                                  7,
+                                  nodes.size(),
+                                  fmt::join(nodes, " "));
+             }) +
+           "    -1\n" + groups;
+  }
+
+  // A group of elements, by their labels from @p first on.
+  std::string
+  unv_group(const int          number,
+            const std::string &name,
+            const int          first,
+            const int          n)
+  {
+    std::string result =
+      fmt::format("{:10} 0 0 0 0 0 0 {:9}\n{}\n", number, n, name);
+    for (int i = 0; i < n; ++i)
+      result +=
+        fmt::format("{:10}{:10} 0 0{}", 8, first + i, i % 2 == 1 ? "\n" : "");
+    return result + (n % 2 == 1 ? "\n" : "");
+  }
+
+  std::string
+  unv_groups(const std::string &dataset,
+             const std::string &left,
+             const std::string &a)
+  {
+    return "    -1\n  " + dataset + "\n" + unv_group(1, left, 1, 2) +
+           unv_group(2, "right", 3, 2) + unv_group(3, a, 5, 6) +
+           unv_group(4, "B", 11, 6) + "    -1\n";
+  }
+} // namespace
+
+// Entities of several physical groups; of the same numbers as other groups.
+TEST(GroupsOfFiles, ElementsOfOneEntity)
+{
+  const TemporaryFolder folder;
+  for (const int entity : {1, 3, 0})
+    expect_cubes(read_file(folder.write(
+      "cubes.msh",
+      msh_of_cubes(elements_of_cubes([&](const int dimension, const int cube) {
+        return fmt::format("2 {} {}", group_of(dimension, cube), entity);
+      })))));
+}
+
+// As gmsh writes groups that overlap: an element once for each. Negative
+// numbers turn elements over.
+TEST(GroupsOfFiles, CopiesOfElements)
+{
+  const TemporaryFolder folder;
+  const auto            of_groups = [](const int all, const int sign) {
+    return elements_of_cubes([=](const int dimension, const int cube) {
+      return fmt::format("2 {} 1",
+                         sign * (all > 0 ? all + dimension :
+                                                      group_of(dimension, cube)));
+    });
+  };
+  const SerialMesh mesh = read_file(
+    folder.write("cubes.msh",
+                 msh_of_cubes(of_groups(0, 1) + of_groups(10, -1), 32)));
+  expect_cubes(mesh);
+  EXPECT_NEAR(volume(mesh, "13"), 2, 1e-14);
+  EXPECT_NEAR(area(mesh, "12"), 2, 1e-14);
+  // Of the same group they are copies, which overlap.
+  const std::string twice =
+    folder.write("twice.msh",
+                 msh_of_cubes(of_groups(0, 1) + of_groups(0, 1), 32));
+  EXPECT_NE(refusal([&] { read_file(twice); }).find("overlap"),
+            std::string::npos);
+}
+
+// gmsh joins cells that are in several groups in files of both versions.
+TEST(GroupsOfFiles, OverlapInAllVersions)
+{
+  const TemporaryFolder folder;
+  for (const double version : {2.2, 4.1})
+    for (const int binary : {0, 1})
+      {
+        const std::string file = folder / "body.msh";
+        write_shapes(file, [&] {
+          using namespace gmsh::model;
+          occ::addBox(0, 0, 0, 1, 1, 1, 1);
+          occ::addBox(1, 0, 0, 2, 1, 1, 2);
+          gmsh::vectorpair              all;
+          std::vector<gmsh::vectorpair> parts;
+          occ::fragment({{3, 1}}, {{3, 2}}, all, parts);
+          occ::synchronize();
+          addPhysicalGroup(3, {1}, 1, "small");
+          addPhysicalGroup(3, {2}, 2, "large");
+          addPhysicalGroup(3, {1, 2}, 3, "all");
+          gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+          mesh::generate(3);
+          gmsh::option::setNumber("Mesh.MshFileVersion", version);
+          gmsh::option::setNumber("Mesh.Binary", binary);
+        });
+        const SerialMesh mesh = read_file(file);
+        EXPECT_NEAR(volume(mesh, "small"), 1, 1e-13) << version;
+        EXPECT_NEAR(volume(mesh, "large"), 2, 1e-13) << version;
+        EXPECT_NEAR(volume(mesh, "all"), 3, 1e-13) << version;
+      }
+}
+
+// Groups of one name are one, of all dimensions.
+TEST(GroupsOfFiles, TheSameName)
+{
+  const TemporaryFolder folder;
+  const std::string     names =
+    "$PhysicalNames\n4\n2 1 \"side\"\n2 2 \"side\"\n3 3 \"body\"\n"
+    "3 4 \"body\"\n$EndPhysicalNames\n";
+  const auto elements =
+    elements_of_cubes([](const int dimension, const int cube) {
+      return fmt::format("2 {0} {0}", group_of(dimension, cube));
+    });
+  const SerialMesh mesh =
+    read_file(folder.write("cubes.msh", msh_of_cubes(elements, 16, names)));
+  EXPECT_NEAR(volume(mesh, "body"), 2, 1e-14);
+  EXPECT_NEAR(area(mesh, "side"), 2, 1e-14);
+  EXPECT_EQ(MeshNames("region", mesh.regions).known(), Known{"body"});
+
+  const SerialMesh lines =
+    read_file(folder.write("lines.msh",
+                           msh_of_cubes(elements + "17 1 2 5 1 1 2\n"
+                                                   "18 1 2 6 1 2 3\n",
+                                        18,
+                                        "$PhysicalNames\n2\n1 5 \"rim\"\n"
+                                        "1 6 \"rim\"\n$EndPhysicalNames\n")));
+  EXPECT_EQ(MeshNames("edge", lines.edge_names).known(), Known{"rim"});
+  EXPECT_EQ(lines.edges.size(), 2u);
+}
+
+// What gmsh allows besides: comments before all, and nodes with their places on
+// the geometry.
+TEST(GroupsOfFiles, CommentsAndParameters)
+{
+  const TemporaryFolder folder;
+  const std::string     plain =
+    msh_of_cubes(elements_of_cubes([](const int dimension, const int cube) {
+      return fmt::format("2 {} 1", group_of(dimension, cube));
+    }));
+  for (const std::string name : {"cubes.msh", "a part"})
+    expect_cubes(read_file(
+      folder.write(name, "$Comments\n$Nodes\n$EndComments\n" + plain)));
+  std::string text = plain;
+  const auto  put  = [&](const std::string &old, const std::string &own) {
+    text.replace(text.find(old), old.size(), own);
+  };
+  put("$Nodes", "$ParametricNodes");
+  put("$EndNodes", "$EndParametricNodes");
+  const std::string on[]{" 0 1", " 1 1 0.5", " 2 1 0.5 0.25", " 3 1"};
+  for (int i = 0; i < 12; ++i)
+    {
+      const auto &x    = two_cubes::nodes[i];
+      const auto  line = fmt::format("\n{} {} {} {}", i + 1, x[0], x[1], x[2]);
+      put(line + "\n", line + on[i % 4] + "\n");
+    }
+  expect_cubes(read_file(folder.write("cubes.msh", text)));
+
+  const std::string later = folder / "box.msh";
+  write_shapes(later, [&] {
+    gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3);
+    gmsh::model::occ::synchronize();
+    gmsh::model::mesh::generate(3);
+  });
+  const std::string file =
+    folder.write("box.msh",
+                 "$Comments\n$EndComments\n" + folder.read("box.msh"));
+  EXPECT_NEAR(total(region_volumes(read_file(file))), 6, 1e-13);
+}
+
+// Cells that parts of a mesh have of their neighbours are no cells again.
+TEST(GroupsOfFiles, Partitions)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder / "parts.msh";
+  write_shapes(file, [&] {
+    gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3);
+    gmsh::model::occ::synchronize();
+    gmsh::model::addPhysicalGroup(3, {1}, 1, "body");
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+    gmsh::model::mesh::generate(3);
+    gmsh::option::setNumber("Mesh.PartitionCreateGhostCells", 1);
+    gmsh::model::mesh::partition(3);
+  });
+  const SerialMesh mesh = read_file(file);
+  EXPECT_NEAR(volume(mesh, "body"), 6, 1e-13);
+  EXPECT_TRUE(mesh.remarks.empty());
+}
+
+TEST(GroupsOfFiles, RefusalsOfVersion2)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder / "cubes.msh";
+  const auto plain = [](const int, const int) { return std::string("2 1 1"); };
+  const auto message = [&](const std::string &old, const std::string &own) {
+    std::string text = msh_of_cubes(elements_of_cubes(plain));
+    text.replace(text.find(old), old.size(), own);
+    folder.write("cubes.msh", text);
+    return refusal([&] { read_file(file); });
+  };
+  EXPECT_EQ(message("\n2 1 0 0", "\n2 1 x 0"),
+            file + ":14: a number is expected: found 'x'");
+  EXPECT_EQ(message("\n2 1 0 0", "\n2 1 nan 0"),
+            file + ":14: found the node 2 at (1, nan, 0); numbers of nodes are "
+                   "positive, and coordinates finite");
+  EXPECT_EQ(message("$Nodes\n12", "$Nodes\n13"),
+            file + ":25: a number is expected: found '$EndNodes'");
+  EXPECT_EQ(message("5 4 2 1", "5 77 2 1"),
+            file + ":32: found an element of gmsh's type 77; allowed are 4, 11 "
+                   "and 29, tetrahedra, with 2, 9, 21, 1, 8, 26 and 15 for "
+                   "names");
+  EXPECT_EQ(message("2 1 \"left\"", "2 1 left"),
+            file + ":6: found '2 1 left'; allowed is the dimension, the number "
+                   "and the name of a physical group: '3 1 \"body\"'");
+  EXPECT_EQ(message("2.2 0 8", "2.2 1 4"),
+            file + ":3: found the kind 1 with numbers of 4 bytes; allowed are "
+                   "0 for text and 1 for binary with 8");
+}
+
+// By datasets of I-deas and of Salome; names may have blanks, and numbers of
+// materials mean nothing where there are groups.
+TEST(GroupsOfFiles, Unv)
+{
+  const TemporaryFolder folder;
+  const auto ones = [](const int, const int) { return std::string("1 1"); };
+  for (const std::string dataset : {"2467", "2477", "2452"})
+    {
+      const SerialMesh mesh = read_file(folder.write(
+        "cubes.unv",
+        unv_of_cubes(ones, unv_groups(dataset, "left face", "part 1"))));
+      expect_cubes(mesh, "part 1", "B", "left face");
+      EXPECT_TRUE(mesh.remarks.empty());
+      EXPECT_EQ(MeshNames("region", mesh.regions).known(),
+                (Known{"part 1", "B"}));
+    }
+  // Groups may overlap; what is in none keeps its number.
+  const SerialMesh overlap = read_file(
+    folder.write("cubes.unv",
+                 unv_of_cubes(ones,
+                              "    -1\n  2467\n" + unv_group(1, "some", 5, 8) +
+                                unv_group(2, "others", 9, 3) + "    -1\n")));
+  EXPECT_NEAR(volume(overlap, "some"), 8 / 6., 1e-14);
+  EXPECT_NEAR(volume(overlap, "others"), 0.5, 1e-14);
+  EXPECT_NEAR(volume(overlap, "1"), 4 / 6., 1e-14);
+  EXPECT_EQ(overlap.cells.size(), 12u);
+}
+
+// Of materials or, if there is one, of properties.
+TEST(GroupsOfFiles, NumbersOfUnv)
+{
+  const TemporaryFolder folder;
+  for (const bool has_materials : {false, true})
+    expect_cubes(
+      read_file(folder.write(
+        "cubes.unv", unv_of_cubes([&](const int dimension, const int cube) {
+          const int number = group_of(dimension, cube);
+          return fmt::format(fmt::runtime(has_materials ? "1 {}" : "{} 1"),
+                             number);
+        }))),
+      "3",
+      "4",
+      "1",
+      "2");
+}
+
+TEST(GroupsOfFiles, RefusalsOfUnv)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder / "cubes.unv";
+  const auto message = [&](const std::string &old, const std::string &own) {
+    std::string text =
+      unv_of_cubes([](const int, const int) { return std::string("1 1"); });
+    text.replace(text.find(old), old.size(), own);
+    folder.write("cubes.unv", text);
+    return refusal([&] { read_file(file); });
+  };
+  // The first tetrahedron.
+  const std::string first = "         5       111";
+  EXPECT_EQ(message(first, "         5       114"),
+            file + ":38: cells other than tetrahedra with 4 or 10 nodes: found "
+                   "the type 114 with 4 nodes; allowed are 111 and 118");
+  EXPECT_EQ(message(first, "         5      tet4"),
+            file + ":38: a whole number is expected as word 2 of the line: "
+                   "found 'tet4'");
+  EXPECT_EQ(message("1 2 5 11\n", "1 2 5 -11\n"),
+            file + ":39: found -11; allowed is a positive whole number");
+  EXPECT_EQ(message("1 2 5 11\n", "1 2 5 111\n"),
+            file + ": an element has the node 111, which the file does not "
+                   "contain");
+  // Springs and the like are no cells.
+  EXPECT_EQ(message("    -1\n    -1\n", "    -1\n    -1\n"),
+            "nothing was refused");
+  folder.write("cubes.unv",
+               folder.read("cubes.unv") +
+                 "    -1\n  2412\n 99 136 1 1 7 2\n 1 2\n    -1\n");
+  EXPECT_EQ(read_file(file).remarks,
+            Known{"1 elements of the type 136 are left out"});
+}
