@@ -234,6 +234,11 @@ namespace corotet
       mesh = mesh_of_model(model_of_file(request, format.format, version),
                            path,
                            format.is_geometry);
+    if (format.format == MeshFormat::step)
+      if (const std::string unit = other_length_unit(path); !unit.empty())
+        mesh.remarks.push_back("coordinates are in millimetre: those of the "
+                               "file, in " +
+                               printable(unit) + ", have been converted");
     mesh.n_refinements = request.n_refinements;
     return mesh;
   }

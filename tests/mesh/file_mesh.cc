@@ -240,6 +240,34 @@ TEST(FileMesh, ShippedParts)
                 1e-9);
 }
 
+// OpenCASCADE makes millimetres of all units; what others there were is said.
+TEST(FileMesh, UnitOfStep)
+{
+  const TemporaryFolder folder;
+  write_shapes(folder / "box.step",
+               [] { gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3); });
+  const std::string text  = folder.read("box.step");
+  const std::string milli = "SI_UNIT(.MILLI.,.METRE.)";
+  for (const auto &[prefix, unit, factor] :
+       {std::tuple("$", "metre", 1000.),
+        std::tuple(".CENTI.", "centimetre", 10.)})
+    {
+      std::string other = text;
+      for (std::size_t i = other.find(milli); i != std::string::npos;
+           i             = other.find(milli))
+        other.replace(i,
+                      milli.size(),
+                      "SI_UNIT(" + std::string(prefix) + ",.METRE.)");
+      const SerialMesh mesh = read_file(folder.write("other.step", other));
+      EXPECT_NEAR(total(region_volumes(mesh)),
+                  6 * std::pow(factor, 3),
+                  1e-6 * std::pow(factor, 3));
+      EXPECT_EQ(mesh.remarks,
+                Known{"coordinates are in millimetre: those of the file, in " +
+                      std::string(unit) + ", have been converted"});
+    }
+}
+
 TEST(FileMesh, AbaqusByContent)
 {
   const TemporaryFolder folder;

@@ -40,6 +40,11 @@ namespace corotet
   /// prisms, pyramids, and negative references of triangles and tetrahedra.
   void
   check_medit(const std::string &path);
+
+  /// The unit of length of a STEP file, if it is another one than millimetre:
+  /// "inch". Empty if it is not, or the file has none.
+  std::string
+  other_length_unit(const std::string &path);
 } // namespace corotet
 
 #endif
