@@ -46,7 +46,8 @@ namespace corotet
       throw InputError(
         section + "Adaptive step/Enabled",
         fmt::format("found true; allowed with Type = {}, which estimate their "
-                    "error (Newmark not with beta = 1/6)",
+                    "error (Newmark not with beta = 1/6, or gamma other "
+                    "than 1/2)",
                     parameters.time_integrator.names_of(estimates_error)));
   }
 

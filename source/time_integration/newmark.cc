@@ -15,7 +15,8 @@ namespace corotet
       dealii::Patterns::Double(1e-3, 1));
     prm.add_parameter("Gamma",
                       gamma,
-                      "gamma [-]; above 0.5 it damps and is of first order.",
+                      "gamma [-]; above 0.5 it damps and is of first order. "
+                      "Above 2 beta, long steps are unstable.",
                       dealii::Patterns::Double(0.5, 1.5));
   }
 } // namespace corotet

@@ -35,6 +35,11 @@ namespace corotet
   NewmarkFamily::error_constant() const
   {
     const Coefficients c = coefficients();
+    // A method of first order has a larger error than the one that is
+    // estimated.
+    constexpr double round_off = 1e-12;
+    if (std::abs(c.gamma - (0.5 - c.alpha_m + c.alpha_f)) > round_off)
+      return 0;
     return std::abs(1. / 6 - c.beta - 0.5 * (c.alpha_m - c.alpha_f));
   }
 
