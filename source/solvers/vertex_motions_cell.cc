@@ -162,8 +162,8 @@ namespace corotet
   }
 
   // size / 4 times the sum over the vertices of |D w - D curl u / 2|^2, with D
-  // the determinant; @p length is what w is multiplied with. @p least resists
-  // rotations in any case: in crushed cells D is zero.
+  // the determinant; @p length is what w is multiplied with. @p least is
+  // what resists rotations in crushed cells, where D is zero.
   void
   VertexMotions::CellMatrix::add_springs(const V      size,
                                          const double length,
@@ -173,7 +173,8 @@ namespace corotet
     V determinant{};
     for (unsigned int a = 0; a < 3; ++a)
       determinant += cofactors[1][a] * (vertices[1][a] - vertices[0][a]);
-    determinant = determinant / length;
+    determinant    = determinant / length;
+    const V spring = 0.25 * size * determinant * determinant;
     // Y u = half the cofactor x u.
     Block Y[4]{};
     for (unsigned int i = 0; i < 4; ++i)
@@ -196,8 +197,7 @@ namespace corotet
                 A[i][j][a][3 + b] -= 0.25 * size * determinant * Y[i][b][a];
               }
             if (i == j)
-              A[i][j][3 + a][3 + a] +=
-                0.25 * size * determinant * determinant + least;
+              A[i][j][3 + a][3 + a] += spring < least ? least : spring;
           }
   }
 } // namespace corotet
