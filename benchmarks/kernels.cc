@@ -141,8 +141,7 @@ namespace corotet::benchmarks
                   rotations[cell].rotation[i][lane] = i % 4 == 0;
                 }
               constants[cell].volume[lane] = 1;
-              constants[cell].lambda[lane] = 1.5;
-              constants[cell].mu[lane]     = 1;
+              constants[cell].scale[lane]  = 1;
             }
       }
 
@@ -161,13 +160,15 @@ namespace corotet::benchmarks
               R[i / 3][i % 3] =
                 load_aligned<batch_size>(rotations[cell].rotation[i]);
             });
-            const V lambda = load_aligned<batch_size>(constants[cell].lambda);
-            const V mu     = load_aligned<batch_size>(constants[cell].mu);
+            const V scale  = load_aligned<batch_size>(constants[cell].scale);
+            const V volume = load_aligned<batch_size>(constants[cell].volume);
+            const V mu     = scale * scale / volume;
+            const V lambda = 1.5 * mu;
             typename Kernel::Geometry g;
             Kernel::load(constants[cell], g);
             Kernel::integrate(reference.stiffness_rule,
                               g,
-                              load_aligned<batch_size>(constants[cell].volume),
+                              volume,
                               u,
                               f,
                               [&](const unsigned int,

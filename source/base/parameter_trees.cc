@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -59,13 +60,20 @@ namespace corotet
       return i;
     }
 
+    // Of the tag whose name begins at @p start.
+    std::string
+    name_of_tag(const std::string &text, const std::size_t start)
+    {
+      return text.substr(start, text.find_first_of(" \t\r\n/>", start) - start);
+    }
+
     // Before the reader proper sees it, which takes from its stack for each
-    // level, and has no limit.
+    // level, has no limit, and does not look at the names of ends.
     void
     check_xml(const std::string &path, const std::string &text)
     {
-      int         depth      = 0;
-      std::size_t n_elements = 0;
+      std::vector<std::string> open;
+      std::size_t              n_elements = 0;
       for (std::size_t i = text.find('<'); i < text.size();
            i             = text.find('<', i))
         if (text.compare(i, 4, "<!--") == 0)
@@ -79,15 +87,28 @@ namespace corotet
           i = behind(text, i + 2, "?>");
         else if (text.compare(i, 2, "</") == 0)
           {
-            --depth;
+            const std::string name = name_of_tag(text, i + 2);
+            if (!open.empty() && name != open.back())
+              refuse_statement(
+                fmt::format("{}:{}",
+                            path,
+                            1 +
+                              std::count(text.begin(), text.begin() + i, '\n')),
+                fmt::format("it is no valid XML: found '</{}>', the end of "
+                                        "another element; allowed: '</{}>'",
+                            shortened(name),
+                            shortened(open.back())));
+            if (!open.empty())
+              open.pop_back();
             i = behind(text, i + 2, ">");
           }
         else
           {
-            i = end_of_tag(text, i + 1);
+            const std::string name = name_of_tag(text, i + 1);
+            i                      = end_of_tag(text, i + 1);
             if (text[i - 1] != '/')
-              ++depth;
-            if (depth > max_section_depth)
+              open.push_back(name);
+            if (open.size() > std::size_t(max_section_depth))
               refuse_as_too_deep(path);
             if (++n_elements > max_tree_entries)
               refuse_as_too_many(path);
@@ -137,6 +158,13 @@ namespace corotet
             }
           else
             {
+              const std::string text = dealii::Utilities::trim(node.data());
+              if (!text.empty())
+                refuse_statement(file,
+                                 fmt::format("found the text '{}' in \"{}\"; "
+                                             "allowed there are elements",
+                                             shortened(text),
+                                             name));
               add_statement(statements, {name, std::nullopt, file});
               collect(node, name, file, statements);
             }

@@ -5,6 +5,7 @@
 #include <corotet/discretization/nodes.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace corotet
 {
@@ -33,18 +34,10 @@ namespace corotet
   {
     cell_batches = std::make_unique<CellBatches>(*this);
     std::vector<unsigned int>().swap(nodes_of_cells);
-  }
-
-  CellNodes
-  Nodes::cell_nodes(const unsigned int cell) const
-  {
-    if (!cell_batches)
-      return {nodes_of_cells.data() +
-                static_cast<std::size_t>(cell) * n_cell_nodes,
-              1,
-              n_cell_nodes};
-    const auto [batch, lane] = cell_batches->place(cell);
-    return {cell_batches->nodes(batch) + lane, batch_size, n_cell_nodes};
+    static_assert(std::has_single_bit(batch_size));
+    nodes_of_batches = cell_batches->nodes(0);
+    n_filled_up      = cell_batches->n_owned_batches() * batch_size - n_owned;
+    log_batch_size   = std::countr_zero(batch_size);
   }
 
   CellBatches::CellBatches(const Nodes &nodes)

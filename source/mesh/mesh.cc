@@ -103,7 +103,11 @@ namespace corotet
     log_remarks(const std::vector<std::string> &remarks, Log &log)
     {
       for (const std::string &remark : remarks)
-        log.line("  " + remark);
+        {
+          log.line("  " + remark);
+          if (remark.starts_with("warning "))
+            log.count("warning", "warnings");
+        }
     }
 
 

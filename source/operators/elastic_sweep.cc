@@ -76,7 +76,7 @@ namespace corotet
     {
       using Quadrature           = QuadratureKernel<Kernel::n_nodes>;
       const CellConstants &cells = data.constants[batch];
-      const auto [lambda, mu]    = lame(cells);
+      const auto [lambda, mu]    = lame(data, batch);
       typename Quadrature::Geometry g;
       Quadrature::load(cells, g);
       static_for<3 * Kernel::n_nodes>(

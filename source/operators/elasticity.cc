@@ -62,11 +62,9 @@ namespace corotet
         const CellGeometry &geometry = discretization.geometry(c);
         CellConstants      &cells    = constants[batch];
         cells.volume[lane]           = geometry.volume;
-        cells.lambda[lane]           = dilatation ? 0. : material(c).lambda;
-        cells.mu[lane]               = material(c).mu;
         cells.scale[lane] = std::sqrt(material(c).mu * geometry.volume);
         cell_coefficients[batch].lame_ratio[lane] =
-          cells.lambda[lane] / material(c).mu;
+          dilatation ? 0. : material(c).lambda / material(c).mu;
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int a = 0; a < 3; ++a)
             {

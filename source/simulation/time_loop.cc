@@ -242,7 +242,7 @@ namespace corotet
       }
     catch (const ComputationError &error)
       {
-        const bool is_final = is_singular_for_good(error);
+        const bool is_final = is_unstable || is_singular_for_good(error);
         restore_state();
         if (halvings == 0 || is_final)
           {
@@ -295,7 +295,7 @@ namespace corotet
           {
             // A step that was accepted may have failed after that.
             adaptive = std::make_unique<AdaptiveStep>(known);
-            if (!adaptive->reduce(dt))
+            if (is_unstable || !adaptive->reduce(dt))
               {
                 restore_state();
                 throw;
@@ -378,7 +378,8 @@ namespace corotet
     const bool is_visible = record.max_displacement >
                             1e-3 * std::cbrt(budget->initial_record().volume);
     energy_supply = std::max(energy_supply, std::abs(record.external_work));
-    if (is_visible && energy > factor * energy_supply)
+    is_unstable   = is_visible && energy > factor * energy_supply;
+    if (is_unstable)
       throw ComputationError(fmt::format(
         "the motion is unstable: the energy is {:.3g} J, and {:.3g} "
         "J have been put in; the time step is too long",

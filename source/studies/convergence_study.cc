@@ -182,12 +182,12 @@ namespace corotet
     const StopSignals signals;
     for (const StudyCase &one : cases)
       {
-        stop_if_asked(results);
         log.progress(fmt::format("run {} of {}: {}",
                                  results.size() + 1,
                                  cases.size(),
                                  one.name()),
                      static_cast<double>(results.size()) / cases.size());
+        const unsigned int n_before = n_computed;
         try
           {
             results.push_back(result_of(one));
@@ -211,6 +211,9 @@ namespace corotet
           }
         // All that there is, if the study is killed.
         write(results, "unfinished", "");
+        // Each start of the program makes some of the way.
+        if (n_computed > n_before && results.size() < cases.size())
+          stop_if_asked(results);
       }
     remove_checkpoints(directory + "/rows/finer_run", comm);
     const std::string failures =
@@ -312,6 +315,7 @@ namespace corotet
     if (const auto kept = kept_result(path + ".json", problem, study_case))
       return *kept;
 
+    ++n_computed;
     StudyResult result = run->compute(path, command.restart, false);
     Json        file{{"problem", problem}};
     if (parameters.reference == StudyReference::finer_run)

@@ -26,8 +26,7 @@ namespace corotet
     if (is_study_of_modes)
       used.emplace_back("Modes");
     std::vector<std::string> lines = find_unused_entries(file, used);
-    if ((type == RunType::modes || is_study_of_modes) &&
-        parameters.checkpoint.wall_time_limit > 0)
+    if (type == RunType::modes && parameters.checkpoint.wall_time_limit > 0)
       lines.push_back(file.location("Checkpoint/Wall time limit") +
                       ": no effect on modes: \"Checkpoint/Wall time limit\"");
     return lines;

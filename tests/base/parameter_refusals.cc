@@ -122,6 +122,16 @@ TEST(ParameterFile, RefusesBrokenXml)
   Example           example;
   const std::string message = example.refusal("a.xml", "<a>\n<b></a>");
   EXPECT_EQ(message.rfind("a.xml:2: it is no valid XML: ", 0), 0) << message;
+  EXPECT_EQ(example.refusal("a.xml",
+                            "<ParameterHandler><Material>\n<Density>5"
+                            "</Densty></Material></ParameterHandler>"),
+            "a.xml:2: it is no valid XML: found '</Densty>', the end of "
+            "another element; allowed: '</Density>'");
+  EXPECT_EQ(example.refusal("a.xml",
+                            "<ParameterHandler><Material>5<Density>5"
+                            "</Density></Material></ParameterHandler>"),
+            "a.xml: found the text '5' in \"Material\"; allowed there are "
+            "elements");
   EXPECT_EQ(example.refusal("a.xml", "<a></a>"),
             "a.xml: it must have one outermost element, called "
             "ParameterHandler");

@@ -159,7 +159,21 @@ namespace corotet
 
     /// Those of local cell @p cell.
     CellNodes
-    cell_nodes(const unsigned int cell) const;
+    cell_nodes(const unsigned int cell) const
+    {
+      if (nodes_of_batches == nullptr)
+        return {nodes_of_cells.data() +
+                  static_cast<std::size_t>(cell) * n_cell_nodes,
+                1,
+                n_cell_nodes};
+      // Batches of ghost cells follow those of owned ones, which are filled up.
+      const unsigned int place = cell < n_owned ? cell : cell + n_filled_up;
+      const unsigned int lane  = place & ((1u << log_batch_size) - 1);
+      const std::size_t  first = place - lane;
+      return {nodes_of_batches + first * n_cell_nodes + lane,
+              1u << log_batch_size,
+              n_cell_nodes};
+    }
 
     dealii::types::global_dof_index
     n_global_nodes() const
@@ -253,6 +267,10 @@ namespace corotet
     std::unique_ptr<CellBatches> cell_batches;
 
   private:
+    /// Those of the batches, once there are any, and how to find a cell there.
+    const unsigned int *nodes_of_batches = nullptr;
+    unsigned int        n_filled_up      = 0;
+    unsigned int        log_batch_size   = 0;
     mutable std::map<std::type_index, std::shared_ptr<void>> work_spaces;
   };
 } // namespace corotet

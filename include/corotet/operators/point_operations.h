@@ -91,7 +91,7 @@ namespace corotet
     COROTET_ALWAYS_INLINE LameLanes
     lame() const
     {
-      return corotet::lame(constants);
+      return corotet::lame(data, batch);
     }
 
     COROTET_ALWAYS_INLINE decltype(auto)

@@ -31,9 +31,6 @@ namespace corotet
     double scale[batch_size];
     /// In m^3.
     double volume[batch_size];
-    /// Lamé's parameters [Pa].
-    double lambda[batch_size];
-    double mu[batch_size];
   };
 
   /// A number of each cell of a batch.
@@ -41,13 +38,6 @@ namespace corotet
                         lanes(const double *values)
   {
     return load_aligned<batch_size>(values);
-  }
-
-  /// Lamé's parameters of a batch.
-  COROTET_ALWAYS_INLINE LameLanes
-  lame(const CellConstants &constants)
-  {
-    return {lanes(constants.lambda), lanes(constants.mu)};
   }
 
   /// The terms of a linear form.
@@ -168,6 +158,18 @@ namespace corotet
     const CellMasses<double> *masses      = nullptr;
     double                    mass_factor = 0;
   };
+
+  /// Lamé's parameters of a batch [Pa], zeros in lanes without a cell.
+  COROTET_ALWAYS_INLINE LameLanes
+  lame(const ElasticData &data, const unsigned int batch)
+  {
+    const CellConstants &cells = data.constants[batch];
+    const Simd<double>   scale = lanes(cells.scale);
+    const Simd<double>   mu =
+      scale * scale /
+      (lanes(cells.volume) + std::numeric_limits<double>::min());
+    return {lanes(data.coefficients[batch].lame_ratio) * mu, mu};
+  }
 
   /**
    * The rotations of a batch, from the gradients before and after: R = sum_k

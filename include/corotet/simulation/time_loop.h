@@ -280,6 +280,10 @@ namespace corotet
     State  good_state;
     double good_done = 0;
 
+    /// Whether the motion has grown beyond bounds: shorter steps do not mend
+    /// what has grown before.
+    bool is_unstable = false;
+
     /// Number of equal steps; 0 if the run chooses their length. They begin
     /// with that step, when that part of the run is done: at the start, or
     /// where a run was restarted with other steps.

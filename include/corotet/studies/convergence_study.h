@@ -97,6 +97,8 @@ namespace corotet
     FieldNorms                             finer_norms;
     /// Empty if it has not failed.
     std::string failure_of_finer_run;
+    /// Of the runs that were not kept from an earlier start.
+    unsigned int n_computed = 0;
   };
 } // namespace corotet
 
