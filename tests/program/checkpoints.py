@@ -369,28 +369,6 @@ class Checkpoints(ProgramTest):
                 self.assertRegex(errors, f"^corotet: error: --set: {change.split(' = ')[0]}: --restart: {text}.*allowed.*\n$")
                 self.assertEqual((run.output / "history.csv").read_bytes(), before)
 
-    def test_signals(self):
-        reference, _ = self.undisturbed("generalized-alpha")
-        for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGTERM, 2)):
-            with self.subTest(number=number, ranks=ranks):
-                run = Run(self.folder / f"{number}_{ranks}", "generalized-alpha", 1)
-                process = run.start(ranks=ranks)
-                history = run.output / "history.csv"
-                while not history.exists() or history.read_text(encoding="utf-8").count("\n") < 8:
-                    time.sleep(0.005)
-                start = time.monotonic()
-                os.kill(run.processes()[-1], number)
-                _, errors = process.communicate(timeout=60)
-                self.assertLess(time.monotonic() - start, 10)
-                self.assertEqual(process.returncode, 4, errors)
-                lines = [line for line in errors.splitlines() if "corotet" in line and "stopped" in line]
-                self.assertEqual(len(lines), 1, errors)
-                self.assertRegex(lines[0], rf"step \d+ \(t = .* s\): {signal.Signals(number).name}; the run is saved, --restart goes on")
-                self.assertEqual(read_summary(run.output)["status"], "stopped")
-                if ranks == 1:
-                    self.assertEqual(run.finish("--restart")[0], 0)
-                    self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
-
     def test_two_runs_in_one_directory(self):
         run = Run(self.folder / "shared", "generalized-alpha", 1, {"Time integration/End time": "8"})
         first = run.start()
@@ -406,26 +384,6 @@ class Checkpoints(ProgramTest):
         self.assertEqual(first.wait(60), 0)
         first.communicate()
         self.assertEqual([int(row["step"]) for row in read_history(run.output)], list(range(401)))
-
-    def test_save_request_and_time_limit(self):
-        run = Run(self.folder / "asked", "generalized-alpha", 1, {"Checkpoint/Steps between checkpoints": "0", "Checkpoint/Keep": "100"})
-        process = run.start()
-        while not (run.output / "history.csv").exists():
-            time.sleep(0.005)
-        process.send_signal(signal.SIGUSR1)
-        self.assertEqual(process.wait(60), 0)
-        process.communicate()
-        self.assertEqual(len(list((run.output / "checkpoint").glob("*.json"))), 1)
-
-        limited = Run(self.folder / "limited", "generalized-alpha", 1, {"Checkpoint/Wall time limit": "0.05"})
-        for _ in range(200):
-            status, _, errors = limited.finish("--restart")
-            if status == 0:
-                break
-            self.assertEqual(status, 4)
-            self.assertIn("the wall time limit; the run is saved", errors)
-        self.assertEqual(status, 0)
-        self.assertEqual(rows_without_time(limited.output), rows_without_time(run.output))
 
 
 if __name__ == "__main__":
