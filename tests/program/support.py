@@ -50,9 +50,9 @@ def read_summary(directory):
     return json.loads((directory / "summary.json").read_text(encoding="utf-8"))
 
 
-def limit_files():
+def limit_files(size=2000):
     """In a new process: files may have so many bytes. What would be more is told to programs as a full disk is."""
-    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
 def parameter_text(entries):

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""What a run may go on with: tables, times, and results wherever links lead. What is refused changes no file; what failed at its
+start, or is run once more from its own parameters, finds its results and its files again.
+"""
+
+import hashlib
+import os
+import shutil
+import subprocess
+import unittest
+
+from support import ROOT, ProgramTest, limit_files, parameter_text, read_history
+from checkpoints import BEAM, rows_without_time
+
+SHORT = {**BEAM, "Discretization/Degree": "1", "Mesh/box/Cells": "4, 1, 1", "Time integration/End time": "0.2", "Time integration/Time step": "0.02",
+         "Checkpoint/Steps between checkpoints": "4"}
+
+
+def contents(directory):
+    """Fingerprints of all files below it, but for the lock, which says who was there last."""
+    return {str(file.relative_to(directory)): hashlib.sha256(file.read_bytes()).hexdigest() for file in directory.rglob("*") if file.is_file() and file.name != ".corotet"}
+
+
+class Restarts(ProgramTest):
+
+    def run_entries(self, entries, *arguments, **others):
+        (self.folder / "case.prm").write_text(parameter_text(entries), encoding="utf-8")
+        return self.run_program("case.prm", *arguments, **others)
+
+    def check_refused(self, before, run, message):
+        self.assertRegex(run.stderr, f"^corotet: error: [^\n]*{message}[^\n]*\n$")
+        self.assertEqual(contents(self.folder / "run"), before)
+
+    def test_tables(self):
+        """Rows of tables are loads: others are refused, more of them at the end are a longer run."""
+        table = self.folder / "rise.csv"
+        for kind, other in (("Linear", "Cubic"), ("Cubic", "Linear")):
+            with self.subTest(kind=kind):
+                shutil.rmtree(self.folder / "run", ignore_errors=True)
+                entries = {**SHORT, "Loads/Gravity": "0; 0; -10 * rise(t)", f"Tables/{kind}": "rise: rise.csv", f"Tables/{other}": "hold: hold.csv"}
+                (self.folder / "hold.csv").write_text("0, 1\n9, 1\n", encoding="utf-8")
+                rows = "0, 0\n0.1, 1\n0.2, 0.5\n"
+                table.write_text(rows, encoding="utf-8")
+                self.run_entries(entries)
+                before = contents(self.folder / "run")
+                for others in (rows.replace("0.1, 1", "0.1, 2"), rows.replace("0.1,", "0.12,"), "0, 0\n0.2, 0.5\n", "0, 0\n0.05, 0.5\n0.1, 1\n0.2, 0.5\n"):
+                    table.write_text(others, encoding="utf-8")
+                    self.check_refused(before, self.run_entries(entries, "--restart", status=1),
+                                       f"Tables/{kind}: --restart: found other rows in the table 'rise', which the run cannot go on with; "
+                                       "allowed: the rows that it began with, and more behind them")
+                table.write_text(rows + "0.3, 3\n", encoding="utf-8")
+                self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3")
+                self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.3, delta=1e-12)
+
+    def test_finished_run_with_another_step(self):
+        """There is nothing left to do, whatever the step would be."""
+        self.run_entries(SHORT)
+        rows = rows_without_time(self.folder / "run")
+        for step in ("0.03", "0.5", "1e-3"):
+            self.run_entries(SHORT, "--restart", "--set", f"Time integration/Time step = {step}")
+            self.assertEqual(rows_without_time(self.folder / "run"), rows)
+
+    def test_refusals_change_no_file(self):
+        """Neither do those that are found when the checkpoint has been read."""
+        self.run_entries(SHORT)
+        before = contents(self.folder / "run")
+        self.check_refused(before, self.run_entries(SHORT, "--restart", "--set", "Time integration/End time = 0.1", status=1),
+                           "Time integration/End time: --restart: found 0.1")
+        self.check_refused(before, self.run_entries(SHORT, "--restart", "--set", "Discretization/Degree = 2", status=1),
+                           "Discretization/Degree: --restart: found '2'")
+
+    def test_output_behind_a_link(self):
+        """A step up from a link leads to where the link leads, and what is there is protected."""
+        (self.folder / "other" / "place").mkdir(parents=True)
+        (self.folder / "link").symlink_to("other/place")
+        for there in ("results", "letters"):
+            (self.folder / "other" / there).mkdir()
+        self.run_entries(SHORT, "--output", "other/results")
+        (self.folder / "other" / "letters" / "history.csv").write_text("mine", encoding="utf-8")
+        before = contents(self.folder / "other")
+        for there in ("results", "letters"):
+            self.assertIn("Output/Directory", self.run_entries(SHORT, "--output", f"link/../{there}", status=1).stderr)
+            self.assertEqual(contents(self.folder / "other"), before)
+        self.assertIn("holds no results of corotet", self.run_entries(SHORT, "--output", "link/../letters", "--set", "Output/Overwrite = true", status=1).stderr)
+        self.assertEqual(contents(self.folder / "other"), before)
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["case.prm", "link", "other"])
+
+    def test_full_disk_at_the_start(self):
+        """The folder is known as one of results all the same."""
+        self.run_entries(SHORT)
+        rows = rows_without_time(self.folder / "run")
+        # What it says goes to pipes, which have no such limit.
+        run = subprocess.run([os.environ["COROTET_PROGRAM"], "case.prm", "--restart"], cwd=self.folder, capture_output=True, text=True, check=False,
+                             preexec_fn=lambda: limit_files(0))
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.run_entries(SHORT, "--restart", "--set", "Time integration/End time = 0.3")
+        self.assertEqual(rows_without_time(self.folder / "run")[:len(rows)], rows)
+
+    def test_parameters_repeat_the_run(self):
+        """Names of files in parameters.prm lead to them from there, also if the way there is a link."""
+        (self.folder / "far" / "away" / "place").mkdir(parents=True)
+        (self.folder / "link").symlink_to("far/away/place")
+        shutil.copy(ROOT / "meshes" / "l_block.msh", self.folder)
+        (self.folder / "rise.csv").write_text("0, 0\n1, 1\n", encoding="utf-8")
+        entries = {"Mesh/Type": "file", "Mesh/file/File": "l_block.msh", "Tables/Linear": "rise: rise.csv", "Loads/Gravity": "0; 0; -rise(t)",
+                   "Discretization/Degree": "1", "Time integration/End time": "0.1", "Time integration/Time step": "0.05"}
+        self.run_entries(entries, "--output", "link/run")
+        self.run_program("link/run/parameters.prm", "--output", "again")
+        self.run_program(self.folder / "far" / "away" / "place" / "run" / "parameters.prm", "--output", "once_more")
+        rows = rows_without_time(self.folder / "link" / "run")
+        self.assertEqual(len(rows), 3)
+        for again in ("again", "once_more"):
+            self.assertEqual(rows_without_time(self.folder / again), rows)
+
+
+if __name__ == "__main__":
+    unittest.main()
