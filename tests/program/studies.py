@@ -5,9 +5,12 @@
 import csv
 import json
 import math
+import os
+import subprocess
+import time
 import unittest
 
-from support import ProgramTest, read_summary
+from support import ProgramTest, parameter_text, read_summary
 
 BOX = """
 subsection Mesh
@@ -38,6 +41,12 @@ subsection Convergence study
   set Pictures    = false
 end
 """
+
+# One run of one step.
+SMALL = {"Type": "convergence study", "Mesh/Type": "box", "Mesh/box/Size": "2, 1, 1", "Mesh/box/Cells": "2, 1, 1", "Material/Type": "linear",
+         "Material/Young's modulus": "1e6", "Boundary conditions/Fixed": "x-min", "Loads/Gravity": "0; 0; -10", "Time integration/Type": "static",
+         "Convergence study/Reference": "none", "Convergence study/Quantities": "elastic_energy", "Convergence study/Degrees": "1",
+         "Convergence study/Refinements": "0", "Convergence study/Pictures": "false"}
 
 PICTURES = {f"study_{norm}_over_{abscissa}.{ending}" for norm in ("l2", "h1", "energy") for abscissa in ("h", "dofs", "wall_time")
             for ending in ("svg", "png")}
@@ -207,6 +216,107 @@ end
         self.assertAlmostEqual(float(rows[1]["frequency_1_order"]), 2, delta=0.05)
         self.assertAlmostEqual(float(rows[3]["frequency_1_order"]), 4, delta=0.1)
 
+    def run_small(self, *settings, more=(), **others):
+        """The study of one small run, but for these settings."""
+        (self.folder / "small.prm").write_text(parameter_text(SMALL), encoding="utf-8")
+        return self.run_program("small.prm", "--output", "out", *more, *[word for setting in settings for word in ("--set", setting)], **others)
+
+    def check_restart(self, *settings):
+        """On going on with these settings the study has the rows of one that begins with them; they are returned."""
+        self.run_small(*settings, more=("--restart",))
+        rows = self.numbers()
+        self.run_small("Output/Overwrite = true", *settings)
+        for row, other in zip(rows, self.numbers(), strict=True):
+            # To round-off: memory may be aligned otherwise.
+            self.assertAlmostEqual(float(row["elastic_energy"]) / float(other["elastic_energy"]), 1, delta=1e-9)
+            self.assertEqual({**row, "elastic_energy": ""}, {**other, "elastic_energy": ""})
+        return rows
+
+    def numbers(self):
+        """The rows without what takes part in no comparison: times of clocks and memory."""
+        return [{name: value for name, value in row.items() if name == "time_step" or not ("time" in name or "memory" in name)} for row in self.rows()]
+
+    def test_restart_with_other_data(self):
+        """Another content of the mesh's file or of a table is another problem, whatever the names are."""
+        mesh, table = (self.folder / name for name in ("cube.geo", "rise.csv"))
+        cube = 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 1, 1, 1};\nPhysical Volume("cube") = {1};\nPhysical Surface("x-min") = {1};\n'
+        mesh.write_text(cube + "MeshSize{:} = 1;\n", encoding="utf-8")
+        table.write_text("0, 0\n1, 1\n", encoding="utf-8")
+        data = ("Mesh/Type = gmsh", "Mesh/gmsh/File = cube.geo", "Tables/Linear = rise: rise.csv", "Loads/Gravity = 0; 0; -10 * rise(t)")
+        self.run_small(*data)
+        first = self.numbers()
+        table.write_text("0, 0\n1, 2\n", encoding="utf-8")
+        second = self.check_restart(*data)
+        # A linear body, and twice the load.
+        self.assertAlmostEqual(float(second[0]["elastic_energy"]) / float(first[0]["elastic_energy"]), 4, delta=1e-6)
+        mesh.write_text(cube.replace("1, 1, 1}", "2, 1, 1}") + "MeshSize{:} = 1;\n", encoding="utf-8")
+        third = self.check_restart(*data)
+        self.assertGreater(float(third[0]["elastic_energy"]), 2 * float(second[0]["elastic_energy"]))
+
+    def stop_study(self, name, *settings):
+        """Sends SIGTERM as soon as there is a file of that name in rows/. Returns the summary."""
+        (self.folder / "small.prm").write_text(parameter_text(SMALL), encoding="utf-8")
+        process = subprocess.Popen([os.environ["COROTET_PROGRAM"], "small.prm", "--output", "out", *[word for setting in settings for word in ("--set", setting)]],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while not list((self.folder / "out").glob(f"rows/{name}")) and process.poll() is None:
+            time.sleep(0.001)
+        process.terminate()
+        out, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 4, out + errors)
+        return self.check_stopped(out, errors)
+
+    def check_stopped(self, out, errors):
+        """It says so once on the terminal and once in its log. Returns the summary."""
+        summary = read_summary(self.folder / "out")
+        self.assertEqual(summary["status"], "stopped")
+        self.assertEqual(errors, f"corotet: stopped: {summary['message']}\n")
+        self.assertNotIn(summary["message"], out)
+        self.assertEqual((self.folder / "out" / "log.txt").read_text(encoding="utf-8").count(summary["message"]), 1)
+        return summary
+
+    def test_restart_with_another_step(self):
+        """The run that was under way begins anew: it would be part of the one, part of the other study."""
+        moving = ("Time integration/Type = Newmark", "Time integration/End time = 2", "Checkpoint/Steps between checkpoints = 1")
+        summary = self.stop_study("**/step_000003.json", *moving, "Time integration/Time step = 0.002", "Checkpoint/Keep = 1000")
+        self.assertRegex(summary["message"], r"^step \d+ \(t = .* s\): SIGTERM; the run is saved, --restart goes on with it$")
+        self.check_restart(*moving, "Time integration/Time step = 0.1")
+
+    def test_stopped_between_runs(self):
+        """What comes in the only step of a run ends the study before the next one."""
+        runs = ("Convergence study/Degrees = 1, 2, 3", "Convergence study/Refinements = 0, 1", "Mesh/box/Cells = 8, 4, 4")
+        summary = self.stop_study("*.log", *runs)
+        self.assertRegex(summary["message"], "^[1-5] of 6 runs: SIGTERM; they are saved, --restart goes on with the others$")
+        self.assertEqual(summary["finished_runs"], int(summary["message"][0]))
+        self.check_restart(*runs)
+        run = self.run_small(*runs, "Output/Overwrite = true", "Checkpoint/Wall time limit = 1e-6", status=4)
+        self.assertIn("of 6 runs: the wall time limit; they are saved", self.check_stopped(run.stdout, run.stderr)["message"])
+        self.check_restart(*runs)
+
+    def check_failed(self, error, *rows):
+        summary = read_summary(self.folder / "out")
+        self.assertEqual(summary["status"], "failed")
+        self.assertEqual(error, f"corotet: error: {summary['message']}\n")
+        self.assertEqual([row["status"] for row in self.rows()], list(rows))
+        return summary["message"]
+
+    def test_runs_that_fail_at_their_start(self):
+        """In their first forces, or in a check that the coarsest mesh has passed."""
+        moving = ("Time integration/Type = Newmark", "Time integration/End time = 0.1", "Time integration/Time step = 0.05")
+        message = self.check_failed(self.run_small(*moving, "Initial conditions/Velocity = 0; 0; 1e200", "Boundary conditions/Fixed =", status=2).stderr, "failed")
+        self.assertEqual(message, "1 of 1 runs of the study have failed")
+        # Cells half as large have half the stable step.
+        explicit = ("Time integration/Type = central difference", "Discretization/Mass = diagonal scaling", "Time integration/End time = 0.006",
+                    "Time integration/Time step = 0.006", "Convergence study/Refinements = 0, 1, 2, 3", "Output/Overwrite = true")
+        message = self.check_failed(self.run_small(*explicit, status=2).stderr, "done", "done", "failed", "failed")
+        self.assertEqual(message, "2 of 4 runs of the study have failed")
+
+    def test_finer_run_that_fails(self):
+        """The study ends with the runs that it has, and says why."""
+        strong = ("Convergence study/Reference = finer run", "Material/Type = corotational", "Loads/Gravity = 0; 0; -1e5", "Newton/Maximum iterations = 2",
+                  "Time integration/Maximum halvings = 0", "Convergence study/Refinements = 0, 1")
+        message = self.check_failed(self.run_small(*strong, status=2).stderr, "failed")
+        self.assertRegex(message, "^the finer run has failed: .*Newton's method")
+
     def test_failed_run(self):
         """A run that fails is a row of the table; the others are made all the same."""
         error = self.study(EXACT, "--set", "Linear solver/Maximum iterations = 3", "--set", "Linear solver/Type = jacobi",
@@ -224,6 +334,7 @@ end
             ("Convergence study/Time steps = " + ", ".join(str(9999 - i) for i in range(9999)), "one for each combination of values; allowed are 10000"),
             ("Convergence study/Quantities = tip_z", "Convergence study/Quantities: the quantity 'tip_z' is unknown"),
             ("Convergence study/Quantities = momentum_x: a", "found 'momentum_x: a'; allowed: 'name' or 'name: number'"),
+            ("Convergence study/Quantities = newton_iterations: 2", "found 'newton_iterations', of which every study has a column"),
             ("Convergence study/Masses = row sum", "row sum"),
             ("Exact solution/Displacement = abs(x); 0; 0", "it has the function 'abs'"),
             ("Exact solution/Displacement = ", "Exact solution/Displacement is empty"),
