@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Bodies that are held by little, or by nearly everything: springs that come and go, nodes that are all fixed but a few, cells without
+any thickness. What has a solution is solved, and what has none is no result.
+"""
+
+import unittest
+
+from support import ROOT, ProgramTest, parameter_text, read_history, read_summary
+
+# Of 1000 kg.
+CUBE = {"Mesh/box/Size": "1, 1, 1", "Mesh/box/Cells": "3, 3, 3", "Loads/Gravity": "0; 0; -9.81", "Time integration/Type": "static"}
+SPRINGS = "Supports/Elastic"
+
+
+def springs(stiffness):
+    """On the bottom, in all directions."""
+    return {SPRINGS: f"z-min: {stiffness}; {stiffness}; {stiffness}"}
+
+
+class Statics(ProgramTest):
+
+    def run_cube(self, entries, *arguments, **others):
+        (self.folder / "cube.prm").write_text(parameter_text({**CUBE, **entries}), encoding="utf-8")
+        return self.run_program("cube.prm", "--output", "out", "--set", "Output/Overwrite = true", *arguments, **others)
+
+    def test_springs_from_zero(self):
+        """They are not there at the start, which no load step is taken at."""
+        for steps in (1, 4):
+            self.run_cube({**springs("1e5 * t"), "Material/Type": "linear", "Material/Young's modulus": "1e9"},
+                          "--set", f"Time integration/static/Load steps = {steps}", "--set", "Output/Probes = bottom: 0.5 0.5 0")
+            rows = read_history(self.folder / "out")
+            # Weight and springs grow alike: 9810 N on 1e5 N/m, but for the bending of the bottom.
+            for row in rows[1:]:
+                self.assertAlmostEqual(float(row["bottom_z"]), -0.0981, delta=1e-5)
+
+    def test_springs_that_vanish(self):
+        """Nothing holds the body at the end: there is no displacement, however far."""
+        for solver in ("automatic", "direct", "jacobi"):
+            with self.subTest(solver):
+                run = self.run_cube(springs("1e6 * (1 - t)"), "--set", "Time integration/static/Load steps = 2", "--set", "Linear solver/Type = " + solver,
+                                    "--set", "Time integration/Maximum halvings = 1", status=2)
+                self.assertRegex(run.stderr, "^corotet: error: step 2 .*\n$")
+                self.assertEqual(read_summary(self.folder / "out")["status"], "failed")
+                # What is recorded was held: halfway to the end the springs have a quarter of their stiffness.
+                self.assertLess(float(read_history(self.folder / "out")[-1]["max_displacement"]), 0.1)
+
+    def test_initial_velocity(self):
+        """Nothing moves in statics, and the log says so."""
+        for velocity, warned in (("0; 0; 1", 1), ("0; 0; 0", 0)):
+            out = self.run_cube({"Boundary conditions/Fixed": "z-min"}, "--set", f"Initial conditions/Velocity = {velocity}").stdout
+            self.assertEqual(out.count("warning: Initial conditions/Velocity: has no effect in statics, where nothing moves"), warned)
+
+    def test_fixed_on_all_sides(self):
+        """Few unknowns are left, of one cuboid none at vertices: the middle moves down, by less than a body that is held at two ends does."""
+        fixed = {"Boundary conditions/Fixed": "x-min, x-max, y-min, y-max, z-min, z-max", "Mesh/box/Cells": "1, 1, 1"}
+        largest = 1000 * 9.81 / 1e7 / 8
+        for degree in (2, 3):
+            for kind in ("static", "generalized-alpha"):
+                with self.subTest(degree=degree, kind=kind):
+                    self.run_cube({**fixed, "Discretization/Degree": degree, "Material/Young's modulus": "1e7", "Time integration/Type": kind,
+                                   "Time integration/End time": "0.05"})
+                    self.assertLess(float(read_history(self.folder / "out")[-1]["max_displacement"]), largest)
+                    self.assertEqual(read_summary(self.folder / "out")["status"], "done")
+
+    def test_thin_cells_that_are_crushed(self):
+        """To a plane, a line or a point: they come back, with a rotation and a stiffness from the first step on."""
+        for number, displacement in enumerate(("0; 0; -z", "0; -y; -z", "-x; -y; -z")):
+            with self.subTest(displacement):
+                output = self.run_case("crushed_cube", f"crushed_{number}", "Mesh/box/Size = 1, 1, 0.05", f"Initial conditions/Displacement = {displacement}",
+                                       "Output/Probes =", "Time integration/End time = 1.5")
+                rows = read_history(output)
+                self.assertEqual(len(rows), 6)
+                self.assertEqual(float(rows[0]["volume"]), 0)
+                self.assertLess(float(rows[-1]["elastic_energy"]), 0.5 * float(rows[0]["elastic_energy"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
