@@ -20,7 +20,7 @@ import math
 import re
 import unittest
 
-from support import ROOT, ProgramTest, read_history, read_summary
+from support import ROOT, ProgramTest, parameter_text, read_history, read_summary
 
 # Length 1 m, c = 1 m/s. Sides that move along the bar only make it one-dimensional.
 LINEAR_BAR = """
@@ -62,6 +62,11 @@ subsection Output
   set Time between results = 1000
 end
 """
+
+IMPLICIT_BAR = {"Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "10, 1, 1", "Discretization/Degree": "2", "Material/Type": "linear",
+                "Material/Young's modulus": "1e6", "Material/Density": "1000", "Boundary conditions/Fixed": "x-min", "Loads/Gravity": "0; 0; -1",
+                "Time integration/Type": "Newmark", "Time integration/Newmark/Beta": "0.1666", "Time integration/Time step": "0.02",
+                "Time integration/End time": "4", "Time integration/Maximum halvings": "4"}
 
 
 class Dynamics(ProgramTest):
@@ -152,6 +157,20 @@ class Dynamics(ProgramTest):
         self.assertEqual(summary["final"]["step"], float(read_history(directory)[-1]["step"]))
         self.assertLess(kinetic[-1], 100 * max(map(abs, work)))
         self.check_vtkhdf(directory)
+
+
+    def test_unstable_implicit_step(self):
+        """Newmark's method with beta just below 1/6 and steps far above the stable one: what grows is seen, as with explicit steps."""
+        (self.folder / "bar.prm").write_text(parameter_text(IMPLICIT_BAR), encoding="utf-8")
+        run = self.run_program("bar.prm", "--output", "grown", status=2)
+        summary = read_summary(self.folder / "grown")
+        self.assertRegex(summary["message"], "the motion is unstable: the energy is .* J, and .* J have been put in; the time step is too long")
+        self.assertIn(summary["message"], run.stderr)
+        self.assertEqual(summary["status"], "failed")
+        # The last row is the last one that was good.
+        kinetic, elastic, work = self.columns(self.folder / "grown", "kinetic_energy", "elastic_energy", "external_work")
+        self.assertLess(abs(kinetic[-1]) + elastic[-1], 1e4 * max(map(abs, work)))
+        self.run_program("bar.prm", "--output", "stable", "--set", "Time integration/Newmark/Beta = 0.25")
 
 
 if __name__ == "__main__":

@@ -42,10 +42,18 @@ class ExitStatus(ProgramTest):
         summary = read_summary(directory)
         self.assertEqual((summary["status"], summary["steps"]), ("failed", 3))
         self.assertIn(summary["message"], run.stderr)
+        self.assertEqual((directory / "log.txt").read_text(encoding="utf-8").splitlines()[-1], f"error: {summary['message']}")
         self.assertEqual(summary["final"]["step"], 3)
         # What could be made of the third step is there.
         self.assertGreater(summary["final"]["time"], 0.02)
         self.assertLess(summary["final"]["time"], 0.025)
+
+    def test_load_that_is_not_finite(self):
+        # At the middle of the run only, where no check before the start looks: it is named.
+        run = self.run_small("Loads/Gravity = 0; 0; if(t > 0.033 && t < 0.066, sqrt(-1), 1)", "Time integration/Maximum halvings = 0",
+                             "Time integration/Type = Newmark", "Time integration/Time step = 0.01", "Time integration/End time = 0.1", status=2)
+        self.check_message(run, "step 4", "Loads/Gravity", "not finite")
+        self.assertEqual(read_summary(self.folder / "results")["steps"], 3)
 
     def test_supports_that_disagree_on_the_way(self):
         # At the times that are tried before the start they do not.

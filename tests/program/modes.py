@@ -7,14 +7,38 @@ Eigenvalues are exact to the square of the tolerance of the residuals, 1e-8: on 
 the order of sums. The frequency of a rigid body mode is round-off, which must be far below that of the first other mode.
 """
 
+import itertools
+import operator
 import unittest
 
 import h5py
 import numpy as np
 
-from support import MODES_COLUMNS, ROOT, ProgramTest, read_modes, read_summary
+from support import MODES_COLUMNS, ROOT, ProgramTest, parameter_text, read_modes, read_summary
 
 SMALLER = ("Mesh/box/Cells = 4, 4, 1", "Output/Probes =")
+CUBES = {"Type": "modes", "Mesh/Type": "file", "Mesh/file/File": "cubes.msh", "Discretization/Degree": "2",
+         "Boundary conditions/Fixed": "bottom"}
+
+
+def mesh_of_cubes(number):
+    """Of side 1 and 2 apart along x, each of 24 tetrahedra: pyramids on its sides, in quarters."""
+    corners = list(itertools.product((0, 1), repeat=3))
+    sides = list(itertools.product(range(3), (0, 1)))
+    places = [*corners, (0.5, 0.5, 0.5), *([end if a == axis else 0.5 for a in range(3)] for axis, end in sides)]
+    nodes = [(2 * cube + x, y, z) for cube in range(number) for x, y, z in places]
+    # On each side, its middle and neighbouring corners: those that differ in one number.
+    quarters = [(side, 10 + i, j + 1, k + 1) for i, side in enumerate(sides) for j, a in enumerate(corners) for k, b in enumerate(corners)
+                if j < k and a[side[0]] == b[side[0]] == side[1] and sum(map(abs, map(operator.sub, a, b))) == 1]
+    # Seen from the last corner, the others turn to the left.
+    quarters = [(side, a, b, c) if np.linalg.det(np.subtract([places[n - 1] for n in (a, b, c)], places[8])) < 0 else (side, a, c, b)
+                for side, a, b, c in quarters]
+    elements = [(4, 1, [n + len(places) * cube for n in (*quarter, 9)]) for cube in range(number) for _, *quarter in quarters]
+    elements += [(2, 2, [n + len(places) * cube for n in quarter]) for cube in range(number) for side, *quarter in quarters if side == (2, 0)]
+    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "2", '3 1 "cubes"', '2 2 "bottom"', "$EndPhysicalNames",
+                      "$Nodes", str(len(nodes)), *(" ".join(map(str, (i, *node))) for i, node in enumerate(nodes, 1)), "$EndNodes",
+                      "$Elements", str(len(elements)),
+                      *(" ".join(map(str, (i, kind, 2, name, 1, *vertices))) for i, (kind, name, vertices) in enumerate(elements, 1)), "$EndElements", ""])
 
 
 class Modes(ProgramTest):
@@ -61,6 +85,20 @@ class Modes(ProgramTest):
             summary = read_summary(self.folder / f"failed_{ranks}")
             self.assertEqual((summary["status"], summary["modes"], summary["frequencies"]), ("failed", 0, []))
             self.assertIn(summary["message"], run.stderr)
+
+    def test_equal_bodies(self):
+        # As a cube bends to two sides alike, six have the lowest frequency twelve times, and few of its modes are wanted.
+        (self.folder / "cubes.prm").write_text(parameter_text(CUBES), encoding="utf-8")
+        lowest = None
+        for cubes, number in ((1, 1), (6, 4), (7, 3)):
+            (self.folder / "cubes.msh").write_text(mesh_of_cubes(cubes), encoding="utf-8")
+            output = f"{number} of {cubes}"
+            self.run_program("cubes.prm", "--set", f"Modes/Number = {number}", "--output", output)
+            frequencies = [float(row["frequency"]) for row in read_modes(self.folder / output)]
+            self.assertEqual(len(frequencies), number)
+            lowest = lowest or frequencies[0]
+            for frequency in frequencies:
+                self.assertAlmostEqual(frequency, lowest, delta=1e-10 * lowest)
 
     def test_overwrite(self):
         # Results of modes are replaced by those of a simulation, and nothing is left of them.
