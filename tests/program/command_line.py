@@ -15,7 +15,9 @@ import sys
 import termios
 import unittest
 
-from support import CASES, ROOT, ProgramTest, limit_files
+from support import CASES, ROOT, ProgramTest, limit_files, parameter_text
+
+BEAM = {"Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "4, 1, 1", "Discretization/Degree": "1", "Boundary conditions/Fixed": "x-min"}
 
 
 class CommandLine(ProgramTest):
@@ -115,6 +117,36 @@ class CommandLine(ProgramTest):
     def test_quiet(self):
         run = self.run_program(ROOT / "parameters" / "gravity_linear.prm", "--quiet", "--output", "results")
         self.assertEqual(run.stdout, "")
+
+    def test_words_before_mesh(self):
+        """The command stands first: what is before it would be lost."""
+        mesh = ROOT / "meshes" / "l_block.msh"
+        for word, found in (("--quiet", "--quiet"), (ROOT / "parameters" / "cantilever.prm", "FILE")):
+            run = self.run_program(word, "mesh", mesh, status=1)
+            self.assertEqual((run.stdout, run.stderr), ("", f"corotet: error: command line: found {found} before 'mesh'; allowed: corotet mesh [OPTIONS] FILE\n"))
+        self.assertIn("99 cells", self.run_program("mesh", mesh).stdout)
+
+    def test_answers_to_a_full_disk(self):
+        """What nobody gets is no answer."""
+        for words in (["--print-parameters", "json"], [ROOT / "parameters" / "cantilever.prm", "--print-parameters"], ["--version"], ["--help"],
+                      ["mesh", ROOT / "meshes" / "l_block.msh"]):
+            with self.subTest(words), open("/dev/full", "w", encoding="utf-8") as full:
+                run = subprocess.run([os.environ["COROTET_PROGRAM"], *words], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                self.assertEqual((run.returncode, run.stderr), (3, "corotet: error: the standard output cannot be written (is the disk full?)\n"))
+
+    def test_entries_of_another_type(self):
+        """Those of another kind of run are a mistake where none was chosen, and where one was they are said to do nothing."""
+        (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
+        for setting, kind in (("Modes/Number = 3", "modes"), ("Convergence study/Degrees = 1, 2", "convergence study")):
+            run = self.run_program("beam.prm", "--validate", "--set", setting, status=1)
+            self.assertEqual(run.stderr, f"corotet: error: --set: {setting.split(' = ')[0]}: it would have no effect: \"Type\" is not set, and its default is "
+                                         f"'simulation'; allowed with \"Type = {kind}\"\n")
+        for more in ([], ["--set", "Modes/Number = 3"]):
+            run = self.run_program("beam.prm", "--validate", "--set", "Type = simulation", *more)
+            self.assertEqual("Modes" in run.stdout, bool(more), run.stdout)
+        for limit, warned in (("100", 1), ("0", 0)):
+            run = self.run_program("beam.prm", "--validate", "--set", "Type = modes", "--set", f"Checkpoint/Wall time limit = {limit}")
+            self.assertEqual(run.stdout.count('no effect on modes: "Checkpoint/Wall time limit"'), warned)
 
     def test_make(self):
         """make hands over names with spaces and quotes as they are, and touches no other folder; in place of the toolchain a script shows its words."""
