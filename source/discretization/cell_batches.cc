@@ -37,7 +37,7 @@ namespace corotet
     static_assert(std::has_single_bit(batch_size));
     nodes_of_batches = cell_batches->nodes(0);
     n_filled_up      = cell_batches->n_owned_batches() * batch_size - n_owned;
-    log_batch_size   = std::countr_zero(batch_size);
+    log_width        = std::countr_zero(batch_size);
   }
 
   CellBatches::CellBatches(const Nodes &nodes)

@@ -37,7 +37,8 @@ namespace corotet
                       "rotations of the vertices, with which it bends: thin "
                       "cells need a fraction of the iterations so, and the "
                       "level has twice as many unknowns. 'automatic': where "
-                      "more than a tenth of the cells are flat or stretched.",
+                      "more than a tenth of the cells are flat or stretched. "
+                      "Not with 'Coarse solver = amg', which knows none.",
                       dealii::Patterns::Selection("automatic|true|false"));
     prm.add_parameter("Direct limit",
                       direct_limit,

@@ -39,14 +39,15 @@ namespace corotet
   {
     const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
     const bool        is_named  = toolchain != nullptr && *toolchain != '\0';
-    // In the folder of the sources there is a shorter name.
-    std::string     script = "scripts/report";
+    // Of a build, that of the sources, as their pages call it.
+    std::string                 script = "scripts/report";
+    const std::filesystem::path found =
+      find_installed("share/corotet/" + script);
     std::error_code error;
-    if (!std::filesystem::exists(script, error))
-      if (const std::string installed =
-            find_installed("share/corotet/scripts/report");
-          !installed.empty())
-        script = quoted(installed);
+    if (!found.empty() && !std::filesystem::exists(found.parent_path() /
+                                                     "../../../CMakeCache.txt",
+                                                   error))
+      script = quoted(found.string());
     return (is_named ? toolchain + std::string(" ") : "") + script + " " +
            quoted(directory);
   }

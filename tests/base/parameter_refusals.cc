@@ -177,7 +177,7 @@ TEST(ParameterFile, RefusesDeepNesting)
                             "?>" +
                               repeated("<a>", 100)),
             "a.xml: " + reason);
-  EXPECT_EQ(example.refusal("a.xml", repeated("<b><a></>", 100)),
+  EXPECT_EQ(example.refusal("a.xml", repeated("<b><a></a>", 100)),
             "a.xml: " + reason);
   // Comments and statements are no levels.
   EXPECT_EQ(example.refusal("a.xml",

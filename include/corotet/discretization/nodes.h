@@ -168,10 +168,10 @@ namespace corotet
                 n_cell_nodes};
       // Batches of ghost cells follow those of owned ones, which are filled up.
       const unsigned int place = cell < n_owned ? cell : cell + n_filled_up;
-      const unsigned int lane  = place & ((1u << log_batch_size) - 1);
+      const unsigned int lane  = place & ((1u << log_width) - 1);
       const std::size_t  first = place - lane;
       return {nodes_of_batches + first * n_cell_nodes + lane,
-              1u << log_batch_size,
+              1u << log_width,
               n_cell_nodes};
     }
 
@@ -270,7 +270,7 @@ namespace corotet
     /// Those of the batches, once there are any, and how to find a cell there.
     const unsigned int *nodes_of_batches = nullptr;
     unsigned int        n_filled_up      = 0;
-    unsigned int        log_batch_size   = 0;
+    unsigned int        log_width        = 0;
     mutable std::map<std::type_index, std::shared_ptr<void>> work_spaces;
   };
 } // namespace corotet
