@@ -97,9 +97,9 @@ namespace corotet::benchmarks
     Vector
     deformed() const;
 
-    /// That of the nodes in the state of solves.
+    /// The displacement of solves.
     const Vector &
-    displacement() const
+    state_of_solves() const
     {
       return state;
     }

@@ -111,7 +111,7 @@ namespace corotet::benchmarks
       const std::shared_ptr<Preconditioner> P =
         make_preconditioner("p-multigrid");
       data.effective().update(1., c_M);
-      P->build(data.effective(), data.problem().displacement());
+      P->build(data.effective(), data.problem().state_of_solves());
       return {[beam, P, c_M] {
                 EffectiveOperator &A = beam->data.effective();
                 beam->data.problem().elasticity.update_rotations_and_force(
