@@ -9,8 +9,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 
 namespace corotet
 {
@@ -40,14 +38,10 @@ namespace corotet
     const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
     const bool        is_named  = toolchain != nullptr && *toolchain != '\0';
     // Of a build, that of the sources, as their pages call it.
-    std::string                 script = "scripts/report";
-    const std::filesystem::path found =
-      find_installed("share/corotet/" + script);
-    std::error_code error;
-    if (!found.empty() && !std::filesystem::exists(found.parent_path() /
-                                                     "../../../CMakeCache.txt",
-                                                   error))
-      script = quoted(found.string());
+    std::string       script = "scripts/report";
+    const std::string found  = find_installed("share/corotet/" + script);
+    if (!found.empty() && find_installed("CMakeCache.txt").empty())
+      script = quoted(found);
     return (is_named ? toolchain + std::string(" ") : "") + script + " " +
            quoted(directory);
   }
