@@ -42,10 +42,11 @@ namespace corotet
     void
     add_node(const std::uint64_t tag, const dealii::Point<3> &x);
 
-    /// Returns its number. @p type: of those in gmsh_types(), with its @p nodes
-    /// in gmsh's order.
+    /// Returns its number. @p type: of those in gmsh_types(), with the nodes
+    /// @p of_element in gmsh's order.
     std::size_t
-    add_element(const int type, const std::span<const std::uint64_t> nodes);
+    add_element(const int                            type,
+                const std::span<const std::uint64_t> of_element);
 
     std::size_t
     n_elements() const

@@ -230,7 +230,10 @@ namespace corotet
                                         n_given));
         const auto nodes = card_nodes(card, 4 + n_given);
         if (n_given == 0)
-          return add_element(card, 4, nodes);
+          {
+            add_element(card, 4, nodes);
+            return;
+          }
         // gmsh has the last two the other way round.
         std::vector<std::uint64_t> theirs(nodes);
         std::swap(theirs[8], theirs[9]);

@@ -119,15 +119,15 @@ namespace corotet
                              const unsigned int j,
                              double (&block)[3][3])
   {
-    const unsigned int n     = reference.n_nodes;
-    const auto         nodes = this->nodes.cell_nodes(cell);
+    const std::size_t n     = reference.n_nodes;
+    const auto        nodes = this->nodes.cell_nodes(cell);
     if (touches_prescribed[cell])
       for (unsigned int a = 0; a < 3; ++a)
         for (unsigned int b = 0; b < 3; ++b)
           if ((prescribed[3 * nodes[i] + a] || prescribed[3 * nodes[j] + b]) &&
               (i != j || a != b))
             block[a][b] = 0;
-    const std::size_t first = static_cast<std::size_t>(n) * n * cell;
+    const std::size_t first = n * n * cell;
     if (nodes[i] < this->nodes.n_owned_nodes())
       {
         double *row = block_matrix->row(nodes[i], 0) +

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/partitioner.h>
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <typeindex>
@@ -25,7 +26,7 @@ namespace corotet
   class CellNodes
   {
   public:
-    /// Node i is first[i * stride].
+    /// Node i is first[std::size_t(i) * stride].
     CellNodes(const unsigned int *first,
               const unsigned int  stride,
               const unsigned int  n)
@@ -43,7 +44,7 @@ namespace corotet
     unsigned int
     operator[](const unsigned int i) const
     {
-      return first[i * stride];
+      return first[std::size_t(i) * stride];
     }
 
     /// Goes through the nodes.
@@ -52,7 +53,7 @@ namespace corotet
       unsigned int
       operator*() const
       {
-        return first[i * stride];
+        return first[std::size_t(i) * stride];
       }
 
       Iterator &
