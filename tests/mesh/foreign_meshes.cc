@@ -18,18 +18,13 @@ namespace
 {
   using Known = std::vector<std::string>;
 
-  // Two boxes of 1 x 1 x 1 and 2 x 1 x 1 that share a face, with names.
+  // Two boxes, with names.
   void
   write_boxes(const std::string &file, const int degree)
   {
     write_shapes(file, [&] {
       using namespace gmsh::model;
-      occ::addBox(0, 0, 0, 1, 1, 1, 1);
-      occ::addBox(1, 0, 0, 2, 1, 1, 2);
-      gmsh::vectorpair              all;
-      std::vector<gmsh::vectorpair> parts;
-      occ::fragment({{3, 1}}, {{3, 2}}, all, parts);
-      occ::synchronize();
+      add_two_boxes();
       addPhysicalGroup(3, {1}, 11, "small");
       addPhysicalGroup(3, {2}, 12, "large");
       gmsh::vectorpair ends;

@@ -15,6 +15,7 @@
 
 #include <functional>
 #include <iterator>
+#include <map>
 #include <random>
 
 #include "mesh/tools.h"
@@ -177,17 +178,22 @@ TEST(GmshProcess, TimeLimit)
 TEST(GmshProcess, MemoryLimit)
 {
   const TemporaryFolder folder;
-  for (const std::string start :
-       {"4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2000000000 1 2000000000\n"
-        "3 1 0 2000000000\n",
-        "2.2 0 8\n$EndMeshFormat\n$Nodes\n2000000000\n"})
+  // gmsh names no line, and corotet's own reader of version 2 the one behind
+  // the number.
+  const std::map<std::string, std::string> starts{
+    {"4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2000000000 1 2000000000\n"
+     "3 1 0 2000000000\n",
+     ": "},
+    {"2.2 0 8\n$EndMeshFormat\n$Nodes\n2000000000\n",
+     ":6: a number is expected: found '$EndNodes'"}};
+  for (const auto &[start, place] : starts)
     {
       const std::string file =
         folder.write("x.msh",
                      "$MeshFormat\n" + start +
                        "$EndNodes\n$Elements\n0\n$EndElements\n");
       const std::string message = message_of(file);
-      EXPECT_EQ(message.find(file + ":"), 0u) << message;
+      EXPECT_EQ(message.find(file + place), 0u) << message;
     }
 }
 

@@ -177,12 +177,7 @@ TEST(GroupsOfFiles, OverlapInAllVersions)
         const std::string file = folder / "body.msh";
         write_shapes(file, [&] {
           using namespace gmsh::model;
-          occ::addBox(0, 0, 0, 1, 1, 1, 1);
-          occ::addBox(1, 0, 0, 2, 1, 1, 2);
-          gmsh::vectorpair              all;
-          std::vector<gmsh::vectorpair> parts;
-          occ::fragment({{3, 1}}, {{3, 2}}, all, parts);
-          occ::synchronize();
+          add_two_boxes();
           addPhysicalGroup(3, {1}, 1, "small");
           addPhysicalGroup(3, {2}, 2, "large");
           addPhysicalGroup(3, {1, 2}, 3, "all");

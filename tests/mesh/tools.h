@@ -79,6 +79,20 @@ namespace corotet::tests
     gmsh::finalize();
   }
 
+  /// Within write_shapes(): boxes of 1 x 1 x 1 and 2 x 1 x 1 that share a face,
+  /// solids 1 and 2.
+  inline void
+  add_two_boxes()
+  {
+    using namespace gmsh::model;
+    occ::addBox(0, 0, 0, 1, 1, 1, 1);
+    occ::addBox(1, 0, 0, 2, 1, 1, 2);
+    gmsh::vectorpair              all;
+    std::vector<gmsh::vectorpair> parts;
+    occ::fragment({{3, 1}}, {{3, 2}}, all, parts);
+    occ::synchronize();
+  }
+
   /// Within write_shapes(): cuts a solid out of another one, by their numbers.
   inline void
   cut_solid(const int solid, const int tool)

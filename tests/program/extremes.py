@@ -75,12 +75,13 @@ class Extremes(ProgramTest):
         deflection = 4 * 200 / (1e7 * 0.125 ** 2)
         conditions = "Boundary conditions/"
         # Where the support moves, forces of the cells that are crushed at it do not count: further solves take what is left of them.
-        cases = (("unload", {conditions + "Fixed": "x-min", conditions + "Traction": "x-max: 0; 0; 200 * triangle(t, 0, 1)"}, deflection, 0.05, 1),
-                 ("carry", {conditions + "Displacement": "x-min: 0; 0; 0.1 * triangle(t, 0, 1)"}, 0.1, 1e-11, 3))
+        cases = (("unload", {conditions + "Fixed": "x-min", conditions + "Traction": "x-max: 0; 0; 200 * triangle(t, 0, 1)"}, deflection, 0.05, {1}),
+                 ("carry", {conditions + "Displacement": "x-min: 0; 0; 0.1 * triangle(t, 0, 1)"}, 0.1, 1e-11, {2, 3}))
         for name, conditions, largest, tolerance, solves in cases:
             for ranks in RANKS:
                 rows = read_history(self.run_entries({**LINEAR_STATICS, **conditions}, name, ranks)[1])
-                self.assertLessEqual(max(int(row["newton_iterations"]) for row in rows), solves)
+                self.assertEqual(len(rows), 5)
+                self.assertLessEqual({int(row["newton_iterations"]) for row in rows[1:]}, solves)
                 middle, last = (float(rows[k]["max_displacement"]) for k in (2, 4))
                 self.assertAlmostEqual(middle, largest, delta=tolerance * largest)
                 # The linear solver's tolerance, times what a slender body may make of a residual.
