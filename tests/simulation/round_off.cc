@@ -217,7 +217,8 @@ TEST_P(LinearStatics, IsCarriedBySupport)
   EXPECT_LE(distance_from(beam.recorder().displacement, 0), exact * 0.1);
   for (const StepRecord &step : steps)
     {
-      EXPECT_GE(step.newton_iterations, 2u);
+      // A factorisation may be as good as two solves to a tolerance.
+      EXPECT_GE(step.newton_iterations, 1u);
       EXPECT_LE(step.newton_iterations, 3u);
     }
 }
