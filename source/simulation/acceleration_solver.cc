@@ -48,7 +48,11 @@ namespace corotet
     const unsigned int n       = state.a.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
       if (is_prescribed[i])
-        inertia[i] = m[i] * a[i];
+        {
+          inertia[i] = m[i] * a[i];
+          if (damping != nullptr)
+            damping[i] += c * inertia[i];
+        }
       else
         {
           const double e = elastic != nullptr ? elastic[i] : 0.;
@@ -65,6 +69,33 @@ namespace corotet
   AccelerationSolver::solve_acceleration(State       &state,
                                          const double time,
                                          const double velocity_factor)
+  {
+    if (velocity_factor == 0 || !equation.terms.has_damping())
+      return solve(state, time, velocity_factor);
+    // Damping is that of one moment: supports come in with the velocity to
+    // come, the others with that before it.
+    add_to_supports(state.v, -velocity_factor, state.a);
+    const StageReport report = solve(state, time, velocity_factor);
+    add_to_supports(state.v, velocity_factor, state.a);
+    return report;
+  }
+
+  void
+  AccelerationSolver::add_to_supports(Vector       &v,
+                                      const double  factor,
+                                      const Vector &a) const
+  {
+    const std::vector<unsigned char> &is_prescribed =
+      body.motion.is_prescribed();
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      if (is_prescribed[i] != 0)
+        v.local_element(i) += factor * a.local_element(i);
+  }
+
+  StageReport
+  AccelerationSolver::solve(State       &state,
+                            const double time,
+                            const double velocity_factor)
   {
     // Of damping by mass and on the surface, a part is in the velocity to come.
     const ForceTerms &terms = equation.terms;
@@ -93,6 +124,17 @@ namespace corotet
     ScopedTimer                    timer(equation.wall_times.solve);
     const SurfaceOperator<double> *C =
       has_surface_damping ? &surface_damping(time, velocity_factor) : nullptr;
+    // The part of the accelerations of supports.
+    if (c > 0)
+      r.add(-c, forces.inertia);
+    if (C != nullptr)
+      {
+        a = 0;
+        copy_with_ghosts(ghosted, state.a);
+        C->add(a, ghosted);
+        r -= a;
+      }
+    body.motion.set_zero(r);
     if (C != nullptr)
       report.linear_iterations = mass_solver().solve(a, r, 1 + c, *C);
     else
@@ -103,15 +145,13 @@ namespace corotet
     state.a += a;
     state.v.add(velocity_factor, a);
     equation.evaluate_inertia(state.a);
-    if (c > 0 || C != nullptr)
-      copy_with_ghosts(ghosted, a);
     if (c > 0)
-      {
-        body.mass.apply(r, ghosted);
-        forces.damping.add(c, r);
-      }
+      forces.damping.add(c, forces.inertia);
     if (C != nullptr)
-      C->add(forces.damping, ghosted);
+      {
+        copy_with_ghosts(ghosted, state.a);
+        C->add(forces.damping, ghosted);
+      }
     return report;
   }
 

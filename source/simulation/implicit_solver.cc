@@ -21,6 +21,8 @@ namespace corotet
     constexpr double least_share = 1e-8;
     // Of one linear solve.
     constexpr double least_tolerance = 1e-9;
+    // Sizes of a body: no equilibrium with its supports is there.
+    constexpr double far_away = 1e3;
   } // namespace
 
   ImplicitSolver::ImplicitSolver(
@@ -177,9 +179,29 @@ namespace corotet
       noise.of_force(equation.displacement()) +
       4 * machine_precision * force_scale +
       equation.terms.round_off(equation.last_motion(), external_force, noise);
-    const double known = std::max(external_force, solved_scale);
-    has_run_away       = known > 0 && sum > known;
-    return has_run_away ? 0. : sum;
+    has_run_away =
+      external_force > 0 && sum > external_force && is_out_of_reach();
+    force_noise = has_run_away ? 0. : sum;
+    return force_noise;
+  }
+
+  bool
+  ImplicitSolver::is_out_of_reach() const
+  {
+    // In motion inertia resists, and bodies get anywhere.
+    if (equation.is_dynamic)
+      return false;
+    const Vector &u           = equation.displacement();
+    const auto   &prescribed  = body.motion.is_prescribed();
+    double        of_supports = 0;
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      if (prescribed[i] != 0)
+        of_supports = std::max(of_supports, std::abs(u.local_element(i)));
+    of_supports =
+      dealii::Utilities::MPI::max(of_supports,
+                                  body.discretization.communicator());
+    const auto [lower, upper] = body.discretization.bounding_box();
+    return u.linfty_norm() > far_away * (of_supports + lower.distance(upper));
   }
 
   void
@@ -284,8 +306,9 @@ namespace corotet
           std::max(stage_scale, known > 0 ? known : force_scale);
         // What one solve cannot do is left to the next one.
         const double limit =
-          is_linear() ? std::max(0.9 * parameters.residual_tolerance * scale,
-                                 least_tolerance * norm(r)) :
+          is_linear() ? std::max({0.9 * parameters.residual_tolerance * scale,
+                                  least_tolerance * norm(r),
+                                  0.9 * force_noise}) :
                         std::numeric_limits<double>::infinity();
         const unsigned int n_builds     = preconditioner_builds();
         const unsigned int n_iterations = linear_solver.solve(

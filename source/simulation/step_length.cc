@@ -46,8 +46,7 @@ namespace corotet
       throw InputError(
         section + "Adaptive step/Enabled",
         fmt::format("found true; allowed with Type = {}, which estimate their "
-                    "error (Newmark not with beta = 1/6, or gamma other "
-                    "than 1/2)",
+                    "error (Newmark with gamma = 1/2 and beta of at least 1/4)",
                     parameters.time_integrator.names_of(estimates_error)));
   }
 

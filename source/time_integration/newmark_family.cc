@@ -40,6 +40,10 @@ namespace corotet
     constexpr double round_off = 1e-12;
     if (std::abs(c.gamma - (0.5 - c.alpha_m + c.alpha_f)) > round_off)
       return 0;
+    // Steps that are stable on a condition grow with their waves; and near beta
+    // = 1/6 the estimate vanishes.
+    if (c.alpha_m == 0 && c.alpha_f == 0 && 2 * c.beta < c.gamma)
+      return 0;
     return std::abs(1. / 6 - c.beta - 0.5 * (c.alpha_m - c.alpha_f));
   }
 

@@ -318,3 +318,51 @@ TEST(Explicit, ConsistentMass)
       EXPECT_LE(iterations[1], 1.15 * iterations[0] + 1);
     }
 }
+
+// A support that accelerates as the weight does: nothing is strained, and
+// damping has nothing to damp, with supports at the same moment as the rest.
+TEST(Explicit, DampingSeesNoRigidMotion)
+{
+  for (const std::string mass : {"row sum", "consistent"})
+    {
+      constexpr double T = 1, dt = 0.001;
+      CompleteRun      run(
+        box_mesh("1, 0.2, 0.2", "5, 1, 1") +
+        section("Discretization", {{"Degree", 1}, {"Mass", mass}}) +
+        material_type("linear") + material_text(1e5) +
+        displacements("x-min: 0.5*t^2; 0; 0") + gravity("1; 0; 0") +
+        section("Damping", {{"Stiffness coefficient", 0.01}}) +
+        time_integration("central difference", T, dt));
+      ASSERT_EQ(run.run(), "");
+      const Vector &u = run.recorder().displacement;
+      for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+        // Round-off of 1000 steps.
+        EXPECT_NEAR(u.local_element(i), i % 3 == 0 ? 0.5 * T * T : 0, 1e-12)
+          << mass;
+      for (const StepRecord &step : run.recorder().steps)
+        EXPECT_NEAR(step.dissipated_energy, 0, 1e-20);
+    }
+}
+
+// Damping by mass takes the velocity to come, of supports, too: the rigid
+// motion x = t^2 / 2 needs the weight m (1 + alpha t).
+TEST(Explicit, DampingByMassTakesVelocitiesToCome)
+{
+  for (const std::string mass : {"row sum", "consistent"})
+    {
+      constexpr double T = 0.5, dt = 0.002, alpha = 2;
+      CompleteRun      run(
+        box_mesh("1, 0.2, 0.2", "5, 1, 1") +
+        section("Discretization", {{"Degree", 1}, {"Mass", mass}}) +
+        material_type("linear") + material_text(1e5) +
+        displacements("x-min: 0.5*t^2; 0; 0") +
+        gravity(fmt::format("1 + {}*t; 0; 0", alpha)) +
+        section("Damping", {{"Mass coefficient", alpha}}) +
+        time_integration("central difference", T, dt));
+      ASSERT_EQ(run.run(), "");
+      const Vector &u = run.recorder().displacement;
+      for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+        EXPECT_NEAR(u.local_element(i), i % 3 == 0 ? 0.5 * T * T : 0, 1e-12)
+          << mass;
+    }
+}

@@ -264,6 +264,90 @@ TEST(RoundOff, NothingResists)
   EXPECT_NE(body.run(), "");
 }
 
+namespace
+{
+  struct ForcelessCase
+  {
+    std::string  name;
+    std::string  text;
+    unsigned int n_steps;
+    /// That a step may take [-]: where all forces are round-off nothing is left
+    /// to do but to follow a support.
+    unsigned int n_iterations;
+  };
+
+  const std::string block = box_mesh("1, 0.2, 0.2", "5, 1, 1");
+
+  const std::string turned = "x*(cos(t)-1)-y*sin(t); x*sin(t)+y*(cos(t)-1); 0";
+
+  const std::vector<ForcelessCase> forceless_cases{
+    {"SupportTurnsInTwoLoadSteps",
+     block + displacements("x-min: " + turned) + statics(2) +
+       section("Time integration",
+               {section("static", {{"Proportional loading", false}})}),
+     2,
+     10},
+    {"LoadGoesToZeroAndStays",
+     block + material_type("neo-Hookean") + fixed("x-min") +
+       tractions("x-max: 0; 0; 100 * max(0, 0.5 - t)") + statics(8) +
+       section("Time integration",
+               {section("static", {{"Proportional loading", false}})}),
+     8,
+     10},
+    {"DriftsFreely",
+     block + initial_conditions("0; 0; 0", "1; 2; 3") +
+       time_integration("BDF2", 1, 0.05),
+     20,
+     1},
+    {"CarriedBySupport",
+     block + initial_conditions("0; 0; 0", "1; 2; 3") +
+       displacements("x-min: t; 2*t; 3*t") +
+       time_integration("generalized-alpha", 1, 0.05),
+     20,
+     1},
+    {"CarriedBySupportLinearly",
+     block + material_type("linear") +
+       initial_conditions("0; 0; 0", "1; 2; 3") +
+       displacements("x-min: t; 2*t; 3*t") +
+       time_integration("generalized-alpha", 1, 0.05),
+     20,
+     1},
+    {"TurnedAtRest",
+     block +
+       initial_conditions("x*(cos(1)-1)-y*sin(1); "
+                          "x*sin(1)+y*(cos(1)-1); 0",
+                          "0; 0; 0") +
+       time_integration("generalized-alpha", 1, 0.05),
+     20,
+     1},
+    {"FoilFalls",
+     box_mesh("1, 0.2, 0.0001", "5, 1, 1") + material_text(2.1e11, 0.3, 7850) +
+       gravity("0; 0; -9.81") + time_integration("generalized-alpha", 6, 0.05),
+     120,
+     1}};
+} // namespace
+
+class Forceless : public testing::TestWithParam<ForcelessCase>
+{};
+
+// Bodies whose forces are round-off, or smaller than it: they reach the end,
+// in the steps that were asked for and without many iterations.
+TEST_P(Forceless, ReachesTheEnd)
+{
+  CompleteRun run(GetParam().text);
+  ASSERT_EQ(run.run(), "");
+  const auto &steps = run.recorder().steps;
+  ASSERT_EQ(steps.size(), GetParam().n_steps);
+  EXPECT_LE(most_iterations(steps, 0, steps.size()), GetParam().n_iterations);
+  for (const StepRecord &step : steps)
+    EXPECT_EQ(step.parts, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases,
+                         Forceless,
+                         testing::ValuesIn(forceless_cases),
+                         [](const auto &info) { return info.param.name; });
+
 // A beam of a thickness of 1 / 3,750 of its length: its residual cannot fall
 // below some 1e-7 of the forces, for whatever solver.
 TEST(RoundOff, ThinBeam)

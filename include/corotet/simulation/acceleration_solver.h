@@ -43,6 +43,13 @@ namespace corotet
     largest_frequency(const State &state, const double time = 0);
 
   private:
+    /// solve_acceleration() for a velocity of one moment at all entries, to
+    /// which prescribed ones, too, add @p velocity_factor times a later on.
+    StageReport
+    solve(State &state, const double time, const double velocity_factor);
+    /// Adds @p factor times @p a to the prescribed entries of @p v.
+    void
+    add_to_supports(Vector &v, const double factor, const Vector &a) const;
     const MassSolver &
     mass_solver();
     /// With a lumped mass, without damping on the surface; @p c is the part of

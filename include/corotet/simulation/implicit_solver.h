@@ -105,9 +105,13 @@ namespace corotet
                          const TangentOperator *J,
                          const double           tolerance = 0);
     /// What round-off may make of the sum of the last evaluation's forces [N];
-    /// zero if that is more than these themselves.
+    /// zero if the body has run away.
     double
     round_off();
+    /// Whether statics have taken the body to where supports cannot hold it.
+    /// Collective.
+    bool
+    is_out_of_reach() const;
     /// Says once that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
@@ -144,8 +148,10 @@ namespace corotet
     double external_force = 0;
     double solved_scale   = 0;
     double stage_scale    = 0;
-    /// Whether the displacement is so large that nothing is known of the
-    /// forces: nothing resists it.
+    /// What round-off may make of the last residual.
+    double force_noise = 0;
+    /// Whether nothing resists the loads: the displacement is so large that
+    /// round-off makes more of it than they are, and far out of reach.
     bool has_run_away = false;
     /// Which ends by round-off the log has shown.
     std::set<NewtonReport::RoundOff> shown_round_off;

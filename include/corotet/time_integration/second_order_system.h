@@ -104,9 +104,10 @@ namespace corotet
     /**
      * Sets a of @p state such that the equation holds at @p time with its u,
      * and adds @p velocity_factor times a to v, both but for prescribed
-     * entries. Damping is that of the v that comes in; of damping that is
-     * proportional to the mass, that of the v that goes out. Throws
-     * ComputationError.
+     * entries, which come in with the v that goes out. Damping is that of the
+     * v that comes in, of prescribed entries v - @p velocity_factor a; damping
+     * that is proportional to the mass or on the surface is that of the v that
+     * goes out. Throws ComputationError.
      */
     virtual StageReport
     solve_acceleration(State       &state,
