@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// What round-off leaves of residuals, and when that is no excuse.
+
+#include <corotet/operators/force_round_off.h>
+#include <corotet/simulation/implicit_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+namespace corotet
+{
+  namespace
+  {
+    constexpr double precision = std::numeric_limits<double>::epsilon();
+    // Sizes of a body: no equilibrium with its supports is there.
+    constexpr double far_away = 1e3;
+  } // namespace
+
+  double
+  ImplicitSolver::round_off()
+  {
+    const ForceRoundOff &noise = effective_operator->force_round_off();
+    const double         sum =
+      noise.of_force(equation.displacement()) + 4 * precision * force_scale +
+      equation.terms.round_off(equation.last_motion(), external_force, noise);
+    has_run_away =
+      external_force > 0 && sum > external_force && is_out_of_reach();
+    force_noise = has_run_away ? 0. : sum;
+    return force_noise;
+  }
+
+  bool
+  ImplicitSolver::is_out_of_reach() const
+  {
+    // In motion inertia resists, and bodies get anywhere.
+    if (equation.is_dynamic)
+      return false;
+    const Vector &u           = equation.displacement();
+    const auto   &prescribed  = body.motion.is_prescribed();
+    double        of_supports = 0;
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      if (prescribed[i] != 0)
+        of_supports = std::max(of_supports, std::abs(u.local_element(i)));
+    of_supports =
+      dealii::Utilities::MPI::max(of_supports,
+                                  body.discretization.communicator());
+    const auto [lower, upper] = body.discretization.bounding_box();
+    return u.linfty_norm() > far_away * (of_supports + lower.distance(upper));
+  }
+
+  void
+  ImplicitSolver::report_round_off(const NewtonReport &report)
+  {
+    using RoundOff = NewtonReport::RoundOff;
+    if (report.round_off == RoundOff::none ||
+        !shown_round_off.insert(report.round_off).second)
+      return;
+    const double size = equation.displacement().linfty_norm();
+    log.line(fmt::format(
+      "t = {:.6g}: round-off ended Newton's iterations, which is not said "
+      "again: {}; the residual is {:.2g} of the forces",
+      stage.time,
+      report.round_off == RoundOff::of_residual ?
+        fmt::format("displacements of up to {:.3g} m, known to {:.1g} m, leave "
+                    "no smaller residual",
+                    size,
+                    precision * size) :
+        "an increment was no more than the round-off of the displacement",
+      report.final_residual));
+  }
+} // namespace corotet
