@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/bernstein.h>
 #include <corotet/discretization/finite_element.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/discretization/with_degree.h>
@@ -32,26 +31,6 @@ namespace corotet
         std::swap(v[1], v[2]);
       return v;
     }
-
-    template <int p>
-    dealii::Table<2, double>
-    derivative_basis(const std::vector<dealii::Point<3>> &points)
-    {
-      constexpr int            n = bernstein::size<p - 1>;
-      dealii::Table<2, double> result(points.size(), n);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          const dealii::Point<3> &x = points[q];
-          for (int i = 0; i < n; ++i)
-            result[q][i] =
-              p * bernstein::value(bernstein::multi_indices<p - 1>[i], {
-                {
-                  1 - x[0] - x[1] - x[2], x[0], x[1], x[2]
-                }
-              });
-        }
-      return result;
-    }
   } // namespace
 
   ReferenceElement::ReferenceElement(const Element element)
@@ -71,10 +50,9 @@ namespace corotet
     // Rule n is of degree 2n-1. Loads: 2p = 2, 4, 6, with bubbles 4 + 2.
     const unsigned int n = element.has_bubbles() ? 4 : degree + 1;
     const dealii::QWitherdenVincentSimplex<3> loads(n);
-    stiffness_rule =
-      tabulate(fe, stiffness.get_points(), stiffness.get_weights());
-    load_rule = tabulate(fe, loads.get_points(), loads.get_weights());
-    centre    = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
+    stiffness_rule = tabulate_orbits(element, stiffness);
+    load_rule      = tabulate(fe, loads.get_points(), loads.get_weights());
+    centre         = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
 
     // 3p-2 = 1, 4, 7; with bubbles 3 and twice 2.
     const dealii::QWitherdenVincentSimplex<2> on_face(n);
@@ -162,11 +140,6 @@ namespace corotet
           for (unsigned int k = 0; k < 3; ++k)
             result.gradients[q][i][k] = gradient[k];
         }
-    for (unsigned int p = 1; p <= 3; ++p)
-      with_degree(p, [&](const auto degree) {
-        if (n == bernstein::size<degree>)
-          result.derivative_basis = derivative_basis<degree>(points);
-      });
     return result;
   }
 
@@ -176,7 +149,29 @@ namespace corotet
     // Rule n is of degree 2n, or 2n-1 if odd.
     const dealii::QWitherdenVincentSimplex<3> rule(
       element.has_bubbles() ? 3 : element.degree(), element.has_bubbles());
-    return tabulate(element, rule.get_points(), rule.get_weights());
+    return tabulate_orbits(element, rule);
+  }
+
+  ReferenceElement::PointValues
+  ReferenceElement::tabulate_orbits(const Element                element,
+                                    const dealii::Quadrature<3> &rule)
+  {
+    std::vector<dealii::Point<3>> points  = rule.get_points();
+    std::vector<double>           weights = rule.get_weights();
+    std::vector<PointOrbit>       orbits  = sort_into_orbits(points, weights);
+    PointValues                   result  = tabulate(element, points, weights);
+    if (element.degree() > 1 && !element.has_bubbles())
+      {
+        unsigned int q = 0;
+        for (PointOrbit &orbit : orbits)
+          {
+            orbit.weight = result.weights[q];
+            set_factors(orbit, element.degree());
+            q += orbit.n_points();
+          }
+        result.orbits = std::move(orbits);
+      }
+    return result;
   }
 
   void

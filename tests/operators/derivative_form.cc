@@ -36,53 +36,65 @@ namespace
       EXPECT_NEAR(a[lane], b[lane], 1e-13);
   }
 
-  template <int n, int n_points>
+  template <int n>
   void
-  compare_at_points(const ReferenceElement::PointValues &rule,
-                    const unsigned int                   q)
+  compare(const ReferenceElement::PointValues &rule)
   {
-    using Form = DerivativeForm<n>;
+    using Form         = DerivativeForm<n>;
+    const int n_points = rule.weights.size();
+    using Derivatives  = V[Form::max_points][9];
+    ASSERT_LE(n_points, Form::max_points);
     V u[n][3];
     for (int ia = 0; ia < 3 * n; ++ia)
       u[ia / 3][ia % 3] = some_numbers(ia);
     typename Form::Coefficients c;
-    V                           found[n_points][9];
+    Derivatives                 found;
     Form::from_nodes(u, c);
-    Form::template evaluate<n_points>(rule, q, c, found);
-    V given[n_points][9];
+    Form::evaluate(rule, c, found);
+    Derivatives given;
     for (int l = 0; l < 9 * n_points; ++l)
       given[l / 9][l % 9] = some_numbers(1000 + l);
-    V                           f[n][3] = {};
-    typename Form::Coefficients sums{};
-    Form::template add<n_points>(rule, q, given, sums);
-    Form::add_to_nodes(sums, f);
+    const auto sum_up = [&](const auto weighted, V(&f)[n][3]) {
+      typename Form::Coefficients sums;
+      Form::template sum_up<decltype(weighted)::value>(rule, given, sums);
+      Form::add_to_nodes(sums, f);
+    };
+    V f[n][3] = {}, weighted_f[n][3] = {};
+    sum_up(std::false_type(), f);
+    if constexpr (Form::has_coefficients)
+      sum_up(std::true_type(), weighted_f);
 
-    V expected_f[n][3] = {};
-    for (int j = 0; j < n_points; ++j)
+    V expected_f[n][3] = {}, expected_weighted_f[n][3] = {};
+    for (int q = 0; q < n_points; ++q)
       for (int ak = 0; ak < 9; ++ak)
         {
           V expected{};
           for (int i = 0; i < n; ++i)
             {
-              const double dN = rule.gradients(q + j, i, ak % 3);
+              const double dN = rule.gradients(q, i, ak % 3);
               expected += dN * u[i][ak / 3];
-              expected_f[i][ak / 3] += dN * given[j][ak];
+              expected_f[i][ak / 3] += dN * given[q][ak];
+              expected_weighted_f[i][ak / 3] +=
+                rule.weights[q] * dN * given[q][ak];
             }
-          expect_same(found[j][ak], expected);
+          expect_same(found[q][ak], expected);
         }
     for (int ia = 0; ia < 3 * n; ++ia)
-      expect_same(f[ia / 3][ia % 3], expected_f[ia / 3][ia % 3]);
+      {
+        expect_same(f[ia / 3][ia % 3], expected_f[ia / 3][ia % 3]);
+        if constexpr (Form::has_coefficients)
+          expect_same(weighted_f[ia / 3][ia % 3],
+                      expected_weighted_f[ia / 3][ia % 3]);
+      }
   }
 
+  /// For the rules of straight and of curved cells.
   template <int n>
   void
   compare(const Element element)
   {
-    const auto &rule = ReferenceElement::of(element).stiffness_rule;
-    for (unsigned int q = 0; q < rule.weights.size(); ++q)
-      compare_at_points<n, 1>(rule, q);
-    for (unsigned int q = 0; q + 1 < rule.weights.size(); ++q)
-      compare_at_points<n, 2>(rule, q);
+    compare<n>(ReferenceElement::of(element).stiffness_rule);
+    compare<n>(ReferenceElement::curved_rule(element));
   }
 } // namespace
 

@@ -5,6 +5,7 @@
 #define corotet_discretization_reference_element_h
 
 #include <corotet/discretization/element.h>
+#include <corotet/discretization/point_orbits.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/table.h>
@@ -16,7 +17,9 @@ namespace dealii
 {
   template <int dim, int spacedim>
   class FiniteElement;
-}
+  template <int dim>
+  class Quadrature;
+} // namespace dealii
 
 namespace corotet
 {
@@ -38,10 +41,9 @@ namespace corotet
       dealii::Table<2, double> values;
       /// [point][node][k]: derivative by the reference coordinate xi_k.
       dealii::Table<3, double> gradients;
-      /// [point][polynomial]: p times the Bernstein polynomials of degree
-      /// p - 1, which derivatives are made of. Empty for other elements than
-      /// those of degree p = 1, 2 and 3.
-      dealii::Table<2, double> derivative_basis;
+      /// What the points consist of, in their order, with factors for
+      /// derivatives. Only of the rules for stiffness of degrees 2 and 3.
+      std::vector<PointOrbit> orbits;
     };
 
     explicit ReferenceElement(const Element element);
@@ -108,6 +110,10 @@ namespace corotet
     dealii::Table<3, double> gradient_products;
 
   private:
+    /// A rule for stiffness, its points in the order of orbits.
+    static PointValues
+    tabulate_orbits(const Element element, const dealii::Quadrature<3> &rule);
+
     void
     integrate_products(const PointValues &mass_rule);
   };

@@ -29,6 +29,12 @@ namespace corotet
     }
   };
 
+  /// Whether gradients of the coordinates, and weights, are the same in all
+  /// cells and points but for a factor.
+  template <typename Rule>
+  inline constexpr bool is_of_straight_cells =
+    std::is_same_v<Rule, ReferenceElement::PointValues>;
+
   /// The rule of a batch, of the kind that is_curved (std::true_type or
   /// std::false_type) says.
   template <typename IsCurved>
@@ -70,18 +76,17 @@ namespace corotet
     return rule.number(q, 9);
   }
 
-  /// PointValues::derivative_basis at point @p q.
-  COROTET_ALWAYS_INLINE const double *
-  derivative_basis_at(const ReferenceElement::PointValues &rule,
-                      const unsigned int                   q)
+  /// The orbits that the points consist of.
+  COROTET_ALWAYS_INLINE const std::vector<PointOrbit> &
+  orbits_of(const ReferenceElement::PointValues &rule)
   {
-    return &rule.derivative_basis(q, 0);
+    return rule.orbits;
   }
 
-  COROTET_ALWAYS_INLINE const double *
-  derivative_basis_at(const CurvedRule &rule, const unsigned int q)
+  COROTET_ALWAYS_INLINE const std::vector<PointOrbit>                             &
+  orbits_of(const CurvedRule &rule)
   {
-    return derivative_basis_at(rule.shapes, q);
+    return rule.shapes.orbits;
   }
 
   /// Derivatives by xi at point @p q, [node][k].

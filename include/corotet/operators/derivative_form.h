@@ -6,6 +6,7 @@
 
 #include <corotet/operators/cell_rule.h>
 #include <corotet/operators/factored_kernel.h>
+#include <corotet/operators/orbit_form.h>
 
 namespace corotet
 {
@@ -46,9 +47,8 @@ namespace corotet
    * Derivatives have a form of their own, with coefficients
    * [polynomial][3 component + k] that are made once for all points: those of a
    * polynomial of degree p are, in Bernstein form, differences of its
-   * coefficients, of degree p - 1 (see FactoredKernel). At a point they take
-   * 10 numbers for each derivative in place of 20 at degree 3, 4 in place of 10
-   * at degree 2.
+   * coefficients, of degree p - 1 (see FactoredKernel), and their values at the
+   * points of an orbit share most of their sums (see OrbitSums).
    */
   template <int n>
   class DerivativeForm
@@ -66,6 +66,10 @@ namespace corotet
 
   public:
     static constexpr int n_polynomials = bernstein::size<degree - 1>;
+    /// Of the rules for stiffness of straight and curved cells.
+    static constexpr int max_points = degree == 1 ? 4 : degree == 2 ? 11 : 24;
+    /// Whether coefficients are derivatives, too.
+    static constexpr bool has_coefficients = true;
 
     using NodalValues  = V[n][3];
     using Coefficients = V[n_polynomials][9];
@@ -105,52 +109,67 @@ namespace corotet
         [&](auto ia) { f[ia / 3][ia % 3] += b[ia / 3][ia % 3]; });
     }
 
-    /// Derivatives at the @p n_points points from @p q on, [point][3 component
-    /// + k].
-    template <int n_points, typename Rule>
+    /// Derivatives at all points, [point][3 component + k].
+    template <typename Rule>
     static COROTET_ALWAYS_INLINE void
     evaluate(const Rule         &rule,
-             const unsigned int  q,
              const Coefficients &c,
-             V (*derivatives)[9])
+             V (&derivatives)[max_points][9])
     {
-      const double *basis[n_points];
-      static_for<n_points>(
-        [&](auto j) { basis[j] = derivative_basis_at(rule, q + j); });
-      V sums[n_points][9] = {};
-      static_for<n_polynomials>([&](auto i) {
-        static_for<9>([&](auto ak) {
-          const V coefficient = c[i][ak];
-          static_for<n_points>(
-            [&](auto j) { sums[j][ak] += basis[j][i] * coefficient; });
-        });
-      });
-      static_for<9 * n_points>(
-        [&](auto l) { derivatives[l / 9][l % 9] = sums[l / 9][l % 9]; });
+      if constexpr (degree == 1)
+        for (unsigned int q = 0; q < n_points(rule); ++q)
+          static_for<9>([&](auto ak) { derivatives[q][ak] = c[0][ak]; });
+      else
+        for (int ak = 0; ak < 9; ++ak)
+          {
+            V own[n_polynomials];
+            static_for<n_polynomials>([&](auto i) { own[i] = c[i][ak]; });
+            const OrbitSums<n_polynomials> sums(own);
+            unsigned int                   q = 0;
+            for (const PointOrbit &orbit : orbits_of(rule))
+              {
+                sums.evaluate(orbit, [&](const int i) -> V & {
+                  return derivatives[q + i][ak];
+                });
+                q += orbit.n_points();
+              }
+          }
     }
 
-    /// Adds to coefficients what evaluate() makes of them, transposed.
-    template <int n_points, typename Rule>
+    /// What evaluate() makes of coefficients, transposed; with the weights of
+    /// the points if @p weighted.
+    template <bool weighted, typename Rule>
     static COROTET_ALWAYS_INLINE void
-    add(const Rule        &rule,
-        const unsigned int q,
-        const V (*derivatives)[9],
-        Coefficients &c)
+    sum_up(const Rule &rule,
+           const V (&derivatives)[max_points][9],
+           Coefficients &c)
     {
-      const double *basis[n_points];
-      V             own[n_points][9];
-      static_for<n_points>([&](auto j) {
-        basis[j] = derivative_basis_at(rule, q + j);
-        static_for<9>([&](auto ak) { own[j][ak] = derivatives[j][ak]; });
-      });
-      static_for<n_polynomials>([&](auto i) {
+      if constexpr (degree == 1)
         static_for<9>([&](auto ak) {
-          V sum = c[i][ak];
-          static_for<n_points>(
-            [&](auto j) { sum += basis[j][i] * own[j][ak]; });
-          c[i][ak] = sum;
+          V sum{};
+          for (unsigned int q = 0; q < n_points(rule); ++q)
+            sum += weighted ? weight_at(rule, q) * derivatives[q][ak] :
+                              derivatives[q][ak];
+          c[0][ak] = sum;
         });
-      });
+      else
+        for (int ak = 0; ak < 9; ++ak)
+          {
+            OrbitSums<n_polynomials> sums;
+            unsigned int             q = 0;
+            for (const PointOrbit &orbit : orbits_of(rule))
+              {
+                sums.add(orbit,
+                         weighted ? orbit.weighted_factors : orbit.factors,
+                         [&](const int i) -> const V & {
+                           return derivatives[q + i][ak];
+                         });
+                q += orbit.n_points();
+              }
+            V own[n_polynomials];
+            sums.coefficients(own);
+            static_for<n_polynomials>([&](auto i) { c[i][ak] = own[i]; });
+          }
     }
   };
 
@@ -164,6 +183,9 @@ namespace corotet
     using V = Simd<double>;
 
   public:
+    static constexpr int  max_points       = 14;
+    static constexpr bool has_coefficients = false;
+
     using NodalValues  = V[n][3];
     using Coefficients = NodalValues;
 
@@ -181,28 +203,26 @@ namespace corotet
         [&](auto ia) { f[ia / 3][ia % 3] += c[ia / 3][ia % 3]; });
     }
 
-    template <int n_points, typename Rule>
+    template <typename Rule>
     static COROTET_ALWAYS_INLINE void
     evaluate(const Rule         &rule,
-             const unsigned int  q,
              const Coefficients &c,
-             V (*derivatives)[9])
+             V (&derivatives)[max_points][9])
     {
-      static_for<n_points>([&](auto j) {
-        derivatives_of<n>(derivatives_at(rule, q + j), c, derivatives[j]);
-      });
+      for (unsigned int q = 0; q < n_points(rule); ++q)
+        derivatives_of<n>(derivatives_at(rule, q), c, derivatives[q]);
     }
 
-    template <int n_points, typename Rule>
+    template <bool weighted, typename Rule>
     static COROTET_ALWAYS_INLINE void
-    add(const Rule        &rule,
-        const unsigned int q,
-        const V (*derivatives)[9],
-        Coefficients &c)
+    sum_up(const Rule &rule,
+           const V (&derivatives)[max_points][9],
+           Coefficients &c)
     {
-      static_for<n_points>([&](auto j) {
-        add_transposed<n>(derivatives_at(rule, q + j), derivatives[j], c);
-      });
+      static_assert(!weighted);
+      static_for<3 * n>([&](auto ia) { c[ia / 3][ia % 3] = V{}; });
+      for (unsigned int q = 0; q < n_points(rule); ++q)
+        add_transposed<n>(derivatives_at(rule, q), derivatives[q], c);
     }
   };
 } // namespace corotet

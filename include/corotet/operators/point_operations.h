@@ -16,48 +16,63 @@
  */
 namespace corotet
 {
-  /// Stores numbers, one register after another.
-  struct NumberWriter
+  /**
+   * Numbers of quadrature points in memory, one register after another. They
+   * go on for many pages, and what processors ask for ahead by themselves ends
+   * with a page: so what is needed a page later is asked for here.
+   */
+  template <typename T>
+  struct NumberStream
   {
-    double *next;
+    static constexpr std::size_t page = 4096 / sizeof(double);
 
+    T *next;
+
+    /// The place of register @p i from here on.
+    COROTET_ALWAYS_INLINE T *
+    place(const int i) const
+    {
+      T *const result = next + std::size_t(i) * batch_size;
+      __builtin_prefetch(result + page, std::is_const_v<T> ? 0 : 1);
+      return result;
+    }
+  };
+
+  /// Stores them.
+  struct NumberWriter : NumberStream<double>
+  {
     template <int n>
     COROTET_ALWAYS_INLINE void
     write(const Simd<double> (&values)[n])
     {
-      static_for<n>(
-        [&](auto i) { store_aligned(values[i], next + i * batch_size); });
+      static_for<n>([&](auto i) { store_aligned(values[i], place(i)); });
       next += std::size_t(n) * batch_size;
     }
 
     COROTET_ALWAYS_INLINE void
     write(const Tensor2Lanes &values)
     {
-      static_for<9>([&](auto i) {
-        store_aligned(values[i / 3][i % 3], next + i * batch_size);
-      });
+      static_for<9>(
+        [&](auto i) { store_aligned(values[i / 3][i % 3], place(i)); });
       next += std::size_t(9) * batch_size;
     }
   };
 
   /// Reads them.
-  struct NumberReader
+  struct NumberReader : NumberStream<const double>
   {
-    const double *next;
-
     template <int n>
     COROTET_ALWAYS_INLINE void
     read(Simd<double> (&values)[n])
     {
-      static_for<n>([&](auto i) { values[i] = lanes(next + i * batch_size); });
+      static_for<n>([&](auto i) { values[i] = lanes(place(i)); });
       next += std::size_t(n) * batch_size;
     }
 
     COROTET_ALWAYS_INLINE void
     read(Tensor2Lanes &values)
     {
-      static_for<9>(
-        [&](auto i) { values[i / 3][i % 3] = lanes(next + i * batch_size); });
+      static_for<9>([&](auto i) { values[i / 3][i % 3] = lanes(place(i)); });
       next += std::size_t(9) * batch_size;
     }
   };
@@ -165,15 +180,15 @@ namespace corotet
     COROTET_ALWAYS_INLINE NumberWriter
     writer(const LinearizationSize size) const
     {
-      return {data.new_linearization +
-              linearization_start<is_curved>(data, size, batch)};
+      return {{data.new_linearization +
+               linearization_start<is_curved>(data, size, batch)}};
     }
 
     COROTET_ALWAYS_INLINE NumberReader
     reader(const LinearizationSize size) const
     {
-      return {data.linearization +
-              linearization_start<is_curved>(data, size, batch)};
+      return {{data.linearization +
+               linearization_start<is_curved>(data, size, batch)}};
     }
 
     /// Counts lanes with a cell where a derivative was bounded.

@@ -90,18 +90,14 @@ namespace corotet
                    const NodalValues &u,
                    const Function    &function)
     {
-      typename Form::Coefficients c;
-      Form::from_nodes(u, c);
-      for_pairs_of_points(rule, [&](const auto n_points, const unsigned int q) {
-        V derivatives[n_points][9];
-        Form::template evaluate<n_points>(rule, q, c, derivatives);
-        for (int j = 0; j < n_points; ++j)
-          {
-            Tensor2 grad_u;
-            from_reference(rule, q + j, g, derivatives[j], grad_u);
-            function(q + j, grad_u);
-          }
-      });
+      V derivatives[Form::max_points][9];
+      derivatives_at_points(rule, g, u, derivatives);
+      for (unsigned int q = 0; q < n_points(rule); ++q)
+        {
+          Tensor2 grad_u;
+          to_gradient(rule, q, g, derivatives[q], grad_u);
+          function(q, grad_u);
+        }
     }
 
     /**
@@ -117,41 +113,83 @@ namespace corotet
               NodalValues       &f,
               const Stress      &stress)
     {
-      typename Form::Coefficients c, sums{};
-      Form::from_nodes(u, c);
-      for_pairs_of_points(rule, [&](const auto n_points, const unsigned int q) {
-        V derivatives[n_points][9];
-        Form::template evaluate<n_points>(rule, q, c, derivatives);
-        for (int j = 0; j < n_points; ++j)
-          {
-            Tensor2 grad_u, P;
-            from_reference(rule, q + j, g, derivatives[j], grad_u);
-            stress(q + j, grad_u, P);
-            const V weight = weight_at(rule, q + j) * volume;
-            static_for<9>([&](auto ab) { P[ab / 3][ab % 3] *= weight; });
-            to_reference(rule, q + j, g, P, derivatives[j]);
-          }
-        Form::template add<n_points>(rule, q, derivatives, sums);
-      });
+      V derivatives[Form::max_points][9];
+      derivatives_at_points(rule, g, u, derivatives);
+      for (unsigned int q = 0; q < n_points(rule); ++q)
+        {
+          Tensor2 grad_u, P;
+          to_gradient(rule, q, g, derivatives[q], grad_u);
+          stress(q, grad_u, P);
+          if constexpr (transforms_coefficients<Rule>)
+            static_for<9>(
+              [&](auto ab) { derivatives[q][ab] = P[ab / 3][ab % 3]; });
+          else
+            {
+              const V weight = weight_at(rule, q) * volume;
+              static_for<9>([&](auto ab) { P[ab / 3][ab % 3] *= weight; });
+              to_reference(rule, q, g, P, derivatives[q]);
+            }
+        }
+      typename Form::Coefficients sums;
+      Form::template sum_up<transforms_coefficients<Rule>>(rule,
+                                                           derivatives,
+                                                           sums);
+      if constexpr (transforms_coefficients<Rule>)
+        {
+          Geometry scaled;
+          static_for<9>([&](auto i) { scaled[i] = volume * g[i]; });
+          static_for<Form::n_polynomials>([&](auto i) {
+            Tensor2 P;
+            static_for<9>([&](auto ab) { P[ab / 3][ab % 3] = sums[i][ab]; });
+            to_reference(rule, 0, scaled, P, sums[i]);
+          });
+        }
       Form::add_to_nodes(sums, f);
     }
 
   private:
     using Form = DerivativeForm<n>;
 
-    /// Two points at a time at degree 3: each coefficient that is read or added
-    /// to then serves both. Others have few coefficients.
-    template <typename Rule, typename Action>
+    /// Whether all points have the same gradients of the coordinates, which
+    /// then multiply coefficients instead of values at points: at degree 3
+    /// these are 10 and 14.
+    template <typename Rule>
+    static constexpr bool transforms_coefficients =
+      Form::has_coefficients && is_of_straight_cells<Rule>;
+
+    /// Derivatives at the points: gradients if coefficients are transformed.
+    template <typename Rule>
     static COROTET_ALWAYS_INLINE void
-    for_pairs_of_points(const Rule &rule, const Action &action)
+    derivatives_at_points(const Rule        &rule,
+                          const Geometry    &g,
+                          const NodalValues &u,
+                          V (&derivatives)[Form::max_points][9])
     {
-      const unsigned int n_all = n_points(rule);
-      unsigned int       q     = 0;
-      if constexpr (n == 20)
-        for (; q + 2 <= n_all; q += 2)
-          action(std::integral_constant<int, 2>(), q);
-      for (; q < n_all; ++q)
-        action(std::integral_constant<int, 1>(), q);
+      typename Form::Coefficients c;
+      Form::from_nodes(u, c);
+      if constexpr (transforms_coefficients<Rule>)
+        static_for<Form::n_polynomials>([&](auto i) {
+          Tensor2 gradient;
+          from_reference(rule, 0, g, c[i], gradient);
+          static_for<9>([&](auto ab) { c[i][ab] = gradient[ab / 3][ab % 3]; });
+        });
+      Form::evaluate(rule, c, derivatives);
+    }
+
+    /// The gradient from what derivatives_at_points() has for point @p q.
+    template <typename Rule>
+    static COROTET_ALWAYS_INLINE void
+    to_gradient(const Rule        &rule,
+                const unsigned int q,
+                const Geometry    &g,
+                const V (&derivatives)[9],
+                Tensor2 &gradient)
+    {
+      if constexpr (transforms_coefficients<Rule>)
+        static_for<9>(
+          [&](auto ab) { gradient[ab / 3][ab % 3] = derivatives[ab]; });
+      else
+        from_reference(rule, q, g, derivatives, gradient);
     }
 
     /// The gradient from derivatives by the reference coordinates.
