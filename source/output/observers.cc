@@ -44,7 +44,7 @@ namespace corotet
         std::make_unique<StressPointsWriter>(directory, time_between_states));
     observers.push_back(std::move(history));
     observers.push_back(std::move(summary));
-    observers.push_back(std::make_unique<Progress>(end_time, log));
+    observers.push_back(std::make_unique<Progress>(start_time, end_time, log));
     return observers;
   }
 } // namespace corotet

@@ -24,9 +24,15 @@ namespace corotet
 
   std::string
   progress_text(const StepRecord &record,
+                const double      start_time,
                 const double      end_time,
                 const double      seconds_left)
   {
+    // Rounded down: 100 % is the end. A share of 0.29 is no 28 % by round-off.
+    const double share    = end_time > start_time ? (record.time - start_time) /
+                                                   (end_time - start_time) :
+                                                    1.;
+    const double per_cent = std::floor(100 * share * (1 + 1e-9));
     // Short, because a live line must fit into a terminal's.
     std::string text =
       fmt::format("step {}, time {:.4g} of {:.4g} s ({:.0f} %), Newton {}, "
@@ -34,7 +40,7 @@ namespace corotet
                   record.step,
                   record.time,
                   end_time,
-                  end_time > 0 ? 100 * record.time / end_time : 100.,
+                  per_cent,
                   record.newton_iterations,
                   record.linear_iterations);
     if (seconds_left >= 0)
@@ -42,8 +48,9 @@ namespace corotet
     return text;
   }
 
-  Progress::Progress(const double end_time, Log &log)
-    : end_time(end_time)
+  Progress::Progress(const double run_start, const double end_time, Log &log)
+    : run_start(run_start)
+    , end_time(end_time)
     , log(log)
   {}
 
@@ -69,7 +76,7 @@ namespace corotet
       seconds_left =
         seconds_since(begin) * (end_time - time) / (time - start_time);
     const std::string text =
-      progress_text(state.record, end_time, seconds_left);
+      progress_text(state.record, run_start, end_time, seconds_left);
 
     const double silence = seconds_since(line_written);
     const bool   due =

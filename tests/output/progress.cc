@@ -18,10 +18,29 @@ TEST(Progress, LineSaysHowFarTheRunIs)
 {
   const StepRecord record = ModelBody::record(12, 0.25);
   EXPECT_EQ(
-    progress_text(record, 1, 3725),
+    progress_text(record, 0, 1, 3725),
     "step 12, time 0.25 of 1 s (25 %), Newton 2, linear 31, 1:02:05 left");
-  EXPECT_EQ(progress_text(record, 0.25, -1),
+  EXPECT_EQ(progress_text(record, 0, 0.25, -1),
             "step 12, time 0.25 of 0.25 s (100 %), Newton 2, linear 31");
+}
+
+// The share is that of the run, wherever its times begin, and is rounded down.
+// 100 times 0.29 is less than 29, by round-off.
+TEST(Progress, ShareIsThatOfTheRun)
+{
+  const auto share =
+    [](const double time, const double start, const double end) {
+      const std::string text =
+        progress_text(ModelBody::record(1, time), start, end, -1);
+      const std::size_t bracket = text.find('(');
+      return text.substr(bracket, text.find(')') - bracket + 1);
+    };
+  EXPECT_EQ(share(-0.98, -1, 1), "(1 %)");
+  EXPECT_EQ(share(-0.5, -1, 0), "(50 %)");
+  EXPECT_EQ(share(-1, -3, -1), "(100 %)");
+  EXPECT_EQ(share(5, 5, 5.1), "(0 %)");
+  EXPECT_EQ(share(5.0999, 5, 5.1), "(99 %)");
+  EXPECT_EQ(share(0.29, 0, 1), "(29 %)");
 }
 
 // A thousand steps that take no time leave the first and the last line.
@@ -31,7 +50,7 @@ TEST(Progress, QuickStepsLeaveTwoLines)
   ModelBody           body(1);
   {
     Log      log(MPI_COMM_WORLD, true);
-    Progress progress(10, log);
+    Progress progress(0, 10, log);
     log.open(scratch.path + "/log.txt");
     StepRecord record;
     const auto state = [&](const bool last) {

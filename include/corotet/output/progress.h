@@ -13,11 +13,13 @@
 namespace corotet
 {
   /**
-   * What a Progress says of a step: step, time, share done, time left, Newton
-   * and linear iterations. @p seconds_left is left out if it is negative.
+   * What a Progress says of a step: step, time, share done of the run from
+   * @p start_time to @p end_time, rounded down, time left, Newton and linear
+   * iterations. @p seconds_left is left out if it is negative.
    */
   std::string
   progress_text(const StepRecord &record,
+                const double      start_time,
                 const double      end_time,
                 const double      seconds_left);
 
@@ -32,8 +34,9 @@ namespace corotet
   class Progress : public Observer
   {
   public:
-    /// @p log must outlive this object. @p end_time in s.
-    Progress(const double end_time, Log &log);
+    /// @p log must outlive this object. Of a run from @p run_start to
+    /// @p end_time, in s.
+    Progress(const double run_start, const double end_time, Log &log);
 
     void
     start(const Snapshot &initial) override;
@@ -50,8 +53,12 @@ namespace corotet
   private:
     using Clock = std::chrono::steady_clock;
 
-    double            end_time;
-    Log              &log;
+    double run_start;
+    double end_time;
+    Log   &log;
+
+    /// When this part of the run began, perhaps at a checkpoint, and the time
+    /// [s] there.
     Clock::time_point begin;
     double            start_time = 0;
 
