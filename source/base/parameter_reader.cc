@@ -28,17 +28,24 @@ namespace corotet
     constexpr unsigned int max_include_depth = 10;
     constexpr unsigned int max_includes      = 1000;
 
+    // @p includer: the place of the statement that includes it, and ": ".
     std::ifstream
-    open_file(const std::string &path)
+    open_file(const std::string &path, const std::string &includer = "")
     {
       std::error_code error;
-      const bool      exists = fs::exists(path, error);
+      const auto      status = fs::status(path, error);
+      std::ifstream   file;
+      if (fs::is_regular_file(status))
+        file.open(path);
+      if (error == std::errc::permission_denied ||
+          (fs::is_regular_file(status) && !file.is_open()))
+        throw MachineError(includer + shortened(path) +
+                           ": cannot be read (permission?)");
+      if (status.type() == fs::file_type::not_found)
+        refuse_statement(shortened(path), "there is no such file");
       if (error)
         refuse_statement(shortened(path), error.message());
-      if (!exists)
-        refuse_statement(shortened(path), "there is no such file");
-      std::ifstream file(path);
-      if (!fs::is_regular_file(path) || !file)
+      if (!fs::is_regular_file(status))
         refuse_statement(path, "it cannot be read as a file");
       if (const auto size = fs::file_size(path, error);
           !error && size > max_file_size)
@@ -77,9 +84,11 @@ namespace corotet
     {
     public:
       void
-      read(const std::string &path, const unsigned int depth = 0)
+      read(const std::string &path,
+           const unsigned int depth    = 0,
+           const std::string &includer = "")
       {
-        std::ifstream     file        = open_file(path);
+        std::ifstream     file        = open_file(path, includer);
         const std::size_t outer_depth = sections.size();
         lines_of_entries.emplace_back();
         std::string  line;
@@ -196,12 +205,14 @@ namespace corotet
                                            max_includes));
             const fs::path  path = fs::path(file).parent_path() / *included;
             std::error_code error;
-            if (included->empty() || !fs::is_regular_file(path, error))
+            const bool      is_file = fs::is_regular_file(path, error);
+            if (included->empty() ||
+                (!is_file && error != std::errc::permission_denied))
               refuse_statement(
                 place,
                 fmt::format("the file to include, \"{}\", does not exist",
                             shortened(path.string())));
-            read(path.string(), include_depth + 1);
+            read(path.string(), include_depth + 1, place + ": ");
           }
         else
           refuse_statement(

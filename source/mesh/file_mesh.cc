@@ -32,6 +32,8 @@ namespace corotet
     {
       std::error_code error;
       const bool      is_file = std::filesystem::is_regular_file(path, error);
+      if (error == std::errc::permission_denied)
+        throw MachineError(shortened(path) + ": cannot be read (permission?)");
       if (error && error != std::errc::no_such_file_or_directory)
         throw InputError(entry, shortened(path) + ": " + error.message());
       if (!is_file)

@@ -4,6 +4,8 @@
 """Exit statuses 1, 2 and 3, what is said, and what is left behind (status 1 for wrong input: see also tests/errors)."""
 
 import hashlib
+import os
+import subprocess
 import unittest
 
 from support import ROOT, ProgramTest, read_history, read_summary
@@ -89,6 +91,29 @@ class ExitStatus(ProgramTest):
         # Not even root makes a folder there.
         run = self.run_small(output="/proc/corotet", status=3)
         self.check_message(run, "/proc/corotet")
+
+    def run_without_rights(self, *arguments):
+        """As a user who owns none of the files; root may read whatever it likes."""
+        user = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+        return subprocess.run([os.environ["COROTET_PROGRAM"], *arguments], cwd=self.folder, capture_output=True, text=True, check=False, **user)
+
+    def test_files_that_must_not_be_read(self):
+        """Parameter files, those that they include, meshes; and files in folders that must not be looked into."""
+        self.folder.chmod(0o755)
+        (self.folder / "locked").mkdir()
+        for name in ("closed.prm", "closed.json", "closed.msh", "locked/a.prm", "locked/a.msh"):
+            (self.folder / name).write_text("", encoding="utf-8")
+            (self.folder / name).chmod(0)
+        (self.folder / "locked").chmod(0)
+        self.addCleanup((self.folder / "locked").chmod, 0o700)
+        for name, includes in (("one.prm", "closed.prm"), ("two.prm", "locked/a.prm")):
+            (self.folder / name).write_text(f"# a comment\ninclude {includes}\n", encoding="utf-8")
+        for arguments, place in ((("closed.prm",), "closed.prm"), (("closed.json", "--validate"), "closed.json"), (("locked/a.prm",), "locked/a.prm"),
+                                 (("one.prm",), "one.prm:2: closed.prm"), (("two.prm",), "two.prm:2: locked/a.prm"),
+                                 (("mesh", "closed.msh"), "closed.msh"), (("mesh", "locked/a.msh"), "locked/a.msh")):
+            with self.subTest(arguments=arguments):
+                run = self.run_without_rights(*arguments)
+                self.assertEqual((run.returncode, run.stderr), (3, f"corotet: error: {place}: cannot be read (permission?)\n"))
 
     def test_directory_in_use(self):
         short = "Time integration/End time = 0.02"

@@ -50,7 +50,8 @@ namespace corotet
    * that does not tell where an entry was set, accepts any value that has a
    * brace, and ignores misspelt entries in subsections of .json and .xml files.
    *
-   * Throws InputError, with the place in the message.
+   * Throws InputError, with the place in the message, and MachineError if a
+   * file is there and cannot be read.
    */
   std::vector<ParameterStatement>
   read_parameter_statements(const std::string &path);
