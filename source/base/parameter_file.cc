@@ -7,6 +7,7 @@
 #include <corotet/base/parameter_listing.h>
 #include <corotet/base/parameter_schema.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -14,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <sstream>
 
@@ -162,47 +162,93 @@ namespace corotet
                fmt::format("{}; did you mean \"{}\"?", message, suggestion);
     }
 
-    std::string
-    moved_file_name(const std::string &file,
-                    const fs::path    &from,
-                    const fs::path    &to)
+    // Whether a .prm file gives back this text, in which none of the
+    // @p separators may be.
+    bool
+    can_be_written(const std::string &text, const std::string &separators)
     {
-      const fs::path name = file;
-      return name.empty() || name.is_absolute() ?
-               file :
-               fs::relative(from / name, to).string();
+      try
+        {
+          Json(text).dump();
+        }
+      catch (const Json::exception &)
+        {
+          return false;
+        }
+      return text.find_first_of("#\n\r\t" + separators) == std::string::npos &&
+             dealii::Utilities::trim(text) == text &&
+             (text.empty() || text.back() != '\\');
     }
 
-    // File names that are relative to the folder @p from become relative to @p
-    // to: those of entries that are a file name, or a list "key: file name".
-    void
-    move_file_names(Json &section, const fs::path &from, const fs::path &to)
+    // Names of files that are relative to the folder @p from become relative to
+    // @p to.
+    class MovedFiles
     {
-      for (const auto &[key, node] : section.items())
-        if (is_entry(node))
+    public:
+      MovedFiles(const fs::path &from, const fs::path &to)
+        : from(from)
+        , to(to)
+      {}
+
+      // Those of entries that are a file name, or a list "key: file name". Of a
+      // section with this @p path, which ends with a slash if it is not empty.
+      // Throws InputError if a .prm file cannot say one.
+      void
+      move(Json &section, const std::string &path = "") const
+      {
+        for (const auto &[key, node] : section.items())
+          if (is_entry(node))
+            node["value"] = moved_value(node, path + key);
+          else if (node.is_object())
+            move(node, path + key + "/");
+      }
+
+    private:
+      std::string
+      moved_value(const Json &node, const std::string &entry) const
+      {
+        const std::string value   = node.at("value");
+        const std::string pattern = node.value("pattern_description", "");
+        if (pattern.starts_with("[FileName"))
+          return moved_name(value, entry, "");
+        if (!pattern.starts_with("[Map of <[Anything]>:<[FileName"))
+          return value;
+        std::vector<std::string> items;
+        for (const std::string &item :
+             dealii::Utilities::split_string_list(value, ','))
           {
-            const std::string value   = node.at("value");
-            const std::string pattern = node.value("pattern_description", "");
-            if (pattern.starts_with("[FileName"))
-              node["value"] = moved_file_name(value, from, to);
-            else if (pattern.starts_with("[Map of <[Anything]>:<[FileName"))
-              {
-                std::vector<std::string> items;
-                for (const std::string &item :
-                     dealii::Utilities::split_string_list(value, ','))
-                  {
-                    const auto pair =
-                      dealii::Utilities::split_string_list(item, ':');
-                    AssertDimension(pair.size(), 2);
-                    items.push_back(pair[0] + ": " +
-                                    moved_file_name(pair[1], from, to));
-                  }
-                node["value"] = join(items);
-              }
+            const auto pair = dealii::Utilities::split_string_list(item, ':');
+            AssertDimension(pair.size(), 2);
+            items.push_back(pair[0] + ": " + moved_name(pair[1], entry, ",:"));
           }
-        else if (node.is_object())
-          move_file_names(node, from, to);
-    }
+        return join(items);
+      }
+
+      std::string
+      moved_name(const std::string &file,
+                 const std::string &entry,
+                 const std::string &separators) const
+      {
+        const fs::path name = file;
+        if (name.empty() || name.is_absolute())
+          return file;
+        const std::string result = fs::relative(from / name, to).string();
+        if (!can_be_written(result, separators))
+          throw InputError(
+            entry,
+            fmt::format("found '{}', which is '{}' as seen from the results, "
+                        "what parameters.prm there, which repeats the run, "
+                        "cannot say; allowed are folders whose names are text "
+                        "in UTF-8 without #{}, tabs and line breaks",
+                        file,
+                        shortened(result),
+                        separators.empty() ? "" : ", comma, colon"));
+        return result;
+      }
+
+      const fs::path from;
+      const fs::path to;
+    };
   } // namespace
 
   void
@@ -281,16 +327,27 @@ namespace corotet
   }
 
   void
+  ParameterFile::check_effective(const std::string &path) const
+  {
+    entries_for(path);
+  }
+
+  void
   ParameterFile::write_effective(const std::string &path) const
   {
-    Json           entries = tree();
-    const fs::path to      = fs::absolute(path).parent_path();
-    move_file_names(entries, fs::absolute(folder()), to);
-    std::ofstream out(path);
-    print_prm(entries, /* documented = */ false, out);
-    out.close();
-    if (!out)
-      throw MachineError(path + ": the parameters cannot be written");
+    // A restart compares with it: a part of it would be another run's.
+    std::ostringstream text;
+    print_prm(entries_for(path), /* documented = */ false, text);
+    write_whole_file(path, text.str(), "the parameters");
+  }
+
+  nlohmann::ordered_json
+  ParameterFile::entries_for(const std::string &path) const
+  {
+    Json entries = tree();
+    MovedFiles(fs::absolute(folder()), fs::absolute(path).parent_path())
+      .move(entries);
+    return entries;
   }
 
   nlohmann::ordered_json

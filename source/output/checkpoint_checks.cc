@@ -75,10 +75,16 @@ namespace corotet
           entries[path + key] = node.get<std::string>();
     }
 
-    // Whether two texts are the same but for the way to write a number.
+    // Whether two texts are the same but for the way to write a number, and
+    // for blanks, which files do not keep all.
     bool
-    is_same(const std::string &a, const std::string &b)
+    is_same(std::string a, std::string b)
     {
+      for (std::string *const text : {&a, &b})
+        {
+          std::replace(text->begin(), text->end(), '\t', ' ');
+          *text = dealii::Utilities::trim(*text);
+        }
       if (a == b)
         return true;
       char        *end_a = nullptr, *end_b = nullptr;
@@ -89,24 +95,32 @@ namespace corotet
     }
   } // namespace
 
+  std::optional<ChangedEntry>
+  forbidden_change(const Json &before, const Json &now)
+  {
+    std::map<std::string, std::string> new_texts, old_texts;
+    flatten(now, "", new_texts);
+    flatten(before, "", old_texts);
+    for (const auto &[entry, text] : new_texts)
+      if (const auto old = old_texts.find(entry); old != old_texts.end() &&
+                                                  !is_same(old->second, text) &&
+                                                  !may_change(entry))
+        return ChangedEntry{entry, text, old->second};
+    return std::nullopt;
+  }
+
   void
   Checkpoints::check_entries(const CheckpointReader &checkpoint) const
   {
-    std::map<std::string, std::string> now, before;
-    flatten(values, "", now);
-    flatten(checkpoint.parameters(), "", before);
-    for (const auto &[entry, text] : now)
-      if (const auto it = before.find(entry); it != before.end() &&
-                                              !is_same(it->second, text) &&
-                                              !may_change(entry))
-        throw InputError(entry,
-                         fmt::format("--restart: found '{}', which the run "
-                                     "cannot go on with; allowed: '{}', as "
-                                     "before (times but for the start, the "
-                                     "solvers, and when output is written may "
-                                     "change)",
-                                     text,
-                                     it->second));
+    if (const auto change = forbidden_change(checkpoint.parameters(), values))
+      throw InputError(change->entry,
+                       fmt::format("--restart: found '{}', which the run "
+                                   "cannot go on with; allowed: '{}', as "
+                                   "before (times but for the start, the "
+                                   "solvers, and when output is written may "
+                                   "change)",
+                                   change->now,
+                                   change->before));
   }
 
   void

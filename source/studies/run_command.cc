@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "earlier_run.h"
 #include "page_of_run.h"
 
 namespace corotet
@@ -109,6 +110,8 @@ namespace corotet
           log.line("Material/Density: has no effect, as statics has no inertia "
                    "and there is no gravity");
         directory = parameters.output.directory_of_run(command.parameter_file);
+        on_root(comm,
+                [&] { file.check_effective(directory + "/parameters.prm"); });
         // Before the work starts; nothing is removed before all input is
         // checked.
         if (command.restart)
@@ -177,44 +180,18 @@ namespace corotet
         return parameters.output.overwrite || command.restart;
       }
 
-      // Whether one of these is in the directory.
-      bool
-      holds_any(const std::vector<std::string> &names) const
-      {
-        return from_root(comm, [&] {
-          return std::any_of(
-            names.begin(), names.end(), [&](const std::string &name) {
-              return std::filesystem::exists(directory + "/" + name);
-            });
-        });
-      }
-
       // The checkpoint to go on from, null if there is none. Then the results
-      // of a run that was killed are replaced, but not those of one that came
-      // to an end by itself.
+      // of a run that was killed are replaced.
       std::unique_ptr<CheckpointReader>
       take_checkpoint(const Checkpoints &checkpoints)
       {
-        lock.emplace(directory, comm);
+        if (!command.validate)
+          lock.emplace(directory, comm);
         auto checkpoint = checkpoints.newest();
         if (checkpoint)
           return checkpoint;
-        if (!parameters.output.overwrite &&
-            holds_any({"summary.json", "modes.csv", "study.csv", "rows"}))
-          throw InputError("Output/Directory",
-                           "--restart: found the results of a run that has "
-                           "ended in '" +
-                             directory +
-                             "', and no checkpoint to go on from; allowed: "
-                             "another directory, or Output/Overwrite = true "
-                             "to begin anew");
-        if (!parameters.output.overwrite && checkpoints.has_any())
-          throw InputError("Output/Directory",
-                           "--restart: none of the checkpoints in '" +
-                             directory +
-                             "' can be gone on from; allowed: the program that "
-                             "wrote them, another directory, or "
-                             "Output/Overwrite = true to begin anew");
+        if (!parameters.output.overwrite)
+          check_new_beginning(directory, file, checkpoints.has_any(), comm);
         log.line("--restart: there is no checkpoint in " + directory +
                  "; the run begins anew");
         return nullptr;
@@ -226,7 +203,8 @@ namespace corotet
         ConvergenceStudy study(
           command, parameters.study, parameters.checkpoint, comm, log);
         parameters.verification.initialize(study.columns());
-        const bool is_other = holds_any({"history.csv", "modes.csv"});
+        const bool is_other =
+          holds_any(directory, {"history.csv", "modes.csv"}, comm);
         if (command.restart && is_other && !parameters.output.overwrite)
           throw InputError("Output/Directory",
                            "--restart: found results of a run that is no "
@@ -234,7 +212,12 @@ namespace corotet
                              directory +
                              "'; allowed: another directory, or "
                              "Output/Overwrite = true to begin anew");
-        record("study.csv", command.restart && !is_other, [&] {
+        const auto other =
+          command.restart ? other_run_in(directory, file, comm) : std::nullopt;
+        if (other && !parameters.output.overwrite)
+          throw InputError(other->entry, other->message);
+        const bool goes_on = command.restart && !is_other && !other;
+        record("study.csv", goes_on, [&] {
           log.open(directory + "/log.txt");
           write_parameters();
           study.run(directory);
@@ -283,10 +266,14 @@ namespace corotet
                                 simulation.body(),
                                 log);
         std::unique_ptr<CheckpointReader> checkpoint;
-        if (command.restart && !command.validate)
+        if (command.restart)
           checkpoint = take_checkpoint(checkpoints);
         const OutputTimes times{output.steps_between_rows,
                                 output.time_between_results};
+        const std::vector<std::unique_ptr<Observer>> no_files;
+        if (checkpoint && command.validate)
+          // Which may refuse to go on.
+          simulation.resume(no_files, times, *checkpoint);
         record("history.csv", checkpoint != nullptr, [&] {
           if (checkpoint)
             {

@@ -70,6 +70,7 @@ namespace corotet
     const OutputParameters &output = parameters.output;
     const std::string       directory =
       output.directory_of_run(command.parameter_file);
+    on_root(comm, [&] { file.check_effective(directory + "/parameters.prm"); });
     check_output_directory(directory, output.overwrite, comm);
     simulation.emplace(parameters.simulation, file.folder(), comm, log);
     observers = make_observers(output,

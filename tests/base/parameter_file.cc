@@ -231,6 +231,32 @@ TEST(ParameterFile, EffectiveParametersReproduceTheRun)
   EXPECT_EQ(example.file_name, "../../meshes/part.msh");
 }
 
+TEST(ParameterFile, RefusesFileNamesThatCouldNotBeReadAgain)
+{
+  Example example;
+  example.parameters.read(example.folder.write("c#/a.prm",
+                                               "subsection Mesh\n"
+                                               "  set File name = part.msh\n"
+                                               "end\n"),
+                          {});
+  // From the same folder the name is the same.
+  example.parameters.check_effective(example.folder / "c#/b.prm");
+  try
+    {
+      example.parameters.check_effective(example.folder / "b.prm");
+      FAIL() << "nothing is refused";
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_EQ(error.entry, "Mesh/File name");
+      EXPECT_STREQ(error.what(),
+                   "found 'part.msh', which is 'c#/part.msh' as seen from the "
+                   "results, what parameters.prm there, which repeats the run, "
+                   "cannot say; allowed are folders whose names are text in "
+                   "UTF-8 without #, tabs and line breaks");
+    }
+}
+
 TEST(ParameterFile, RefusesToWriteIntoAFolderThatIsNotThere)
 {
   const Example example;

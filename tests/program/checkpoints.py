@@ -380,6 +380,8 @@ class Checkpoints(ProgramTest):
             status, _, errors = run.finish(*arguments)
             self.assertEqual(status, 3, errors)
             self.assertRegex(errors, rf"^corotet: error: the output directory 'run' is in use by process {first.pid} on .*\n$")
+        # Which changes nothing, and so need not wait.
+        self.assertEqual(run.finish("--restart", "--validate")[0], 0)
         first.send_signal(signal.SIGCONT)
         self.assertEqual(first.wait(60), 0)
         first.communicate()

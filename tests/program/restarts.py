@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import ROOT, ProgramTest, limit_files, parameter_text, read_history
+from support import ROOT, ProgramTest, limit_files, parameter_text, read_history, run_on
 from checkpoints import BEAM, rows_without_time
 
 SHORT = {**BEAM, "Discretization/Degree": "1", "Mesh/box/Cells": "4, 1, 1", "Time integration/End time": "0.2", "Time integration/Time step": "0.02",
@@ -66,10 +66,63 @@ class Restarts(ProgramTest):
         """Neither do those that are found when the checkpoint has been read."""
         self.run_entries(SHORT)
         before = contents(self.folder / "run")
-        self.check_refused(before, self.run_entries(SHORT, "--restart", "--set", "Time integration/End time = 0.1", status=1),
-                           "Time integration/End time: --restart: found 0.1")
-        self.check_refused(before, self.run_entries(SHORT, "--restart", "--set", "Discretization/Degree = 2", status=1),
-                           "Discretization/Degree: --restart: found '2'")
+        for more in ((), ("--validate",)):
+            self.check_refused(before, self.run_entries(SHORT, "--restart", "--set", "Time integration/End time = 0.1", *more, status=1),
+                               "Time integration/End time: --restart: found 0.1")
+            self.check_refused(before, self.run_entries(SHORT, "--restart", "--set", "Discretization/Degree = 2", *more, status=1),
+                               "Discretization/Degree: --restart: found '2'")
+        run = self.run_entries(SHORT, "--restart", "--set", "Time integration/End time = 0.3", "--validate")
+        self.assertTrue(run.stdout.endswith("case.prm: valid\n"), run.stdout)
+        self.assertEqual(contents(self.folder / "run"), before)
+
+    def run_killed(self, entries, *arguments):
+        """Leaves what a run leaves that was killed before its first checkpoint. Returns the fingerprints."""
+        self.run_entries({**entries, "Checkpoint/Steps between checkpoints": "0"}, *arguments)
+        (self.folder / "run" / "summary.json").unlink()
+        return contents(self.folder / "run")
+
+    def test_another_run_without_checkpoint(self):
+        """Results of another run are not replaced by one that begins anew, but those of the same run are."""
+        before = self.run_killed(SHORT)
+        for entry, old, new in (("Material/Density", "1000", "900"), ("Mesh/box/Cells", "4, 1, 1", "5, 1, 1"), ("Discretization/Degree", "1", "2"),
+                                ("Output/Probes", "tip: 1 0.05 0.05", "end: 1 0.05 0.05")):
+            for more in ((), ("--quiet",), ("--validate",)):
+                self.check_refused(before, self.run_entries(SHORT, "--restart", "--set", f"{entry} = {new}", *more, status=1),
+                                   f"--set: {entry}: --restart: found '{new}', but in 'run' are results of another run, with '{old}'; "
+                                   "allowed: another directory, or Output/Overwrite = true to begin anew")
+        run = self.run_entries(SHORT, "--restart", "--set", "Time integration/End time = 0.1", "--set", "Newton/Maximum iterations = 30", "--set", "Material/Density = 1e3")
+        self.assertIn("there is no checkpoint in run; the run begins anew", run.stdout)
+        self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.1, delta=1e-12)
+        self.run_killed(SHORT, "--set", "Output/Overwrite = true")
+        self.run_entries(SHORT, "--restart", "--set", "Material/Density = 900", "--set", "Output/Overwrite = true")
+        # What another program has written, and what a loss of power has left.
+        before = self.run_killed(SHORT, "--set", "Output/Overwrite = true")
+        parameters = self.folder / "run" / "parameters.prm"
+        text = parameters.read_text(encoding="utf-8")
+        parameters.write_text(text + "set Colour = red\n", encoding="utf-8")
+        before = contents(self.folder / "run")
+        self.check_refused(before, self.run_entries(SHORT, "--restart", status=1), "Output/Directory: --restart: found results in 'run' whose parameters this program "
+                           "cannot read .*there is no entry \"Colour\".*; allowed: another directory, or Output/Overwrite = true to begin anew")
+        parameters.write_text("", encoding="utf-8")
+        self.run_entries(SHORT, "--restart")
+
+    def test_another_file_without_checkpoint(self):
+        """The name of a file counts, not the folder that it is in; blanks do not."""
+        shutil.copy(ROOT / "meshes" / "l_block.msh", self.folder)
+        shutil.copy(ROOT / "meshes" / "l_block.msh", self.folder / "other.msh")
+        for name in ("rise.csv", "other.csv"):
+            (self.folder / name).write_text("0, 0\n1, 1\n", encoding="utf-8")
+        entries = {"Mesh/Type": "file", "Mesh/file/File": "l_block.msh", "Tables/Linear": "rise:   rise.csv", "Loads/Gravity": "0; 0; -rise(t)",
+                   "Discretization/Degree": "1", "Time integration/End time": "0.1", "Time integration/Time step": "0.05", "Output/Directory": "run",
+                   "Checkpoint/Minutes between checkpoints": "0"}
+        before = self.run_killed(entries)
+        for entry, value in (("Mesh/file/File", "other.msh"), ("Tables/Linear", "rise: other.csv")):
+            self.check_refused(before, self.run_entries(entries, "--restart", "--set", f"{entry} = {value}", status=1),
+                               f"{entry}: --restart: found '{value}', but in 'run' are results of another run, with '.*'; allowed: ")
+        (self.folder / "moved").mkdir()
+        for name in ("l_block.msh", "rise.csv"):
+            (self.folder / name).rename(self.folder / "moved" / name)
+        self.run_entries(entries, "--restart", "--set", "Mesh/file/File = moved/l_block.msh", "--set", "Tables/Linear = rise: moved/rise.csv")
 
     def test_output_behind_a_link(self):
         """A step up from a link leads to where the link leads, and what is there is protected."""
@@ -113,6 +166,27 @@ class Restarts(ProgramTest):
         self.assertEqual(len(rows), 3)
         for again in ("again", "once_more"):
             self.assertEqual(rows_without_time(self.folder / again), rows)
+
+    def test_folders_that_parameters_cannot_say(self):
+        """They are refused before the run, unless the way from the results does not lead through them."""
+        entries = {"Mesh/Type": "file", "Mesh/file/File": "l_block.msh", "Tables/Linear": "rise: rise.csv", "Loads/Gravity": "0; 0; -rise(t)",
+                   "Discretization/Degree": "1", "Time integration/End time": "0.1", "Time integration/Time step": "0.05"}
+        for folder, entry in (("m#1", "Mesh/file/File"), ("a, b", "Tables/Linear"), ("a: b", "Tables/Linear"), ("a\tb", "Mesh/file/File"), ("a; b", None)):
+            with self.subTest(folder=folder):
+                place = self.folder / folder
+                place.mkdir()
+                shutil.copy(ROOT / "meshes" / "l_block.msh", place)
+                (place / "rise.csv").write_text("0, 0\n1, 1\n", encoding="utf-8")
+                (place / "case.prm").write_text(parameter_text(entries), encoding="utf-8")
+                for more in ((), ("--validate",)) if entry else ():
+                    errors = self.run_program(f"{folder}/case.prm", "--output", "out", *more, status=1).stderr
+                    self.assertIn(f"{entry}: found '", errors)
+                    self.assertIn("parameters.prm", errors)
+                    self.assertFalse((self.folder / "out").exists())
+                for case, output in (("case.prm", "out"), ("out/parameters.prm", "again")):
+                    run = run_on(1, [case, "--output", output], place)
+                    self.assertEqual((run.returncode, run.stderr), (0, ""))
+                self.assertEqual(rows_without_time(place / "again"), rows_without_time(place / "out"))
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import time
 import unittest
 
 from support import ProgramTest, parameter_text, read_summary
+from restarts import contents
 
 BOX = """
 subsection Mesh
@@ -90,7 +91,7 @@ class Studies(ProgramTest):
         self.assertEqual(len(self.rows()), 2)
 
     def test_restart(self):
-        """Runs that are done are not run again, others are; those of another problem are."""
+        """Runs that are done are not run again, others are; another problem is another study, whose results are kept."""
         self.study(EXACT, "--set", "Convergence study/Refinements = 0")
         rows = self.folder / "out" / "rows"
         (rows / "degree_2_refinements_0.json").unlink()
@@ -102,8 +103,27 @@ class Studies(ProgramTest):
         self.study(EXACT, "--restart")
         self.assertEqual(float(self.rows()[0]["L2_error"]), 0.125)
         self.assertEqual(len(self.rows()), 4)
-        self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2")
+        before = contents(self.folder / "out")
+        for more in ((), ("--quiet",), ("--validate",)):
+            errors = self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2", *more, status=1).stderr
+            self.assertEqual(errors, "corotet: error: --set: Material/Poisson's ratio: --restart: found '0.2', but in "
+                             f"'{self.folder / 'out'}' are results of another run, with '0.3'; allowed: another directory, or "
+                             "Output/Overwrite = true to begin anew\n")
+            self.assertEqual(contents(self.folder / "out"), before)
+        self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2", "--set", "Output/Overwrite = true")
         self.assertNotEqual(float(self.rows()[0]["L2_error"]), 0.125)
+
+    def test_restart_of_another_study(self):
+        """What is run again and again belongs to the study; its lists, and entries that they replace, do not."""
+        self.run_small("Loads/Gravity = 0; 0; 0")
+        before = contents(self.folder / "out")
+        modes = ("Loads/Gravity = 0; 0; 0", "Convergence study/Run = modes", "Convergence study/Quantities = frequency_1", "Modes/Number = 1")
+        self.assertIn("Convergence study/Run: --restart: found 'modes', but in 'out' are results of another run, with 'simulation'; ",
+                      self.run_small(*modes, more=("--restart",), status=1).stderr)
+        self.assertEqual(contents(self.folder / "out"), before)
+        self.run_small("Loads/Gravity = 0; 0; 0", "Convergence study/Degrees = 1, 2", "Discretization/Degree = 1", "Mesh/Refinements = 1",
+                       "Output/Stress probes = mid: 0.4 0.04 0.04", more=("--restart",))
+        self.assertEqual(len(self.rows()), 2)
 
     def test_quantities_of_stress_and_iterations(self):
         """Stress at probes is a quantity, and iterations are those of all steps, however few have a row."""

@@ -91,12 +91,22 @@ namespace corotet
     /**
      * Writes every entry as used to a .prm file. Reading that reproduces the
      * run: names of files relative to folder() become relative to the new
-     * file's. Throws MachineError if it cannot be written.
+     * file's. Throws MachineError if it cannot be written, and what
+     * check_effective() throws.
      */
     void
     write_effective(const std::string &path) const;
 
+    /// Throws InputError if write_effective() could not write the new name of a
+    /// file so that it can be read: if a folder's name has a "#", say.
+    void
+    check_effective(const std::string &path) const;
+
   private:
+    /// tree() with names of files as they are in a file @p path.
+    nlohmann::ordered_json
+    entries_for(const std::string &path) const;
+
     void
     apply(const ParameterStatement     &statement,
           const nlohmann::ordered_json &declared);

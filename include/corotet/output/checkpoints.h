@@ -51,6 +51,25 @@ namespace corotet
   reason_to_stop(const CheckpointParameters &parameters, const MPI_Comm comm);
 
   /**
+   * An entry that has another text than before.
+   */
+  struct ChangedEntry
+  {
+    /// "Section/Entry".
+    std::string entry;
+    std::string now;
+    std::string before;
+  };
+
+  /// The first entry that differs and with which a run that began with the
+  /// entries @p before cannot go on, if there is one; both are the text of
+  /// every entry. How a number is written does not matter, nor do entries that
+  /// only one of them has.
+  std::optional<ChangedEntry>
+  forbidden_change(const nlohmann::ordered_json &before,
+                   const nlohmann::ordered_json &now);
+
+  /**
    * The checkpoints of a run, in the folder checkpoint of its output directory:
    * when they are due, which are kept, and from which a run goes on; and when
    * it has to end before its time, because of a signal or the limit.
