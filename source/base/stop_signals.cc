@@ -46,6 +46,9 @@ namespace corotet
     action.sa_flags = SA_RESTART;
     sigaction(SIGTERM, &action, &before_term);
     sigaction(SIGINT, &action, &before_int);
+    sigaction(SIGHUP, nullptr, &before_hup);
+    if (before_hup.sa_handler == SIG_DFL)
+      sigaction(SIGHUP, &action, nullptr);
     sigaction(SIGXCPU, &action, &before_xcpu);
     sigaction(SIGUSR1, &action, &before_usr1);
   }
@@ -56,6 +59,7 @@ namespace corotet
       return;
     sigaction(SIGTERM, &before_term, nullptr);
     sigaction(SIGINT, &before_int, nullptr);
+    sigaction(SIGHUP, &before_hup, nullptr);
     sigaction(SIGXCPU, &before_xcpu, nullptr);
     sigaction(SIGUSR1, &before_usr1, nullptr);
   }

@@ -42,7 +42,8 @@ namespace corotet
       terminate  = 2,
       interrupt  = 4,
       time_limit = 8,
-      cpu_limit  = 16
+      cpu_limit  = 16,
+      hangup     = 32
     };
 
     double
@@ -66,6 +67,9 @@ namespace corotet
             break;
           case SIGINT:
             mine = interrupt;
+            break;
+          case SIGHUP:
+            mine = hangup;
             break;
           case SIGXCPU:
             mine = cpu_limit;
@@ -96,6 +100,8 @@ namespace corotet
         return "SIGTERM";
       if ((requests & interrupt) != 0)
         return "SIGINT";
+      if ((requests & hangup) != 0)
+        return "SIGHUP";
       if ((requests & cpu_limit) != 0)
         return "the limit of CPU time (SIGXCPU)";
       return (requests & time_limit) != 0 ? "the wall time limit" : "";

@@ -96,6 +96,10 @@ namespace corotet
     // nothing to be saved.
     std::signal(SIGUSR1, SIG_IGN);
 
+    // UCX, which MPI may load, would take it for messages about itself.
+    struct sigaction hangup{};
+    sigaction(SIGHUP, nullptr, &hangup);
+
     // Nothing is made by PETSc, Zoltan or p4est: they need not start.
     int                  n_passed_on    = 1;
     char                *passed_on[]    = {argv[0], nullptr};
@@ -105,6 +109,7 @@ namespace corotet
                                    dealii::InitializeLibrary::MPI |
                                      dealii::InitializeLibrary::Kokkos,
                                    1);
+    sigaction(SIGHUP, &hangup, nullptr);
 
     return run_program(MPI_COMM_WORLD, [&] { run_command(argc, argv); });
   }

@@ -26,7 +26,7 @@ class Signals(ProgramTest):
         """A run that is stopped says so once on the terminal and once in its log, and goes on as if nothing had been."""
         reference = Run(self.folder / "reference", "generalized-alpha", 1)
         self.assertEqual(reference.finish()[0], 0)
-        for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGXCPU, 1), (signal.SIGTERM, 2)):
+        for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGHUP, 1), (signal.SIGXCPU, 1), (signal.SIGTERM, 2)):
             with self.subTest(number=number, ranks=ranks):
                 run = Run(self.folder / f"{number}_{ranks}", "generalized-alpha", 1)
                 process = run.start(ranks=ranks)
@@ -94,6 +94,24 @@ class Signals(ProgramTest):
         self.assertIn("SIGTERM; the run is saved", errors)
         self.assertEqual(read_summary(self.folder / "run")["status"], "stopped")
         self.assertEqual(self.signal_within_step(signal.SIGINT, signal.SIGINT)[0], -signal.SIGINT)
+
+    def test_hangup_that_is_ignored(self):
+        """As by nohup: MPI's libraries have a use of their own for the signal, which changes nothing of that."""
+        for ignored in (True, False):
+            with self.subTest(ignored=ignored):
+                process = self.start({**BEAM, "Time integration/End time": "0.4"}, "--set", "Output/Overwrite = true",
+                                     preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL))
+                # From its first words on, while the body is made, and then during the steps.
+                process.stdout.readline()
+                process.send_signal(signal.SIGHUP)
+                while process.poll() is None and ignored:
+                    process.send_signal(signal.SIGHUP)
+                    time.sleep(0.01)
+                _, errors = process.communicate(timeout=60)
+                if ignored:
+                    self.assertEqual((process.returncode, errors), (0, ""))
+                else:
+                    self.assertIn(process.returncode, (4, -signal.SIGHUP))
 
     def test_limit_of_cpu_time(self):
         """At the soft limit, as of "ulimit -S -t", a run is saved."""

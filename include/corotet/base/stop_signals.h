@@ -9,10 +9,12 @@
 namespace corotet
 {
   /**
-   * While it lives, SIGTERM, SIGINT and SIGXCPU, which comes at the limit of
-   * CPU time, are remembered instead of ending the process, and so is SIGUSR1,
-   * a wish to save. A second SIGINT ends the process at once. What lives
-   * within the life of another one changes nothing.
+   * While it lives, SIGTERM, SIGINT, SIGHUP, which comes when the terminal is
+   * closed, and SIGXCPU, which comes at the limit of CPU time, are remembered
+   * instead of ending the process, and so is SIGUSR1, a wish to save. A second
+   * SIGINT ends the process at once. SIGHUP is left alone where it
+   * would not end the process, as with nohup. What lives within the life of
+   * another one changes nothing.
    */
   class StopSignals
   {
@@ -24,7 +26,7 @@ namespace corotet
     StopSignals &
     operator=(const StopSignals &) = delete;
 
-    /// That of the first three which came to this process; 0 if none did.
+    /// That of the first four which came to this process; 0 if none did.
     static int
     received();
 
@@ -33,7 +35,8 @@ namespace corotet
     take_save_request();
 
   private:
-    struct sigaction before_term, before_int, before_xcpu, before_usr1;
+    struct sigaction before_term, before_int, before_hup, before_xcpu,
+      before_usr1;
   };
 } // namespace corotet
 
