@@ -48,7 +48,16 @@ namespace corotet
                        fmt::format("a mesh is written to a .msh or an .h5 "
                                    "file: found '{}'",
                                    shortened(path)));
-    std::error_code error;
+    std::error_code   error;
+    const std::string folder = fs::path(path).parent_path().string();
+    if (!folder.empty() && !fs::is_directory(folder, error) &&
+        error != std::errc::permission_denied)
+      throw InputError("",
+                       fmt::format("'{}' cannot be written: there is no folder "
+                                   "'{}'; allowed is a name in a folder that "
+                                   "is there",
+                                   shortened(path),
+                                   shortened(folder)));
     if (fs::equivalent(path, origin, error))
       throw InputError("",
                        fmt::format("'{}' is the file that is read; give "

@@ -13,6 +13,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <string>
 
 namespace corotet
 {
@@ -83,6 +87,24 @@ namespace corotet
       style                       = styles.front();
     }
 
+    // A check of the value of an option, a number: an empty text, or what is
+    // wrong with it. CLI's own ones accept nan.
+    std::function<std::string(const std::string &)>
+    number_check(const std::function<bool(double)> &is_allowed,
+                 const std::string                 &allowed)
+    {
+      return [=](const std::string &text) -> std::string {
+        char        *end   = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        if (!text.empty() && *end == '\0' && std::isfinite(value) &&
+            is_allowed(value))
+          return "";
+        return fmt::format("found '{}'; allowed is {}",
+                           shortened(text),
+                           allowed);
+      };
+    }
+
     // Those of a run; returns --print-parameters.
     const CLI::Option *
     add_run_options(CLI::App &app, CommandLine &command_line)
@@ -114,8 +136,8 @@ namespace corotet
           .add_option(
             "--print-parameters",
             command_line.print_parameters,
-            "List every entry: default or the value in the file, allowed "
-            "values, units, meaning")
+            "List every entry: default or, as prm or json, the value in the "
+            "file, allowed values, units, meaning")
           ->expected(0, 1)
           ->type_name("[prm|json|markdown|schema]");
       app.add_flag(
@@ -151,18 +173,26 @@ namespace corotet
         ->add_option("--size",
                      mesh.element_size,
                      "Target length of edges, for a geometry")
-        ->check(CLI::PositiveNumber);
+        ->check(number_check([](const double h) { return h > 0; },
+                             "a number > 0"),
+                "> 0");
       command
         ->add_option("--degree",
                      mesh.geometry_degree,
                      "Of the cells' maps, for a geometry")
-        ->check(CLI::Range(1, 3));
+        ->check(number_check(
+                  [](const double p) { return p == 1 || p == 2 || p == 3; },
+                  "1, 2 or 3"),
+                "1, 2 or 3");
       command
         ->add_option("--feature-angle",
                      mesh.feature_angle,
                      "Where a surface of triangles has an edge: between "
                      "normals that differ by more degrees (default: 40)")
-        ->check(CLI::Range(1., 180.));
+        ->check(number_check(
+                  [](const double angle) { return angle >= 1 && angle <= 180; },
+                  "a number from 1 to 180"),
+                "from 1 to 180");
       command
         ->add_option("--out",
                      mesh.out,
@@ -223,6 +253,14 @@ namespace corotet
             command_line.print_parameters->empty())
           command_line.print_parameters = styles.front();
         separate_style_from_file(command_line);
+        const std::string &style = *command_line.print_parameters;
+        if (!command_line.parameter_file.empty() &&
+            (style == "markdown" || style == "schema"))
+          fail(fmt::format("--print-parameters {}: found the file \"{}\"; "
+                           "allowed is none, as this style says nothing of "
+                           "values that are set (prm and json do)",
+                           style,
+                           shortened(command_line.parameter_file)));
         if (command_line.parameter_file.empty() &&
             !command_line.overrides.empty())
           fail("--set: a parameter file is needed, whose entries it overrides");

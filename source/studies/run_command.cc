@@ -303,6 +303,7 @@ namespace corotet
         if (command.validate)
           {
             log.line(command.parameter_file + ": valid");
+            on_root(comm, check_standard_output);
             return;
           }
         if (!lock)

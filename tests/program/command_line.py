@@ -126,10 +126,18 @@ class CommandLine(ProgramTest):
             self.assertEqual((run.stdout, run.stderr), ("", f"corotet: error: command line: found {found} before 'mesh'; allowed: corotet mesh [OPTIONS] FILE\n"))
         self.assertIn("99 cells", self.run_program("mesh", mesh).stdout)
 
+    def test_mesh_for_a_folder_that_is_not_there(self):
+        """The user's mistake, found before the mesh is made; so are numbers that are none."""
+        mesh = ROOT / "meshes" / "l_block.msh"
+        self.assertEqual(self.run_program("mesh", mesh, "--out", "no_where/x.msh", status=1).stderr,
+                         "corotet: error: 'no_where/x.msh' cannot be written: there is no folder 'no_where'; allowed is a name in a folder that is there\n")
+        for words, allowed in ((("--size", "nan"), "a number > 0"), (("--feature-angle", "nan"), "a number from 1 to 180")):
+            self.assertEqual(self.run_program("mesh", mesh, *words, status=1).stderr, f"corotet: error: command line: {words[0]}: found 'nan'; allowed is {allowed}\n")
+
     def test_answers_to_a_full_disk(self):
         """What nobody gets is no answer."""
         for words in (["--print-parameters", "json"], [ROOT / "parameters" / "cantilever.prm", "--print-parameters"], ["--version"], ["--help"],
-                      ["mesh", ROOT / "meshes" / "l_block.msh"]):
+                      ["mesh", ROOT / "meshes" / "l_block.msh"], [ROOT / "parameters" / "cantilever.prm", "--validate"]):
             with self.subTest(words), open("/dev/full", "w", encoding="utf-8") as full:
                 run = subprocess.run([os.environ["COROTET_PROGRAM"], *words], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
                 self.assertEqual((run.returncode, run.stderr), (3, "corotet: error: the standard output cannot be written (is the disk full?)\n"))

@@ -169,10 +169,28 @@ TEST(CommandLine, Mesh)
   EXPECT_EQ(command_line_refusal({"mesh", "a.stp", "b.stp"}),
             "command line: unexpected argument \"b.stp\"; one file is "
             "allowed");
-  for (const char *const wrong : {"0", "4", "two"})
-    EXPECT_EQ(command_line_refusal({"mesh", "a.stp", "--degree", wrong})
-                .rfind("command line: --degree", 0),
-              0);
+}
+
+TEST(CommandLine, RefusesNumbersThatMakeNoMesh)
+{
+  const auto check =
+    [](const char *option, const char *wrong, const std::string &allowed) {
+      EXPECT_EQ(command_line_refusal({"mesh", "a.stp", option, wrong}),
+                std::string("command line: ") + option + ": found '" + wrong +
+                  "'; allowed is " + allowed);
+    };
+  for (const char *const wrong :
+       {"0", "-1", "nan", "inf", "1e400", "abc", "2 m"})
+    check("--size", wrong, "a number > 0");
+  for (const char *const wrong : {"0", "4", "two", "1.5", "nan"})
+    check("--degree", wrong, "1, 2 or 3");
+  for (const char *const wrong : {"0.9", "181", "nan", "abc"})
+    check("--feature-angle", wrong, "a number from 1 to 180");
+  EXPECT_EQ(
+    parse({"mesh", "a.stp", "--feature-angle", "180"}).mesh->feature_angle,
+    180);
+  EXPECT_EQ(parse({"mesh", "a.stp", "--size", "1e-3"}).mesh->element_size,
+            1e-3);
 }
 
 TEST(CommandLine, RefusesAnUnknownStyle)
@@ -180,6 +198,25 @@ TEST(CommandLine, RefusesAnUnknownStyle)
   EXPECT_EQ(command_line_refusal({"--print-parameters", "xlm"}),
             "command line: \"xlm\" is no style of --print-parameters; allowed "
             "are prm, json, markdown, schema");
+}
+
+// What they list are defaults and what is allowed, whatever a file says.
+TEST(CommandLine, RefusesAFileForStylesWithoutValues)
+{
+  for (const std::string style : {"markdown", "schema"})
+    for (const bool file_first : {false, true})
+      EXPECT_EQ(command_line_refusal(
+                  file_first ? std::vector<const char *>{"a.prm",
+                                                         "--print-parameters",
+                                                         style.c_str(),
+                                                         "--set",
+                                                         "A = 1"} :
+                               std::vector<const char *>{"--print-parameters",
+                                                         style.c_str(),
+                                                         "a.prm"}),
+                "command line: --print-parameters " + style +
+                  ": found the file \"a.prm\"; allowed is none, as this style "
+                  "says nothing of values that are set (prm and json do)");
 }
 
 TEST(CommandLine, RefusesAnOptionWithoutItsValue)
