@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <functional>
 #include <sstream>
+#include <system_error>
 
 namespace corotet
 {
@@ -154,7 +155,7 @@ namespace corotet
         fmt::format("the value \"{}\" of \"{}\" is not allowed; allowed is {}",
                     shortened(*statement.value),
                     statement.path,
-                    describe_pattern(pattern));
+                    allowed_instead(*statement.value, pattern));
       const std::string suggestion =
         nearest(*statement.value, selection_names(pattern));
       return suggestion.empty() ?
@@ -232,7 +233,12 @@ namespace corotet
         const fs::path name = file;
         if (name.empty() || name.is_absolute())
           return file;
-        const std::string result = fs::relative(from / name, to).string();
+        // What cannot be looked at is for others to refuse.
+        std::error_code error;
+        fs::path        moved = fs::relative(from / name, to, error);
+        if (error)
+          moved = (from / name).lexically_relative(to);
+        const std::string result = moved.string();
         if (!can_be_written(result, separators))
           throw InputError(
             entry,

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <regex>
 
@@ -232,6 +233,20 @@ namespace corotet
     if (description == "[DirectoryName]")
       return "a folder name";
     return description;
+  }
+
+  std::string
+  allowed_instead(const std::string &value, const std::string &description)
+  {
+    static const std::regex range(
+      R"(\[Integer range (\S+)\.\.\.(\S+) \(inclusive\)\])");
+    std::smatch match;
+    if (std::regex_match(description, match, range) &&
+        std::strtod(value.c_str(), nullptr) > std::numeric_limits<int>::max())
+      return fmt::format("a whole number from {} to {}",
+                         match[1].str(),
+                         match[2].str());
+    return describe_pattern(description);
   }
 
   bool

@@ -90,7 +90,8 @@ TEST(ParameterFile, ReadsJsonShortAndInFull)
   EXPECT_EQ(example.density, 3);
   EXPECT_EQ(example.law, "corotational");
   EXPECT_EQ(example.cells, 5);
-  EXPECT_EQ(example.parameters.location("Material/Law"), file);
+  EXPECT_EQ(example.parameters.location("Material/Law"), file + ":2");
+  EXPECT_EQ(example.parameters.location("Mesh/Box"), file + ":3");
 }
 
 // What ParameterHandler itself prints as .xml, with the names it changes.
@@ -206,7 +207,7 @@ TEST(ParameterFile, ReadsEmptySubsectionsInJson)
                                 "Mesh": {"File name": "", "Box": {}}})"),
             "accepted");
   EXPECT_EQ(example.refusal("a.json", R"({"Material": "1"})"),
-            "a.json: \"Material\" is a subsection, not an entry");
+            "a.json:1: \"Material\" is a subsection, not an entry");
 }
 
 // The written file, read again, gives the same values; the name of the mesh,

@@ -50,6 +50,19 @@ TEST(ParameterFile, RefusesValuesThatAreNotAllowed)
                             "subsection Material\n  set Density = -1\nend\n"),
             "a.prm:2: the value \"-1\" of \"Material/Density\" is not "
             "allowed; allowed is a number >= 0");
+  // The limit of whole numbers is said where it matters.
+  for (const auto &[value, allowed] :
+       {std::pair("0", "a whole number >= 1"),
+        std::pair("2147483648", "a whole number from 1 to 2147483647"),
+        std::pair("1e400", "a whole number from 1 to 2147483647")})
+    EXPECT_EQ(example.refusal("a.prm",
+                              "",
+                              {std::string("Mesh/Box/Cells (per side) = ") +
+                               value}),
+              std::string("--set: the value \"") + value +
+                "\" of \"Mesh/Box/Cells (per side)\" is not allowed; allowed "
+                "is " +
+                allowed);
   EXPECT_EQ(example.refusal("a.prm",
                             "subsection Material\n  set Law = linea\nend\n"),
             "a.prm:2: the value \"linea\" of \"Material/Law\" is not allowed; "
@@ -108,13 +121,21 @@ TEST(ParameterFile, RefusesBrokenJson)
   EXPECT_LT(far_away.size(), 400u);
   EXPECT_EQ(example.refusal("a.json", "[]"),
             "a.json: it must be one JSON object, {...}");
-  EXPECT_EQ(example.refusal("a.json", R"({"Material": {"Density": [1]}})"),
-            "a.json: \"Material/Density\" is a list; allowed are a text, a "
+  EXPECT_EQ(example.refusal("a.json", "{\n\"Material\": {\"Density\": [1]}}"),
+            "a.json:2: \"Material/Density\" is a list; allowed are a text, a "
             "number, true and false");
   // ParameterHandler::parse_input() would ignore this.
-  EXPECT_EQ(example.refusal("a.json", R"({"Material": {"Densty": 1}})"),
-            "a.json: there is no entry \"Densty\" in \"Material\"; did you "
-            "mean \"Density\"?");
+  EXPECT_EQ(
+    example.refusal("a.json",
+                    "{\"Material\":\n{\"Law\": \"linear\",\n\n\"Densty\": 1}}"),
+    "a.json:4: there is no entry \"Densty\" in \"Material\"; did you "
+    "mean \"Density\"?");
+  // As --print-parameters writes it: the line is that of the value.
+  EXPECT_EQ(example.refusal("a.json",
+                            "{\"Material\": {\n\"Density\": {\n\"value\":"
+                            "\n-1}}}"),
+            "a.json:3: the value \"-1\" of \"Material/Density\" is not "
+            "allowed; allowed is a number >= 0");
 }
 
 TEST(ParameterFile, RefusesBrokenXml)
@@ -130,8 +151,13 @@ TEST(ParameterFile, RefusesBrokenXml)
   EXPECT_EQ(example.refusal("a.xml",
                             "<ParameterHandler><Material>5<Density>5"
                             "</Density></Material></ParameterHandler>"),
-            "a.xml: found the text '5' in \"Material\"; allowed there are "
+            "a.xml:1: found the text '5' in \"Material\"; allowed there are "
             "elements");
+  EXPECT_EQ(example.refusal("a.xml",
+                            "<ParameterHandler><!--\n--><Mesh>\n"
+                            "<Box/><Bux/></Mesh></ParameterHandler>"),
+            "a.xml:3: there is no entry \"Bux\" in \"Mesh\"; allowed are File "
+            "name");
   EXPECT_EQ(example.refusal("a.xml", "<a></a>"),
             "a.xml: it must have one outermost element, called "
             "ParameterHandler");
@@ -223,14 +249,15 @@ TEST(ParameterFile, RefusesEntriesThatAreSetTwice)
   EXPECT_EQ(example.refusal("a.prm", "include b.prm\ninclude b.prm\n"),
             "accepted");
   for (const std::string entries :
-       {R"({"Material": {"Density": 1, "Density": 2}})",
-        R"({"Density": 1, "Material": {}, "Density": 2})"})
+       {"{\"Material\": {\n\"Density\": 1,\n\"Density\": 2}}",
+        "{\n\"Density\": 1, \"Material\": {},\n\"Density\": 2}"})
     EXPECT_EQ(example.refusal("a.json", entries),
-              "a.json: \"Density\" is set twice; allowed is once in a file");
+              "a.json:3: \"Density\" is set twice, first in line 2; allowed is "
+              "once in a file");
   EXPECT_EQ(example.refusal("a.xml",
-                            "<ParameterHandler><Material/><Material/>"
+                            "<ParameterHandler><Material/>\n<Material/>"
                             "</ParameterHandler>"),
-            "a.xml: \"Material\" is set twice; allowed is once in a file");
+            "a.xml:2: \"Material\" is set twice; allowed is once in a file");
 }
 
 TEST(ParameterFile, RefusesZeroBytes)

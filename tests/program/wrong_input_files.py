@@ -149,18 +149,18 @@ def parameter_file_rows():
         yield text_row(f"prm: {name}", f"case.prm:{place}", *parts, content=content)
     for name, content, place, *parts in (
             ("no JSON", '{"Type": }', ":1: ", "no valid JSON"), ("cut off", '{"Type": "modes"', ":1: ", "no valid JSON"), ("empty", "", ":1: ", "no valid JSON"),
-            ("list", '["Type"]', ": ", "one JSON object"), ("list as value", '{"Type": ["modes"]}', ": ", "is a list"), ("null", '{"Type": null}', ": ", "is null"),
-            ("misspelt", '{"Tipe": "modes"}', ": ", 'did you mean "Type"?'), ("twice", '{"Type": "modes", "Type": "modes"}', ": ", '"Type" is set twice'),
-            ("section twice", '{"Loads": {}, "Loads": {}}', ": ", '"Loads" is set twice'), ("deep", 1000 * '{"a":' + "1" + 1000 * "}", ": ", "nested too deeply"),
-            ("line break in a name", '{"Ty\\npe": "modes"}', ": ", "Ty\\x0ape"), ("line break in a value", '{"Type": "mo\\ndes"}', ": ", "line break"),
-            ("far too long", '{"Type": "' + 5000 * "x" + '"}', ": ", "(5000 characters)"), ("not in UTF-8", b'{"Type": "\xff"}', ":1: ", "no valid JSON")):
+            ("list", '["Type"]', ": ", "one JSON object"), ("list as value", '{"Type": ["modes"]}', ":1: ", "is a list"), ("null", '{"Type": null}', ":1: ", "is null"),
+            ("misspelt", '{"Tipe": "modes"}', ":1: ", 'did you mean "Type"?'), ("twice", '{"Type": "modes", "Type": "modes"}', ":1: ", '"Type" is set twice'),
+            ("section twice", '{"Loads": {}, "Loads": {}}', ":1: ", '"Loads" is set twice'), ("deep", 1000 * '{"a":' + "1" + 1000 * "}", ": ", "nested too deeply"),
+            ("line break in a name", '{"Ty\\npe": "modes"}', ":1: ", "Ty\\x0ape"), ("line break in a value", '{"Type": "mo\\ndes"}', ":1: ", "line break"),
+            ("far too long", '{"Type": "' + 5000 * "x" + '"}', ":1: ", "(5000 characters)"), ("not in UTF-8", b'{"Type": "\xff"}', ":1: ", "no valid JSON")):
         yield text_row(f"json: {name}", "case.json" + place, *parts, content=content, file="case.json")
     head = '<?xml version="1.0"?>\n'
     for name, content, place, *parts in (
             ("no XML", "Type = modes", ":", "XML"), ("cut off", head + "<ParameterHandler><Type>", ":", "no valid XML"),
             ("another root", head + "<Parameters/>", ": ", "called ParameterHandler"), ("entities", '<!DOCTYPE a [<!ENTITY b "c">]>', ": ", "document type"),
-            ("twice", head + "<ParameterHandler><Type>modes</Type><Type>modes</Type></ParameterHandler>", ": ", '"Type" is set twice'),
-            ("misspelt", head + "<ParameterHandler><Tipe><value>1</value></Tipe></ParameterHandler>", ": ", 'did you mean "Type"?'),
+            ("twice", head + "<ParameterHandler><Type>modes</Type><Type>modes</Type></ParameterHandler>", ":2: ", '"Type" is set twice'),
+            ("misspelt", head + "<ParameterHandler><Tipe><value>1</value></Tipe></ParameterHandler>", ":2: ", 'did you mean "Type"?'),
             ("deep", 1000 * "<a>" + 1000 * "</a>", ": ", "nested too deeply")):
         yield text_row(f"xml: {name}", "case.xml" + place, *parts, content=content, file="case.xml")
     for name, file, content, *parts in (("missing", "none.prm", None, "no such file"), ("another kind", "case.txt", "", ".prm, .json and .xml"),

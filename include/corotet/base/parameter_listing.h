@@ -19,6 +19,12 @@ namespace corotet
   std::string
   describe_pattern(const std::string &description);
 
+  /// What the pattern of an entry allows, for a message about the @p value that
+  /// does not fit: that a whole number has an upper limit needs no words unless
+  /// it is above.
+  std::string
+  allowed_instead(const std::string &value, const std::string &description);
+
   /// The names among which a deal.II pattern lets one choose; empty if the
   /// pattern is of another kind.
   std::vector<std::string>

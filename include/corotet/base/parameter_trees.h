@@ -44,6 +44,10 @@ namespace corotet
   [[noreturn]] void
   refuse_as_too_deep(const std::string &place);
 
+  /// Throws the one of a file that has more than max_tree_entries.
+  [[noreturn]] void
+  refuse_as_too_many(const std::string &path);
+
   /// The statements of an open .xml or .json file called @p path. Throw
   /// InputError, with the place in the message.
   std::vector<ParameterStatement>
