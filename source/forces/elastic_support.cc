@@ -154,7 +154,7 @@ namespace corotet
     prm.add_parameter(
       "Elastic normal",
       elastic_normal,
-      "The same along the surface's normal at rest: 'name: k, ...'.");
+      "The same along the surface's normal at rest [N/m^3]: 'name: k, ...'.");
     prm.add_parameter(
       "Dashpots",
       dashpots,
