@@ -94,11 +94,33 @@ namespace corotet
 
 
 
-  void
+  std::optional<std::size_t>
+  GivenNumbers::add(const std::uint64_t number)
+  {
+    if (!places.empty() || (!numbers.empty() && number <= numbers.back()))
+      {
+        if (places.empty())
+          for (std::size_t i = 0; i < numbers.size(); ++i)
+            places.emplace(numbers[i], i);
+        const auto [place, is_new] = places.emplace(number, numbers.size());
+        if (!is_new)
+          return place->second;
+      }
+    numbers.push_back(number);
+    return {};
+  }
+
+
+
+  bool
   ModelBuilder::add_node(const std::uint64_t tag, const dealii::Point<3> &x)
   {
-    tags.push_back(tag);
+    if (const auto before = tags.add(tag))
+      return std::equal(x.begin_raw(),
+                        x.end_raw(),
+                        coordinates.begin() + 3 * *before);
     coordinates.insert(coordinates.end(), x.begin_raw(), x.end_raw());
+    return true;
   }
 
 
@@ -213,7 +235,7 @@ namespace corotet
   ModelBuilder::model() const
   {
     GmshModel model;
-    model.node_tags   = tags;
+    model.node_tags   = tags.all();
     model.coordinates = coordinates;
     const std::array<std::vector<GmshModel::Elements> *, 4> all{
       {&model.points, &model.curves, &model.surfaces, &model.volumes}};

@@ -10,8 +10,10 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,30 @@ namespace corotet
 
 
 
+  /// Numbers that were given to things, and their places among these. Takes no
+  /// memory of its own while numbers ascend, as they mostly do.
+  class GivenNumbers
+  {
+  public:
+    /// Gives the next place to a number. If it has one already, returns that
+    /// instead.
+    std::optional<std::size_t>
+    add(const std::uint64_t number);
+
+    const std::vector<std::uint64_t> &
+    all() const
+    {
+      return numbers;
+    }
+
+  private:
+    std::vector<std::uint64_t> numbers;
+    // Once a number was smaller than the one before.
+    std::unordered_map<std::uint64_t, std::size_t> places;
+  };
+
+
+
   /**
    * Makes a GmshModel of nodes and elements, for files that we read ourselves.
    * Elements may be in any number of groups, each by itself: those of one
@@ -39,7 +65,9 @@ namespace corotet
   class ModelBuilder
   {
   public:
-    void
+    /// Whether it is new, or the same as before: false if there is a node of
+    /// this tag at another place.
+    [[nodiscard]] bool
     add_node(const std::uint64_t tag, const dealii::Point<3> &x);
 
     /// Returns its number. @p type: of those in gmsh_types(), with the nodes
@@ -109,7 +137,7 @@ namespace corotet
     bool
     join(const std::size_t first, const std::size_t other);
 
-    std::vector<std::uint64_t>                 tags;
+    GivenNumbers                               tags;
     std::vector<double>                        coordinates;
     std::vector<Element>                       elements;
     std::vector<std::uint64_t>                 nodes;

@@ -42,7 +42,12 @@ namespace corotet
               read_nodes(section == "ParametricNodes");
             else if (section == "Elements")
               read_elements();
-            file.skip_section(section);
+            else
+              {
+                file.skip_section(section);
+                continue;
+              }
+            file.end_section(section);
           }
         sort_by_entity();
         builder.join_copies();
@@ -116,7 +121,9 @@ namespace corotet
                                       x[0],
                                       x[1],
                                       x[2]));
-            builder.add_node(tag, x);
+            if (!builder.add_node(tag, x))
+              file.refuse(
+                fmt::format("node {} is there already, at another place", tag));
             if (!are_parametric)
               continue;
             // Of the entity that it is on, and its place there.

@@ -59,6 +59,25 @@ namespace corotet
       rest_of_line();
     }
 
+    // Behind all that a section has by its first line: its end must follow.
+    void
+    end_section(const std::string &name)
+    {
+      skip_blanks();
+      const std::string end = "$End" + name;
+      if (text.compare(position, end.size(), end) != 0)
+        {
+          const std::string found = shortened(
+            text.substr(position, text.find('\n', position) - position), 40);
+          refuse(
+            fmt::format("{} is expected: found '{}'; does the section have "
+                        "more than its first line says?",
+                        end,
+                        is_binary ? "bytes" : found));
+        }
+      rest_of_line();
+    }
+
     // Without what ends it.
     std::string
     rest_of_line()

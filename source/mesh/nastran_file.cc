@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <climits>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "abaqus_lines.h"
@@ -162,7 +164,19 @@ namespace corotet
       GmshModel
       model() const
       {
-        return builder.model();
+        GmshModel                result = builder.model();
+        std::vector<std::string> remarks;
+        if (!left_out.empty())
+          remarks.push_back(
+            "left out, as corotet reads the mesh only: " +
+            shortened(join({left_out.begin(), left_out.end()}), 300));
+        for (const auto &[name, n] : n_without_property)
+          remarks.push_back(fmt::format(
+            "{} {} have no property: each is named by its own number",
+            n,
+            name));
+        result.remark = join(remarks, "; ");
+        return result;
       }
 
     private:
@@ -183,6 +197,20 @@ namespace corotet
         else if (other_solids.contains(card.name))
           card.place.refuse("cells other than tetrahedra: found " + card.name +
                             "; allowed is CTETRA");
+        else if (card.name == "BEGIN BU")
+          // What came before are no cards of the bulk data.
+          left_out.clear();
+        else if (card.name != "ENDDATA" && is_name(card.name))
+          left_out.insert(card.name);
+      }
+
+      static bool
+      is_name(const std::string &name)
+      {
+        return !name.empty() &&
+               std::all_of(name.begin(), name.end(), [](const unsigned char c) {
+                 return std::isalnum(c) != 0;
+               });
       }
 
       // Of the coordinates, which others would be turned and shifted by.
@@ -203,10 +231,12 @@ namespace corotet
       add_node(const NastranCard &card)
       {
         check_system(card);
-        builder.add_node(card.number(0, "the number"),
-                         {card.coordinate(2),
-                          card.coordinate(3),
-                          card.coordinate(4)});
+        const std::uint64_t number = card.number(0, "the number");
+        if (!builder.add_node(
+              number,
+              {card.coordinate(2), card.coordinate(3), card.coordinate(4)}))
+          card.place.refuse(
+            fmt::format("node {} is there already, at another place", number));
       }
 
       static std::vector<std::uint64_t>
@@ -221,6 +251,12 @@ namespace corotet
       void
       add_tetrahedron(const NastranCard &card)
       {
+        // Of a degree that Nastran does not have: gmsh writes such cards.
+        for (std::size_t i = 2 + 10; i < card.fields.size(); ++i)
+          if (!card.field(i).empty())
+            card.place.refuse(
+              fmt::format("a CTETRA has 4 or 10 nodes: found '{}' behind them",
+                          shortened(card.field(i), 40)));
         std::size_t n_given = 0;
         for (std::size_t i = 4; i < 10; ++i)
           n_given += card.field(2 + i).empty() ? 0 : 1;
@@ -247,13 +283,25 @@ namespace corotet
                   const int                         type,
                   const std::vector<std::uint64_t> &nodes)
       {
-        const std::size_t element = builder.add_element(type, nodes);
+        const std::uint64_t label = card.number(0, "the number");
+        if (labels.add(label))
+          card.place.refuse(fmt::format("element {} is there already", label));
+        const std::size_t element      = builder.add_element(type, nodes);
+        const bool        has_property = !card.field(1).empty();
+        if (!has_property)
+          ++n_without_property[card.name];
         builder.add_to_group(element,
-                             static_cast<int>(card.number(
-                               card.field(1).empty() ? 0 : 1, "the property")));
+                             static_cast<int>(has_property ?
+                                                card.number(1, "the property") :
+                                                label));
       }
 
       ModelBuilder builder;
+      // Of elements.
+      GivenNumbers labels;
+      // By the names of cards.
+      std::map<std::string, std::size_t> n_without_property;
+      std::set<std::string>              left_out;
     };
   } // namespace
 

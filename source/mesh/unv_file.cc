@@ -11,49 +11,25 @@
 
 #include <algorithm>
 #include <climits>
-#include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <unordered_map>
 
-#include "abaqus_lines.h"
 #include "model_builder.h"
+#include "unv_lines.h"
+#include "unv_types.h"
 
 namespace corotet
 {
   namespace
   {
-    // gmsh's type of elements, and theirs in our order.
-    struct UnvType
+    // Coordinate systems that nodes were defined in, by their numbers: how many
+    // nodes, and the line of the first.
+    struct UnvSystem
     {
-      int              gmsh;
-      std::vector<int> order;
+      std::size_t   n_nodes = 0;
+      abaqus::Place place;
     };
-
-
-
-    // By I-deas's number and that of the nodes. Those on edges stand between
-    // the corners.
-    std::optional<UnvType>
-    unv_type(const std::int64_t number, const std::int64_t n_nodes)
-    {
-      static const std::set<std::int64_t> lines{11, 21, 22, 23, 24, 31, 32},
-        triangles{41, 42, 51, 52, 61, 62, 72, 74, 81, 82, 91, 92};
-      if (number == 111 && n_nodes == 4)
-        return UnvType{4, {0, 1, 2, 3}};
-      if (number == 118 && n_nodes == 10)
-        return UnvType{11, {0, 2, 4, 9, 1, 3, 5, 6, 8, 7}};
-      if (triangles.contains(number) && n_nodes == 3)
-        return UnvType{2, {0, 1, 2}};
-      if (triangles.contains(number) && n_nodes == 6)
-        return UnvType{9, {0, 2, 4, 1, 3, 5}};
-      if (lines.contains(number) && n_nodes == 2)
-        return UnvType{1, {0, 1}};
-      if (lines.contains(number) && n_nodes == 3)
-        return UnvType{8, {0, 2, 1}};
-      return {};
-    }
 
 
 
@@ -61,33 +37,34 @@ namespace corotet
     {
     public:
       explicit UnvReader(const std::string &path)
-        : place{path, 0}
-        , file(path)
+        : lines(path)
       {
-        if (!file)
-          throw MachineError(path + ": cannot be read (permission?)");
-        skip_byte_order_mark(file);
-        while (next())
+        while (lines.next())
           {
-            if (trimmed_line() != "-1" || !next())
+            if (lines.trimmed() != "-1" || !lines.next())
               continue;
-            const std::string dataset = trimmed_line();
+            const std::string dataset = lines.trimmed();
             if (dataset == "15")
               read_nodes_in_lines();
             else if (dataset == "781" || dataset == "2411")
-              read_nodes();
+              read_nodes(dataset == "781");
             else if (dataset == "780" || dataset == "2412")
               read_elements();
-            else if (dataset == "2467" || dataset == "2477" ||
-                     dataset == "2452")
+            else if (dataset == "2435" || dataset == "2452" ||
+                     dataset == "2467" || dataset == "2477")
               read_groups(4);
             else if (dataset == "2429" || dataset == "2430" ||
-                     dataset == "2432" || dataset == "2435")
+                     dataset == "2432")
               read_groups(2);
             else
-              while (next() && trimmed_line() != "-1")
-                ;
+              {
+                if (dataset == "18" || dataset == "2420")
+                  has_systems = true;
+                while (lines.next() && lines.trimmed() != "-1")
+                  ;
+              }
           }
+        check_systems();
         add_numbers();
       }
 
@@ -104,162 +81,154 @@ namespace corotet
             "{} members of groups, of nodes or of elements that are not read, "
             "are left out",
             n_unknown));
+        for (const auto &[number, system] : systems)
+          remarks.push_back(
+            fmt::format("coordinates of {} nodes are taken for global: the "
+                        "file does not define their system, {}",
+                        system.n_nodes,
+                        number));
         result.remark = join(remarks, "; ");
         return result;
       }
 
     private:
-      bool
-      next()
-      {
-        ++place.line;
-        return static_cast<bool>(std::getline(file, line));
-      }
-
-      std::string
-      trimmed_line() const
-      {
-        return abaqus::trimmed(line);
-      }
-
-      // A line that has to be there.
-      std::vector<std::string>
-      needed_words()
-      {
-        if (!next())
-          place.refuse("the file ends within a dataset: is the rest missing?");
-        return words();
-      }
-
-      std::vector<std::string>
-      words() const
-      {
-        std::istringstream       stream(line);
-        std::vector<std::string> result;
-        for (std::string word; stream >> word;)
-          result.push_back(word);
-        return result;
-      }
-
-      // The next line of a dataset; none at its end.
-      std::optional<std::vector<std::string>>
-      record()
-      {
-        auto result = needed_words();
-        if (result == std::vector<std::string>{"-1"})
-          return {};
-        return result;
-      }
-
-      std::int64_t
-      whole(const std::vector<std::string> &of_line, const std::size_t i) const
-      {
-        const auto result =
-          i < of_line.size() ? abaqus::whole_number(of_line[i]) : std::nullopt;
-        if (!result)
-          place.refuse(fmt::format(
-            "a whole number is expected as word {} of the line: found '{}'",
-            i + 1,
-            i < of_line.size() ? shortened(of_line[i], 40) : ""));
-        return *result;
-      }
-
-      std::uint64_t
-      positive(const std::vector<std::string> &of_line,
-               const std::size_t               i) const
-      {
-        const std::int64_t result = whole(of_line, i);
-        if (result < 1 || result > INT_MAX)
-          place.refuse(
-            fmt::format("found {}; allowed is a positive whole number",
-                        result));
-        return result;
-      }
-
       void
       add_node(const std::uint64_t             label,
                const std::vector<std::string> &coordinates,
                const std::size_t               first)
       {
+        const abaqus::Place &place = lines.place;
         if (coordinates.size() < first + 3)
           place.refuse(fmt::format("a node has three coordinates: found {}",
                                    coordinates.size() - first));
-        builder.add_node(label,
-                         {abaqus::number(coordinates[first], place),
-                          abaqus::number(coordinates[first + 1], place),
-                          abaqus::number(coordinates[first + 2], place)});
+        if (!builder.add_node(label,
+                              {abaqus::number(coordinates[first], place),
+                               abaqus::number(coordinates[first + 1], place),
+                               abaqus::number(coordinates[first + 2], place)}))
+          place.refuse(
+            fmt::format("node {} is there already, at another place", label));
+      }
+
+      // 0 and 1 are the global one.
+      void
+      add_system(const std::vector<std::string> &of_line)
+      {
+        const std::int64_t number = lines.whole(of_line, 1);
+        if (number == 0 || number == 1)
+          return;
+        UnvSystem &system = systems[number];
+        if (++system.n_nodes == 1)
+          system.place = lines.place;
+      }
+
+      // After all datasets, as systems may be defined behind the nodes.
+      void
+      check_systems() const
+      {
+        if (has_systems && !systems.empty())
+          systems.begin()->second.place.refuse(fmt::format(
+            "coordinates in a system of their own are not read: found the "
+            "definition system {} of a node; allowed are 0 and 1, the global "
+            "one",
+            systems.begin()->first));
       }
 
       void
       read_nodes_in_lines()
       {
-        while (const auto of_line = record())
+        while (const auto of_line = lines.record())
           {
-            const std::uint64_t label = positive(*of_line, 0);
+            const std::uint64_t label = lines.positive(*of_line, 0);
             if (of_line->size() < 7)
-              place.refuse("a node has four whole numbers and three "
-                           "coordinates: found '" +
-                           shortened(line) + "'");
+              lines.place.refuse("a node has four whole numbers and three "
+                                 "coordinates: found '" +
+                                 shortened(lines.text()) + "'");
+            add_system(*of_line);
             add_node(label, *of_line, 4);
           }
       }
 
+      // Of the dataset 2411 the system is that of the export, whose
+      // coordinates are global.
       void
-      read_nodes()
+      read_nodes(const bool have_system)
       {
-        while (const auto of_line = record())
+        while (const auto of_line = lines.record())
           {
-            const std::uint64_t label = positive(*of_line, 0);
-            add_node(label, needed_words(), 0);
+            const std::uint64_t label = lines.positive(*of_line, 0);
+            if (have_system)
+              add_system(*of_line);
+            add_node(label, lines.needed_words(), 0);
           }
       }
 
+      // The head of an element is its label, type, physical property,
+      // material, colour and number of nodes; in the dataset 780 the property
+      // and the material have two numbers each, of which the second counts.
       void
       read_elements()
       {
-        while (const auto head = record())
+        while (const auto head = lines.record())
           {
-            const std::uint64_t label   = positive(*head, 0);
-            const std::int64_t  type    = whole(*head, 1);
-            const std::int64_t  n_nodes = whole(*head, head->size() - 1);
-            const bool          is_long = head->size() >= 8;
-            const Numbers       numbers{
-                    {whole(*head, is_long ? 4 : 3), whole(*head, 2)}};
+            if (head->size() != 6 && head->size() != 8)
+              lines.place.refuse(fmt::format(
+                "the first line of an element has 6 numbers, or 8 in the "
+                "dataset 780: found '{}'",
+                shortened(lines.text())));
+            const std::uint64_t label   = lines.positive(*head, 0);
+            const std::int64_t  type    = lines.whole(*head, 1);
+            const std::int64_t  n_nodes = lines.whole(*head, head->size() - 1);
+            const bool          is_long = head->size() == 8;
+            const Numbers       numbers{{lines.whole(*head, is_long ? 5 : 3),
+                                         lines.whole(*head, is_long ? 3 : 2)}};
             if (n_nodes < 1 || n_nodes > 1000)
-              place.refuse(
+              lines.place.refuse(
                 fmt::format("found an element with {} nodes", n_nodes));
             const auto known = unv_type(type, n_nodes);
             // Wedges, bricks, pyramids, and tetrahedra of other degrees.
             if (!known && type > 100 && type < 120)
-              place.refuse(fmt::format(
+              lines.place.refuse(fmt::format(
                 "cells other than tetrahedra with 4 or 10 nodes: found the "
                 "type {} with {} nodes; allowed are 111 and 118",
                 type,
                 n_nodes));
-            // Beams say how they are turned.
-            static const std::set<std::int64_t> beams{
-              11, 21, 22, 23, 24, 31, 32};
-            if (beams.contains(type))
-              needed_words();
-            std::vector<std::uint64_t> theirs, nodes;
-            while (theirs.size() < std::size_t(n_nodes))
-              {
-                const auto of_line = needed_words();
-                if (of_line.empty())
-                  place.refuse("found no nodes of an element");
-                for (std::size_t i = 0; i < of_line.size(); ++i)
-                  theirs.push_back(positive(of_line, i));
-              }
+            if (known && !elements.emplace(label, elements.size()).second)
+              lines.place.refuse(
+                fmt::format("element {} is there already", label));
+            const auto theirs = nodes_of_element(type, n_nodes);
             if (!known)
               {
                 ++n_others[type];
                 continue;
               }
+            std::vector<std::uint64_t> nodes;
             for (const int i : known->order)
               nodes.push_back(theirs[i]);
-            elements[label] = builder.add_element(known->gmsh, nodes);
+            builder.add_element(known->gmsh, nodes);
             numbers_of.push_back(numbers);
           }
+      }
+
+      std::vector<std::uint64_t>
+      nodes_of_element(const std::int64_t type, const std::size_t n)
+      {
+        // Beams say how they are turned.
+        static const std::set<std::int64_t> beams{11, 21, 22, 23, 24, 31, 32};
+        if (beams.contains(type))
+          lines.needed_words();
+        std::vector<std::uint64_t> result;
+        while (result.size() < n)
+          {
+            const auto of_line = lines.needed_words();
+            if (of_line.empty())
+              lines.place.refuse("found no nodes of an element");
+            for (std::size_t i = 0; i < of_line.size(); ++i)
+              result.push_back(lines.positive(of_line, i));
+          }
+        if (result.size() > n)
+          lines.place.refuse(fmt::format(
+            "an element of {} nodes: found {} of them", n, result.size()));
+        return result;
       }
 
       // @p n_numbers for each member: 8 and the label for elements, 7 for
@@ -267,31 +236,76 @@ namespace corotet
       void
       read_groups(const std::size_t n_numbers)
       {
-        while (const auto head = record())
+        while (const auto head = lines.record())
           {
-            std::int64_t n = whole(*head, head->size() - 1);
-            next();
+            const auto numbers = whole_numbers(*head);
+            if (numbers.size() != 8 || numbers.back() < 0)
+              lines.place.refuse(
+                fmt::format("the first line of a group has 8 numbers, the "
+                            "number of members last: found '{}'",
+                            shortened(lines.text(), 80)));
+            std::int64_t n = numbers.back();
+            lines.need_next();
+            check_name(n_numbers);
             const int group = groups.size();
-            groups.push_back(trimmed_line());
+            groups.push_back(lines.trimmed());
             if (groups.back().empty())
               groups.back() = "group " + (*head)[0];
             while (n > 0)
               {
-                const auto of_line = needed_words();
-                if (of_line.size() < n_numbers)
-                  place.refuse(
+                const auto         of_line   = lines.needed_words();
+                const std::int64_t n_of_line = of_line.size() / n_numbers;
+                if (n_of_line == 0 || of_line.size() % n_numbers != 0)
+                  lines.place.refuse(
                     fmt::format("{} more members of the group '{}' are "
                                 "expected: found '{}'",
                                 n,
                                 shortened(groups.back(), 40),
-                                shortened(line, 40)));
-                for (std::size_t i = 0;
-                     i + n_numbers <= of_line.size() && n > 0;
-                     i += n_numbers, --n)
-                  members.push_back(
-                    {group, whole(of_line, i), whole(of_line, i + 1)});
+                                shortened(lines.text(), 40)));
+                if (n_of_line > n)
+                  lines.place.refuse(
+                    fmt::format("the group '{}' has {} members by its first "
+                                "line: found more",
+                                shortened(groups.back(), 40),
+                                numbers.back()));
+                for (std::int64_t i = 0; i < n_of_line; ++i)
+                  members.push_back({group,
+                                     lines.whole(of_line, i * n_numbers),
+                                     lines.whole(of_line, i * n_numbers + 1)});
+                n -= n_of_line;
               }
           }
+      }
+
+      // Of words that all are such; none if others are among them.
+      static std::vector<std::int64_t>
+      whole_numbers(const std::vector<std::string> &words)
+      {
+        std::vector<std::int64_t> result;
+        for (const std::string &word : words)
+          if (const auto number = abaqus::whole_number(word))
+            result.push_back(*number);
+        if (result.size() < words.size())
+          result.clear();
+        return result;
+      }
+
+      // Where the number of members is too small, others or the next group
+      // stand where the name of one is expected, or its dataset ends.
+      void
+      check_name(const std::size_t n_numbers) const
+      {
+        const auto numbers = whole_numbers(lines.words());
+        const bool is_member =
+          !numbers.empty() && numbers.size() % n_numbers == 0 &&
+          (numbers.size() == 8 || numbers[0] == 7 || numbers[0] == 8);
+        // A group may have that name, too.
+        const bool is_end = lines.trimmed() == "-1" && lines.text()[0] == ' ';
+        if (is_member || is_end)
+          lines.place.refuse(fmt::format(
+            "the name of a group is expected: found '{}'; is the number of "
+            "members of the group before too small?",
+            shortened(lines.trimmed(), 80)));
       }
 
       // Which numbers are those of a group, after all datasets.
@@ -344,10 +358,11 @@ namespace corotet
         std::int64_t kind, label;
       };
 
-      abaqus::Place place;
-      std::ifstream file;
-      std::string   line;
-      ModelBuilder  builder;
+      UnvLines     lines;
+      ModelBuilder builder;
+      // Definition systems of nodes, and whether there are any in the file.
+      std::map<std::int64_t, UnvSystem> systems;
+      bool                              has_systems = false;
       // By their labels.
       std::unordered_map<std::int64_t, std::size_t> elements;
       std::vector<Numbers>                          numbers_of;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Groups of gmsh's files of version 2 and of universal files are those of their
-// elements, one by one, however entities, materials and numbers are. The
-// volumes and areas of two cubes and their sides are known.
+// Groups of gmsh's files of version 2 are those of their elements, one by one,
+// however entities and numbers are. The volumes and areas of two cubes and
+// their sides are known.
 
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,8 @@ using namespace corotet::tests;
 
 namespace
 {
+  using two_cubes::expect_cubes;
+  using two_cubes::group_of;
   using two_cubes::Numbers;
   using Known = std::vector<std::string>;
 
@@ -50,82 +52,6 @@ namespace
            }) +
            "$EndNodes\n$Elements\n" + std::to_string(n_elements) + "\n" +
            elements + "$EndElements\n";
-  }
-
-  // The physical group, of triangles 1 and 2, of tetrahedra 3 and 4.
-  int
-  group_of(const int dimension, const int cube)
-  {
-    return 1 + cube + (dimension == 3 ? 2 : 0);
-  }
-
-  void
-  expect_cubes(const SerialMesh  &mesh,
-               const std::string &a     = "A",
-               const std::string &b     = "B",
-               const std::string &left  = "left",
-               const std::string &right = "right")
-  {
-    EXPECT_EQ(mesh.cells.size(), 12u);
-    EXPECT_NEAR(volume(mesh, a), 1, 1e-14);
-    EXPECT_NEAR(volume(mesh, b), 1, 1e-14);
-    EXPECT_NEAR(area(mesh, left), 1, 1e-14);
-    EXPECT_NEAR(area(mesh, right), 1, 1e-14);
-    EXPECT_EQ(mesh.faces.size(), 4u);
-  }
-
-  // A universal file of two cubes. @p numbers: of the property and the
-  // material, for the dimension and the cube.
-  std::string
-  unv_of_cubes(const std::function<std::string(int, int)> &numbers,
-               const std::string                          &groups = "")
-  {
-    return "    -1\n  2411\n" +
-           two_cubes::node_lines([](const int number, const auto &x) {
-             return fmt::format("{:10}{:10}{:10}{:10}\n", number, 1, 1, 11) +
-                    fmt::format("{:25}{:25}{:25}\n",
-                                fmt::format("{}.0D+00", x[0]),
-                                fmt::format("{}.0D+00", x[1]),
-                                fmt::format("{}.0D+00", x[2]));
-           }) +
-           "    -1\n    -1\n  2412\n" +
-           two_cubes::element_lines(
-             [&](const int number, const int cube, const Numbers &nodes) {
-               const int dimension = static_cast<int>(nodes.size()) - 1;
-               return fmt::format("{:10}{:10} {} {:9}{:10}\n{}\n",
-                                  number,
-                                  dimension == 2 ? 41 : 111,
-                                  numbers(dimension, cube),
-                                  7,
-                                  nodes.size(),
-                                  fmt::join(nodes, " "));
-             }) +
-           "    -1\n" + groups;
-  }
-
-  // A group of elements, by their labels from @p first on.
-  std::string
-  unv_group(const int          number,
-            const std::string &name,
-            const int          first,
-            const int          n)
-  {
-    std::string result =
-      fmt::format("{:10} 0 0 0 0 0 0 {:9}\n{}\n", number, n, name);
-    for (int i = 0; i < n; ++i)
-      result +=
-        fmt::format("{:10}{:10} 0 0{}", 8, first + i, i % 2 == 1 ? "\n" : "");
-    return result + (n % 2 == 1 ? "\n" : "");
-  }
-
-  std::string
-  unv_groups(const std::string &dataset,
-             const std::string &left,
-             const std::string &a)
-  {
-    return "    -1\n  " + dataset + "\n" + unv_group(1, left, 1, 2) +
-           unv_group(2, "right", 3, 2) + unv_group(3, a, 5, 6) +
-           unv_group(4, "B", 11, 6) + "    -1\n";
   }
 } // namespace
 
@@ -309,82 +235,33 @@ TEST(GroupsOfFiles, RefusalsOfVersion2)
                    "0 for text and 1 for binary with 8");
 }
 
-// By datasets of I-deas and of Salome; names may have blanks, and numbers of
-// materials mean nothing where there are groups.
-TEST(GroupsOfFiles, Unv)
+// A node at two places, and sections that have more than they say: the last
+// cell would be lost.
+TEST(GroupsOfFiles, LeftoversAndDuplicatesOfVersion2)
 {
   const TemporaryFolder folder;
-  const auto ones = [](const int, const int) { return std::string("1 1"); };
-  for (const std::string dataset : {"2467", "2477", "2452"})
-    {
-      const SerialMesh mesh = read_file(folder.write(
-        "cubes.unv",
-        unv_of_cubes(ones, unv_groups(dataset, "left face", "part 1"))));
-      expect_cubes(mesh, "part 1", "B", "left face");
-      EXPECT_TRUE(mesh.remarks.empty());
-      EXPECT_EQ(MeshNames("region", mesh.regions).known(),
-                (Known{"part 1", "B"}));
-    }
-  // Groups may overlap; what is in none keeps its number.
-  const SerialMesh overlap = read_file(
-    folder.write("cubes.unv",
-                 unv_of_cubes(ones,
-                              "    -1\n  2467\n" + unv_group(1, "some", 5, 8) +
-                                unv_group(2, "others", 9, 3) + "    -1\n")));
-  EXPECT_NEAR(volume(overlap, "some"), 8 / 6., 1e-14);
-  EXPECT_NEAR(volume(overlap, "others"), 0.5, 1e-14);
-  EXPECT_NEAR(volume(overlap, "1"), 4 / 6., 1e-14);
-  EXPECT_EQ(overlap.cells.size(), 12u);
-}
-
-// Of materials or, if there is one, of properties.
-TEST(GroupsOfFiles, NumbersOfUnv)
-{
-  const TemporaryFolder folder;
-  for (const bool has_materials : {false, true})
-    expect_cubes(
-      read_file(folder.write(
-        "cubes.unv", unv_of_cubes([&](const int dimension, const int cube) {
-          const int number = group_of(dimension, cube);
-          return fmt::format(fmt::runtime(has_materials ? "1 {}" : "{} 1"),
-                             number);
-        }))),
-      "3",
-      "4",
-      "1",
-      "2");
-}
-
-TEST(GroupsOfFiles, RefusalsOfUnv)
-{
-  const TemporaryFolder folder;
-  const std::string     file = folder / "cubes.unv";
+  const std::string     file  = folder / "cubes.msh";
+  const std::string     cells = elements_of_cubes(
+    [](const int, const int) { return std::string("2 1 1"); });
   const auto message = [&](const std::string &old, const std::string &own) {
-    std::string text =
-      unv_of_cubes([](const int, const int) { return std::string("1 1"); });
+    std::string text = msh_of_cubes(cells);
     text.replace(text.find(old), old.size(), own);
-    folder.write("cubes.unv", text);
+    folder.write("cubes.msh", text);
     return refusal([&] { read_file(file); });
   };
-  // The first tetrahedron.
-  const std::string first = "         5       111";
-  EXPECT_EQ(message(first, "         5       114"),
-            file + ":38: cells other than tetrahedra with 4 or 10 nodes: found "
-                   "the type 114 with 4 nodes; allowed are 111 and 118");
-  EXPECT_EQ(message(first, "         5      tet4"),
-            file + ":38: a whole number is expected as word 2 of the line: "
-                   "found 'tet4'");
-  EXPECT_EQ(message("1 2 5 11\n", "1 2 5 -11\n"),
-            file + ":39: found -11; allowed is a positive whole number");
-  EXPECT_EQ(message("1 2 5 11\n", "1 2 5 111\n"),
-            file + ": an element has the node 111, which the file does not "
-                   "contain");
-  // Springs and the like are no cells.
-  EXPECT_EQ(message("    -1\n    -1\n", "    -1\n    -1\n"),
+  EXPECT_EQ(message("$Nodes\n12\n", "$Nodes\n13\n2 1 0 1\n"),
+            file + ":15: node 2 is there already, at another place");
+  EXPECT_EQ(message("$Nodes\n12\n", "$Nodes\n13\n2 1 0 0\n"),
             "nothing was refused");
-  folder.write("cubes.unv",
-               folder.read("cubes.unv") +
-                 "    -1\n  2412\n 99 136 1 1 7 2\n 1 2\n    -1\n");
-  EXPECT_EQ(read_file(file).remarks,
-            Known{"1 elements of the type 136 are left out"});
+  const std::string more = "'; does the section have more than its first line "
+                           "says?";
+  EXPECT_EQ(message("$Elements\n16", "$Elements\n15"),
+            file +
+              ":43: $EndElements is expected: found '16 4 2 1 1 2 8 12 11" +
+              more);
+  EXPECT_EQ(message("$Nodes\n12", "$Nodes\n11"),
+            file + ":24: $EndNodes is expected: found '12 2 1 1" + more);
+  EXPECT_EQ(message("$PhysicalNames\n4", "$PhysicalNames\n3"),
+            file + ":9: $EndPhysicalNames is expected: found '3 4 \"B\"" +
+              more);
 }

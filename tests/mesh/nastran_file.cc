@@ -132,3 +132,39 @@ TEST_F(NastranFile, Refusals)
             "part.bdf: an element has the node 5, which the file does not "
             "contain");
 }
+
+// What the bulk data have twice, and nodes of elements of a degree that Nastran
+// does not have.
+TEST_F(NastranFile, LeftoversAndDuplicates)
+{
+  EXPECT_EQ(message(start + nodes + "GRID,2,,1.,0.,1.\n" + cell + end),
+            "part.bdf:6: node 2 is there already, at another place");
+  EXPECT_EQ(message(start + nodes + "GRID,2,,1.,0.,0.\n" + cell + end),
+            "nothing was refused");
+  EXPECT_EQ(message(start + nodes + cell + "CTRIA3,1,3,1,2,3\n" + end),
+            "part.bdf:7: element 1 is there already");
+  EXPECT_EQ(message(start + nodes + middles +
+                    "CTETRA,1,7,1,2,3,4,5,6\n,7,8,9,10,,3\n" + end),
+            "part.bdf:12: a CTETRA has 4 or 10 nodes: found '3' behind them");
+}
+
+// The log says which cards are not read, and what is named by its own number.
+TEST_F(NastranFile, Remarks)
+{
+  using Known = std::vector<std::string>;
+  EXPECT_TRUE(read(start + nodes + cell + end).remarks.empty());
+  EXPECT_EQ(read("SOL 101\nCEND\nTITLE = a part\n" + start + nodes +
+                 "CQUAD4,9,1,1,2,3,4\n" + cell + "RBE2,7,1,123,2\n" + end)
+              .remarks,
+            Known{"left out, as corotet reads the mesh only: CQUAD4, RBE2"});
+  const SerialMesh mesh = read(start + nodes +
+                               "GRID,5,,1.,1.,1.\nCTETRA,4,,1,2,3,4\n"
+                               "CTETRA,8,7,2,3,4,5\nCTRIA3,6,,1,2,3\n" +
+                               end);
+  EXPECT_EQ(mesh.remarks,
+            Known{
+              "1 CTETRA have no property: each is named by its own number; "
+              "1 CTRIA3 have no property: each is named by its own number"});
+  EXPECT_NEAR(volume(mesh, "4"), 1 / 6., 1e-15);
+  EXPECT_NEAR(area(mesh, "6"), 0.5, 1e-15);
+}

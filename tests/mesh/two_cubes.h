@@ -5,11 +5,14 @@
 #define corotet_tests_mesh_two_cubes_h
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <array>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "tools.h"
 
 /**
  * Two unit cubes side by side in x, of six tetrahedra each, and of two
@@ -75,6 +78,29 @@ namespace corotet::tests::two_cubes
              e < 4 ? static_cast<int>(e) / 2 : static_cast<int>(e - 4) / 6,
              elements[e]);
     return result;
+  }
+
+  /// The physical group, of triangles 1 and 2, of tetrahedra 3 and 4.
+  inline int
+  group_of(const int dimension, const int cube)
+  {
+    return 1 + cube + (dimension == 3 ? 2 : 0);
+  }
+
+  /// What tests of files expect of a mesh of them.
+  inline void
+  expect_cubes(const SerialMesh  &mesh,
+               const std::string &a     = "A",
+               const std::string &b     = "B",
+               const std::string &left  = "left",
+               const std::string &right = "right")
+  {
+    EXPECT_EQ(mesh.cells.size(), 12u);
+    EXPECT_NEAR(volume(mesh, a), 1, 1e-14);
+    EXPECT_NEAR(volume(mesh, b), 1, 1e-14);
+    EXPECT_NEAR(area(mesh, left), 1, 1e-14);
+    EXPECT_NEAR(area(mesh, right), 1, 1e-14);
+    EXPECT_EQ(mesh.faces.size(), 4u);
   }
 } // namespace corotet::tests::two_cubes
 
