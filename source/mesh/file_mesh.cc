@@ -75,7 +75,7 @@ namespace corotet
       if (format == MeshFormat::msh && version < 3)
         return read_msh_2(request.path);
       if (format == MeshFormat::medit)
-        check_medit(request.path);
+        return read_medit(request.path);
       return run_gmsh(request);
     }
 

@@ -1,100 +1,360 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What gmsh does not say about files of Medit.
+// Files of Medit, as text.
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
 #include <corotet/mesh/mesh_readers.h>
 
 #include <fmt/format.h>
 
-#include <cstdint>
+#include <cctype>
+#include <climits>
 #include <fstream>
 #include <map>
-#include <sstream>
-#include <string>
+#include <optional>
+#include <set>
+#include <string_view>
 
 #include "abaqus_lines.h"
+#include "model_builder.h"
 
 namespace corotet
 {
   namespace
   {
-    // Goes through a file, word for word.
-    class MeditCheck
+    // The words of a file, without comments.
+    class MeditWords
     {
     public:
-      explicit MeditCheck(const std::string &path)
-        : place{path, 0}
+      explicit MeditWords(const std::string &path)
+        : path(path)
+        , file(path)
       {
-        std::ifstream file(path);
         if (!file)
           throw MachineError(path + ": cannot be read (permission?)");
-        for (std::string line; is_readable && std::getline(file, line);)
-          {
-            ++place.line;
-            std::istringstream words(line.substr(0, line.find('#')));
-            for (std::string word; is_readable && words >> word;)
-              read(word);
-          }
+        skip_byte_order_mark(file);
+        find_next();
+      }
+
+      // The word that is read next; empty at the end of the file.
+      std::string_view
+      peek() const
+      {
+        return std::string_view(line).substr(begin, end - begin);
+      }
+
+      std::string
+      next()
+      {
+        const std::string result(peek());
+        last_line = number;
+        find_next();
+        return result;
+      }
+
+      // Whether the next word is in another line than the last one.
+      bool
+      is_at_end_of_line() const
+      {
+        return number != last_line || begin == end;
+      }
+
+      bool
+      is_at_keyword() const
+      {
+        return begin < end &&
+               std::isalpha(static_cast<unsigned char>(line[begin])) != 0;
+      }
+
+      // About the word that was read last.
+      abaqus::Place
+      place() const
+      {
+        return {path, last_line};
+      }
+
+      // About the next word.
+      [[noreturn]] void
+      refuse_next(const std::string &expected) const
+      {
+        abaqus::Place{path, number}.refuse(
+          expected + ": found " +
+          (begin == end ? "the end of the file" :
+                          "'" + shortened(std::string(peek()), 40) + "'"));
       }
 
     private:
-      // What is no number is for gmsh to refuse.
       void
-      read(const std::string &word)
+      find_next()
       {
-        // Nodes and the reference.
-        static const std::map<std::string, std::int64_t> lengths{
-          {"Triangles", 4},
-          {"TrianglesP2", 7},
-          {"Tetrahedra", 5},
-          {"TetrahedraP2", 11},
-          {"Prisms", 7},
-          {"Pyramids", 6}};
-        if (is_count)
+        constexpr const char *blanks = " \t\r\v\f";
+        begin                        = line.find_first_not_of(blanks, end);
+        while (begin == std::string::npos)
           {
-            const auto n = abaqus::whole_number(word);
-            is_count     = false;
-            is_readable  = n && *n >= 0 && *n < 1'000'000'000'000;
-            n_left       = is_readable ? *n * length : 0;
-            if (n_left > 0 && (keyword == "Prisms" || keyword == "Pyramids"))
-              place.refuse(fmt::format("cells other than tetrahedra: found {} "
-                                       "{}; allowed are Tetrahedra",
-                                       *n,
-                                       keyword));
+            if (!std::getline(file, line))
+              {
+                line.clear();
+                begin = end = 0;
+                return;
+              }
+            ++number;
+            line.resize(std::min(line.find('#'), line.size()));
+            begin = line.find_first_not_of(blanks);
           }
-        else if (n_left > 0)
+        end = std::min(line.find_first_of(blanks, begin), line.size());
+      }
+
+      const std::string path;
+      std::ifstream     file;
+      std::string       line;
+      // Of the next word, and its line.
+      std::size_t begin = 0, end = 0;
+      unsigned    number = 0, last_line = 0;
+    };
+
+
+
+    // gmsh's type of elements, and theirs in our order.
+    struct MeditType
+    {
+      int                      gmsh;
+      std::vector<std::size_t> order;
+    };
+
+
+
+    class MeditReader
+    {
+    public:
+      explicit MeditReader(const std::string &path)
+        : words(path)
+      {
+        while (!words.peek().empty())
           {
-            const auto number = abaqus::whole_number(word);
-            is_readable       = number.has_value();
-            --n_left;
-            if (number && n_left % length == 0 && *number < 0)
-              place.refuse(fmt::format("a reference in {}: found {}; allowed "
-                                       "are 0 and more",
-                                       keyword,
-                                       *number));
-          }
-        else if (const auto found = lengths.find(word); found != lengths.end())
-          {
-            keyword  = word;
-            length   = found->second;
-            is_count = true;
+            if (!words.is_at_keyword())
+              refuse_excess();
+            section = words.next();
+            if (upper_case(section) == "END")
+              break;
+            read_section();
           }
       }
 
-      abaqus::Place place;
-      std::string   keyword;
-      std::int64_t  length = 0, n_left = 0;
-      bool          is_count = false, is_readable = true;
+      GmshModel
+      model() const
+      {
+        GmshModel result = builder.model();
+        if (!left_out.empty())
+          result.remark =
+            "left out, as vertices, triangles and tetrahedra are read only: " +
+            shortened(join({left_out.begin(), left_out.end()}), 300);
+        return result;
+      }
+
+    private:
+      // Of the nodes on edges, those of 1-2, 2-3, 3-1, 1-4, 2-4, 3-4 follow
+      // the corners; gmsh has the last two the other way round.
+      static std::optional<MeditType>
+      type_of(const std::string &name)
+      {
+        if (name == "TRIANGLES")
+          return MeditType{2, {0, 1, 2}};
+        if (name == "TRIANGLESP2")
+          return MeditType{9, {0, 1, 2, 3, 4, 5}};
+        if (name == "TETRAHEDRA")
+          return MeditType{4, {0, 1, 2, 3}};
+        if (name == "TETRAHEDRAP2")
+          return MeditType{11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}};
+        return {};
+      }
+
+      // Too many for the section before.
+      [[noreturn]] void
+      refuse_excess() const
+      {
+        words.refuse_next(section.empty() ?
+                            "the name of a section is expected" :
+                            "the name of a section is expected behind all of " +
+                              section +
+                              (count ? fmt::format(", of which there "
+                                                   "are {}",
+                                                   *count) :
+                                       ""));
+      }
+
+      void
+      read_section()
+      {
+        const std::string name = upper_case(section);
+        count.reset();
+        if (name == "MESHVERSIONFORMATTED" || name == "DIMENSION")
+          {
+            const std::int64_t value = whole();
+            if (name == "DIMENSION" && value != 3)
+              words.place().refuse(
+                fmt::format("the dimension: found {}; allowed is 3", value));
+          }
+        else if (name == "VERTICES")
+          read_vertices();
+        else if (const auto type = type_of(name))
+          read_elements(*type);
+        else
+          skip(name);
+      }
+
+      std::int64_t
+      whole()
+      {
+        const auto result = abaqus::whole_number(std::string(words.peek()));
+        if (!result)
+          words.refuse_next("a whole number is expected in " + section);
+        words.next();
+        return *result;
+      }
+
+      std::int64_t
+      read_count()
+      {
+        count = whole();
+        if (*count < 0)
+          words.place().refuse(
+            fmt::format("the number of {}: found {}; allowed are 0 and more",
+                        section,
+                        *count));
+        return *count;
+      }
+
+      // Of the section's entities, @p n_left are still to come.
+      void
+      check_that_there_is_more(const std::int64_t n_left) const
+      {
+        if (words.is_at_keyword() || words.peek().empty())
+          words.refuse_next(
+            fmt::format("{} more {} are expected, as there are {}",
+                        n_left,
+                        section,
+                        *count));
+      }
+
+      // Lines may have several entities, and entities several lines; but where
+      // one begins behind another and does not end in its line, they have
+      // another number of numbers than they should: gmsh writes ten nodes of
+      // tetrahedra where four are expected.
+      void
+      check_line(const bool is_first, const std::size_t n_numbers) const
+      {
+        if (!is_first && words.is_at_end_of_line())
+          words.place().refuse(
+            fmt::format("a line of {} has {} numbers for each of them: found "
+                        "a line that ends within one{}",
+                        section,
+                        n_numbers,
+                        upper_case(section) == "VERTICES" ?
+                          "" :
+                          "; are these of another degree?"));
+      }
+
+      void
+      read_vertices()
+      {
+        bool is_first = true;
+        for (auto n = read_count(); n > 0; --n)
+          {
+            check_that_there_is_more(n);
+            dealii::Point<3> x;
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                const std::string word = words.next();
+                x[d]                   = abaqus::number(word, words.place());
+                check_line(is_first, 4);
+              }
+            const std::string reference = words.next();
+            abaqus::number(reference, words.place());
+            is_first = words.is_at_end_of_line();
+            if (!builder.add_node(++n_vertices, x))
+              words.place().refuse("too many vertices");
+          }
+      }
+
+      void
+      read_elements(const MeditType &type)
+      {
+        std::vector<std::uint64_t> theirs(type.order.size()), nodes;
+        bool                       is_first = true;
+        for (auto n = read_count(); n > 0; --n)
+          {
+            check_that_there_is_more(n);
+            for (std::uint64_t &node : theirs)
+              {
+                const std::int64_t number = whole();
+                if (number < 1)
+                  words.place().refuse(
+                    fmt::format("a vertex in {}: found {}; allowed are 1 and "
+                                "more",
+                                section,
+                                number));
+                node = number;
+                check_line(is_first, theirs.size() + 1);
+              }
+            const std::int64_t reference = whole();
+            if (reference < 0 || reference > INT_MAX)
+              words.place().refuse(
+                fmt::format("a reference in {}: found {}; allowed are 0 and "
+                            "more",
+                            section,
+                            reference));
+            is_first = words.is_at_end_of_line();
+            nodes.clear();
+            for (const std::size_t i : type.order)
+              nodes.push_back(theirs[i]);
+            builder.add_to_group(builder.add_element(type.gmsh, nodes),
+                                 static_cast<int>(reference));
+          }
+      }
+
+      // Sections consist of numbers, up to the name of the next one, but for a
+      // few that have a text in their line.
+      void
+      skip(const std::string &name)
+      {
+        const auto n = abaqus::whole_number(std::string(words.peek()));
+        while (!n && !words.is_at_end_of_line())
+          words.next();
+        for (const std::string other :
+             {"PRISMS", "PYRAMIDS", "HEXAHEDRA", "TETRAHEDRAP"})
+          if (name.starts_with(other) && n != 0)
+            {
+              if (n)
+                words.next();
+              words.place().refuse(
+                fmt::format("cells other than tetrahedra: found {} {}; allowed "
+                            "are Tetrahedra",
+                            n.value_or(1),
+                            section));
+            }
+        if (n != 0)
+          left_out.insert(section);
+        while (!words.is_at_keyword() && !words.peek().empty())
+          words.next();
+      }
+
+      MeditWords words;
+      // Of the present section: its name, and how many of it there are.
+      std::string                 section;
+      std::optional<std::int64_t> count;
+      std::uint64_t               n_vertices = 0;
+      std::set<std::string>       left_out;
+      ModelBuilder                builder;
     };
   } // namespace
 
 
 
-  void
-  check_medit(const std::string &path)
+  GmshModel
+  read_medit(const std::string &path)
   {
-    const MeditCheck check(path);
+    return MeditReader(path).model();
   }
 } // namespace corotet

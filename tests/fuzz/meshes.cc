@@ -70,6 +70,12 @@ namespace fuzz
   }
 
   void
+  read_medit_file(const std::string &input)
+  {
+    use_model(write("part.mesh", input), corotet::read_medit);
+  }
+
+  void
   read_unv_file(const std::string &input)
   {
     use_model(write("part.unv", input), corotet::read_unv);

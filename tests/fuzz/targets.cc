@@ -27,6 +27,7 @@ namespace fuzz
       {"gmsh_models", read_gmsh_model},
       {"hdf5_meshes", read_hdf5_file},
       {"lists", read_list},
+      {"medit_files", read_medit_file},
       {"mesh_files", read_mesh_file},
       {"nastran_files", read_nastran_file},
       {"parameters", read_parameters},

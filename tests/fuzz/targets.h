@@ -48,6 +48,8 @@ namespace fuzz
   void
   read_list(const std::string &input);
   void
+  read_medit_file(const std::string &input);
+  void
   read_mesh_file(const std::string &input);
   void
   read_nastran_file(const std::string &input);

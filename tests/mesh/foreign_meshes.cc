@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Meshes in the formats of other programs that gmsh reads (Nastran, UNV, Medit,
-// CGNS) and writes (these and VTK). The bodies are known; what is cut off is
-// refused. More files of VTK: tests/program/vtk_files.py.
+// Meshes in the formats of other programs that gmsh writes: Nastran, UNV,
+// Medit, CGNS and VTK. The bodies are known; what is cut off is refused. More
+// files of VTK: tests/program/vtk_files.py.
 
 #include <corotet/mesh/mesh_format.h>
 
@@ -163,33 +163,4 @@ TEST(ForeignMeshes, Includes)
   EXPECT_EQ(refusal([&] { read_file(file); }),
             file + ":2: other files are not read: found INCLUDE; allowed is "
                    "one file with the whole mesh");
-}
-
-// Of Medit: what gmsh would leave out, or not hand on.
-TEST(ForeignMeshes, Medit)
-{
-  const TemporaryFolder folder;
-  const std::string     start =
-    "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 0 0\n1 0 0 0\n"
-    "1 1 0 0\n0 1 0 0\n0 0 1 0\n2 0 0 0\n";
-  const std::string file    = folder / "body.mesh";
-  const auto        message = [&](const std::string &cells) {
-    folder.write("body.mesh", start + cells + "End\n");
-    return refusal([&] { read_file(file); });
-  };
-  const std::string cell = "Tetrahedra\n1\n2 6 3 5 0\n";
-  EXPECT_EQ(message(cell + "Prisms 0\nTriangles\n1\n2 6 3 0\n"),
-            "nothing was refused");
-  EXPECT_EQ(message("Prisms\n1\n1 2 3 4 5 6 1\n" + cell),
-            file + ":12: cells other than tetrahedra: found 1 Prisms; allowed "
-                   "are Tetrahedra");
-  EXPECT_EQ(message("Pyramids\n# one\n1\n1 2 3 4 5 1\n" + cell),
-            file + ":13: cells other than tetrahedra: found 1 Pyramids; "
-                   "allowed are Tetrahedra");
-  EXPECT_EQ(message("Tetrahedra\n1\n2 6 3 5 -1\n"),
-            file + ":13: a reference in Tetrahedra: found -1; allowed are 0 "
-                   "and more");
-  EXPECT_EQ(message(cell + "Triangles\n1\n2 6 3 -7\n"),
-            file + ":16: a reference in Triangles: found -7; allowed are 0 "
-                   "and more");
 }

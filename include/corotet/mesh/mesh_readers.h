@@ -36,10 +36,11 @@ namespace corotet
   GmshModel
   read_unv(const std::string &path);
 
-  /// Refuses, in a file of Medit, what gmsh would leave out or not hand on:
-  /// prisms, pyramids, and negative references of triangles and tetrahedra.
-  void
-  check_medit(const std::string &path);
+  /// Files of Medit, as text: vertices, triangles and tetrahedra of degree 1
+  /// and 2. References are groups. What else is there is left out, but for
+  /// other cells, which are refused.
+  GmshModel
+  read_medit(const std::string &path);
 
   /// The unit of length of a STEP file, if it is another one than millimetre:
   /// "inch". Empty if it is not, or the file has none.
