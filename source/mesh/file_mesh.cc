@@ -50,11 +50,11 @@ namespace corotet
     {
       const ScratchFolder folder;
       const std::string   converted = folder.path("mesh.msh");
-      write_msh_of_vtk_file(request.path,
-                            converted,
-                            request.time_limit,
-                            request.time_limit_entry);
-      return read_msh_2(converted, true, request.path);
+      const std::string   remark    = write_msh_of_vtk_file(
+        request.path, converted, request.time_limit, request.time_limit_entry);
+      GmshModel model = read_msh_2(converted, true, request.path);
+      model.remark    = remark;
+      return model;
     }
 
 

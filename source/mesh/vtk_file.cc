@@ -14,7 +14,7 @@
 
 namespace corotet
 {
-  void
+  std::string
   write_msh_of_vtk_file(const std::string &path,
                         const std::string &target,
                         const double       time_limit,
@@ -26,12 +26,12 @@ namespace corotet
       throw MachineError(name + ", which reads files of VTK, is missing: it is "
                                 "sought above the running program, above the "
                                 "library, and above the first corotet in PATH");
-    const ProgramEnd end = run_for_output(script, {path, target}, time_limit);
-    if (!end.has_exceeded && end.signal == 0 && end.status == 0 &&
-        std::filesystem::exists(target))
-      return;
+    const ProgramEnd  end = run_for_output(script, {path, target}, time_limit);
     const std::string message =
       shortened(dealii::Utilities::trim(end.output), 300);
+    if (!end.has_exceeded && end.signal == 0 && end.status == 0 &&
+        std::filesystem::exists(target))
+      return message;
     // What a shell says, and env, if there is no Python.
     if (end.status == 126 || end.status == 127)
       throw MachineError(path + ": Python, which reads files of VTK, is "

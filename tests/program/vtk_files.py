@@ -117,6 +117,42 @@ class VtkFiles(ProgramTest):
                 write(grid, self.folder / "zero.vtu", [])
                 self.assertEqual(self.volumes(self.folder / "zero.vtu"), (expected, 12))
 
+    def numbered(self, *arrays):
+        """The log's line about numbers of a file whose cells have these data: names and values of the cubes and the triangles."""
+        grid = two_cubes(1, VTK_TETRA)
+        grid.GetCellData().Initialize()
+        for name, values in arrays:
+            array = numpy_to_vtk(np.repeat(np.array(values), (6, 6, 2)), deep=True)
+            array.SetName(name)
+            grid.GetCellData().AddArray(array)
+        file = self.folder / "numbers.vtu"
+        write(grid, file, [])
+        return file
+
+    def test_names_of_data(self):
+        """The log says which data of cells give the numbers, and what might have been meant."""
+        for arrays, volumes, remark in (
+            ([("Material", (7, 9, 4))], {"7": 1, "9": 1, "4": 1}, "regions and boundaries are numbered by the data of cells 'Material'"),
+            ([("part", (7, 9, 4)), ("Region", (1., 2., 3.)), ("my id", (1, 2, 3)), ("stress", (1.5, 2., 3.))], {"1": 1, "2": 1, "3": 1},
+             "regions and boundaries are numbered by the data of cells 'Region'; passed over: 'part', 'my id'"),
+            ([("Region_Id", (1, 2, 3))], {"0": 2},
+             "no data of cells have a name by which they number regions and boundaries; passed over: 'Region_Id'"),
+            ([("cell_tags", (-3, -4, -9))], {"3": 1, "4": 1, "9": 1},
+             "regions and boundaries are numbered by the data of cells 'cell_tags', by MED's families without their sign"),
+            ([("cell_tags", (-3, 0, -9))], {"3": 1, "0": 1, "9": 1}, "by MED's families without their sign")):
+            with self.subTest(remark):
+                file = self.numbered(*arrays)
+                self.assertEqual(self.volumes(file), (volumes, 12))
+                self.assertIn(remark + "\n", self.run_program("mesh", file).stdout)
+
+    def test_wrong_numbers(self):
+        """Data with the name of numbers that are none are not passed over in silence."""
+        for name, values, found in (("region", (-1, 4, 9), "-1"), ("region", (1, 2**31, 9), "2147483648"), ("Material", (1.5, 4., 9.), "1.5"),
+                                    ("cell_tags", (-3, 4, -9), "-3"), ("part", (1., float("nan"), 9.), "nan")):
+            with self.subTest(name, found=found):
+                self.refuse(self.numbered((name, values)), f"VTK: the data of cells '{name}' would number regions and boundaries: found {found}; "
+                            "allowed are whole numbers from 0 to 2147483647")
+
     def test_any_name(self):
         for name in "text_4.vtk", "raw.vtu":
             write(two_cubes(1, VTK_TETRA), self.folder / name, FORMS[name])
