@@ -9,12 +9,65 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 namespace corotet
 {
+  namespace
+  {
+    // The first one outside of quotes, which several names with & may have.
+    std::size_t
+    colon_behind_names(const std::string &item)
+    {
+      for (std::size_t i = 0; i < item.size(); ++i)
+        if (item[i] == ':')
+          return i;
+        else if (const std::size_t end = end_of_quotes(item, i);
+                 end != std::string::npos)
+          i = end;
+      return std::string::npos;
+    }
+  } // namespace
+
+  std::size_t
+  end_of_quotes(const std::string &text, const std::size_t i)
+  {
+    // Elsewhere they are part of a name: 5" pipe.
+    const bool is_begin =
+      text[i] == '"' &&
+      (i == 0 || std::string_view(" \t\n,;:&([").find(text[i - 1]) !=
+                   std::string_view::npos);
+    return is_begin ? text.find('"', i + 1) : std::string::npos;
+  }
+
+  std::string
+  list_of_names(std::vector<std::string> names)
+  {
+    const auto are_pairs =
+      [](const std::string &name, const char a, const char b) {
+        return std::count(name.begin(), name.end(), a) ==
+               std::count(name.begin(), name.end(), b);
+      };
+    for (std::string &name : names)
+      if ((name.find_first_of(",:;&") != std::string::npos ||
+           !are_pairs(name, '(', ')') || !are_pairs(name, '[', ']')) &&
+          name.find('"') == std::string::npos)
+        name = '"' + name + '"';
+    return join(names);
+  }
+
+  std::string
+  without_quotes(const std::string &name)
+  {
+    const bool has_quotes = name.size() > 2 && name.front() == '"' &&
+                            name.find('"', 1) == name.size() - 1;
+    return has_quotes ? name.substr(1, name.size() - 2) : name;
+  }
+
   std::vector<std::pair<std::string, std::optional<std::string>>>
   names_and_values(const std::string &text)
   {
@@ -24,7 +77,7 @@ namespace corotet
       return items;
     for (const std::string &item : split_outside_brackets(text, ','))
       {
-        const std::size_t colon = item.find(':');
+        const std::size_t colon = colon_behind_names(item);
         items.emplace_back(trim(item.substr(0, colon)), std::nullopt);
         if (colon != std::string::npos)
           items.back().second = trim(item.substr(colon + 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 
 #include <deal.II/base/utilities.h>
@@ -137,8 +138,16 @@ namespace corotet
   {
     std::vector<std::string> parts(1);
     int                      depth = 0;
-    for (const char c : text)
+    for (std::size_t i = 0; i < text.size(); ++i)
       {
+        const char c = text[i];
+        if (const std::size_t end = end_of_quotes(text, i);
+            end != std::string::npos)
+          {
+            parts.back() += text.substr(i, end + 1 - i);
+            i = end;
+            continue;
+          }
         if (c == '(' || c == '[')
           ++depth;
         else if (c == ')' || c == ']')

@@ -21,6 +21,9 @@ namespace corotet::abaqus
     // Of files that include each other.
     constexpr unsigned int max_depth    = 20;
     constexpr unsigned int max_included = 1000;
+
+    // Around lines, whose quotes stay.
+    constexpr const char *blanks = " \t\r";
   } // namespace
 
 
@@ -87,7 +90,7 @@ namespace corotet::abaqus
         n_left += line.size();
         if (line.find('\0') != std::string::npos)
           place.refuse("found a byte of zero: is this a text file?");
-        const std::string text = trimmed(line);
+        const std::string text = trimmed(line, blanks);
         if (text.empty() || text.starts_with("**"))
           continue;
         if (text[0] != '*')
@@ -100,10 +103,19 @@ namespace corotet::abaqus
         while (whole.back() == ',' && std::getline(stream, line))
           {
             ++place.line;
-            whole += trimmed(line);
+            const std::string more = trimmed(line, blanks);
+            if (!more.starts_with("**"))
+              whole += more;
+          }
+        const Keyword next = parse_keyword(whole, first);
+        // Its lines stand for this one: data of the present keyword, say.
+        if (next.name == "INCLUDE")
+          {
+            read_other(next.needed("INPUT"), next.place, depth);
+            continue;
           }
         finish_keyword();
-        begin_keyword(parse_keyword(whole, first), depth);
+        begin_keyword(next, depth);
       }
     if (stream.bad())
       throw MachineError(file + ": cannot be read to its end");
@@ -118,14 +130,6 @@ namespace corotet::abaqus
     if (instance && !instance->is_placed)
       place_instance();
     const std::string other = keyword.value("INPUT");
-    if (keyword.name == "INCLUDE")
-      {
-        keyword.needed("INPUT");
-        keyword.name.clear();
-        read_other(other, depth);
-        finish_keyword();
-        return;
-      }
     if (keyword.name == "NODE")
       check_coordinates();
     else if (keyword.name == "SYSTEM" || keyword.name == "NGEN" ||
@@ -157,7 +161,7 @@ namespace corotet::abaqus
         (keyword.name == "NODE" || keyword.name == "ELEMENT" ||
          keyword.name == "ELSET" || keyword.name == "NSET" ||
          keyword.name == "SURFACE"))
-      read_other(other, depth);
+      read_other(other, keyword.place, depth);
   }
 
 
@@ -198,9 +202,10 @@ namespace corotet::abaqus
 
 
   void
-  Reader::read_other(const std::string &name, const unsigned int depth)
+  Reader::read_other(const std::string &name,
+                     const Place        place,
+                     const unsigned int depth)
   {
-    const Place place = keyword.place;
     if (depth + 1 >= max_depth)
       place.refuse(fmt::format("found files that include each other {} "
                                "levels deep; do they include themselves?",
@@ -327,7 +332,7 @@ namespace corotet::abaqus
   {
     const auto found = scope.nodes.find(number);
     if (found == scope.nodes.end())
-      place.refuse(fmt::format("there is no node {}", number));
+      place.refuse(fmt::format("there is no node {} before this line", number));
     return found->second;
   }
 } // namespace corotet::abaqus

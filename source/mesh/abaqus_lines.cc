@@ -47,10 +47,9 @@ namespace corotet::abaqus
 
 
   std::string
-  trimmed(const std::string_view text)
+  trimmed(const std::string_view text, const std::string_view blanks)
   {
-    constexpr std::string_view blanks = " \t\r\"";
-    const std::size_t          begin  = text.find_first_not_of(blanks);
+    const std::size_t begin = text.find_first_not_of(blanks);
     if (begin == std::string_view::npos)
       return "";
     return std::string(
@@ -65,7 +64,14 @@ namespace corotet::abaqus
     std::vector<std::string> result;
     for (std::size_t begin = 0; begin <= line.size();)
       {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
+        // A quote without a second one is a character like others.
+        std::size_t end = begin;
+        while (end < line.size() && line[end] != ',')
+          {
+            const std::size_t quote =
+              line[end] == '"' ? line.find('"', end + 1) : std::string::npos;
+            end = (quote == std::string::npos ? end : quote) + 1;
+          }
         result.push_back(
           trimmed(std::string_view(line).substr(begin, end - begin)));
         begin = end + 1;

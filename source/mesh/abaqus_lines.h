@@ -51,13 +51,14 @@ namespace corotet::abaqus
 
   /// Without blanks around it, and without quotes.
   std::string
-  trimmed(const std::string_view text);
+  trimmed(const std::string_view text,
+          const std::string_view blanks = " \t\r\"");
 
   Keyword
   parse_keyword(const std::string &line, const Place &place);
 
-  /// The fields of a line, between commas; an empty one after the last comma is
-  /// none.
+  /// The fields of a line, between commas that are not in quotes; an empty one
+  /// after the last comma is none.
   std::vector<std::string>
   fields(const std::string &line);
 

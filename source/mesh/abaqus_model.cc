@@ -86,9 +86,9 @@ namespace corotet::abaqus
       {
         for (const Scope &scope : scopes)
           {
-            count(scope.node_sets);
-            count(scope.element_sets);
-            count(scope.surfaces);
+            count(scope, scope.node_sets);
+            count(scope, scope.element_sets);
+            count(scope, scope.surfaces);
           }
         for (const Scope &scope : scopes)
           {
@@ -104,13 +104,13 @@ namespace corotet::abaqus
       }
 
     private:
-      // How many scopes have a set of a name.
+      // Which scopes have sets of a name: one may have several kinds of them.
       template <typename Set>
       void
-      count(const Named<Set> &named)
+      count(const Scope &scope, const Named<Set> &named)
       {
         for (const auto &[key, set] : named.sets)
-          ++n_scopes[{&typeid(Set), key}];
+          scopes_with[{&typeid(Set), key}].insert(&scope);
       }
 
       template <typename Set>
@@ -118,7 +118,8 @@ namespace corotet::abaqus
       name(const Scope &scope, const Named<Set> &named, const std::string &key)
       {
         const std::string &own = named.spelling.at(key);
-        return scope.name.empty() || n_scopes[{&typeid(Set), key}] == 1 ?
+        return scope.name.empty() ||
+                   scopes_with[{&typeid(Set), key}].size() == 1 ?
                  own :
                  scope.name + "." + own;
       }
@@ -200,8 +201,9 @@ namespace corotet::abaqus
       ImportedMesh                  &mesh;
       const Model                   &model;
       const std::vector<std::size_t> numbers;
-      std::map<std::pair<const std::type_info *, std::string>, unsigned int>
-                                                 n_scopes;
+      std::map<std::pair<const std::type_info *, std::string>,
+               std::set<const Scope *>>
+                                                 scopes_with;
       std::map<ImportedMesh::Face, unsigned int> n_cells_of_face;
     };
   } // namespace

@@ -62,8 +62,11 @@ namespace corotet::abaqus
     void
     finish_keyword();
 
+    // What a line at @p place includes: a copy, as it may be the keyword's.
     void
-    read_other(const std::string &name, const unsigned int depth);
+    read_other(const std::string &name,
+               const Place        place,
+               const unsigned int depth);
 
     void
     check_coordinates() const;

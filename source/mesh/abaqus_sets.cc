@@ -126,7 +126,7 @@ namespace corotet::abaqus
       {
         const auto found = known.find(*number);
         if (found == known.end())
-          place.refuse(fmt::format("there is no {} {}",
+          place.refuse(fmt::format("there is no {} {} before this line",
                                    what,
                                    name == word ? name : shortened(word)));
         return {found->second};

@@ -186,21 +186,29 @@ namespace corotet
     return result;
   }
 
+  std::string
+  remark_on_facets(const std::set<unsigned int> &boundaries,
+                   const NamedSets              &named)
+  {
+    const MeshNames          known("boundary", named);
+    std::vector<std::string> names;
+    for (const unsigned int id : boundaries)
+      names.push_back(id == no_boundary ? "surfaces without a name" :
+                                          known.name(id));
+    return "warning for elements of degree 2 and 3: cells are straight along "
+           "curved surfaces (" +
+           join(names) +
+           "), stress there is no better than with degree 1; set Geometry "
+           "degree of the mesh to that of the elements, or give a mesh of "
+           "curved cells";
+  }
+
   void
   remark_facets(SerialMesh &mesh, const std::set<unsigned int> &boundaries)
   {
     if (boundaries.empty())
       return;
-    const MeshNames          known("boundary", mesh.boundaries);
-    std::vector<std::string> names;
-    for (const unsigned int id : boundaries)
-      names.push_back(id == no_boundary ? "surfaces without a name" :
-                                          known.name(id));
-    mesh.remarks.push_back(
-      "warning for elements of degree 2 and 3: cells are straight along curved "
-      "surfaces (" +
-      join(names) +
-      "), stress there is no better than with degree 1; set Geometry degree "
-      "of the mesh to that of the elements, or give a mesh of curved cells");
+    mesh.faceted = boundaries;
+    mesh.remarks.push_back(remark_on_facets(boundaries, mesh.boundaries));
   }
 } // namespace corotet

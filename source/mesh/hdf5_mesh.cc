@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/hdf5_file.h>
+#include <corotet/mesh/facets.h>
 #include <corotet/mesh/hdf5_mesh.h>
 #include <corotet/mesh/local_mesh.h>
 
@@ -45,6 +46,8 @@ namespace corotet
     mesh.edge_names   = std::move(read.names.edges);
     mesh.corner_names = std::move(read.names.corners);
     mesh.origin       = path;
+    mesh.remarks      = std::move(read.remarks);
+    mesh.faceted      = std::move(read.faceted);
     return mesh;
   }
 
@@ -85,8 +88,12 @@ namespace corotet
                            -1 :
                            static_cast<std::int64_t>(cell.curve));
       }
-    const UsedNames names(mesh);
-    std::string     text;
+    const UsedNames        names(mesh);
+    std::set<unsigned int> faceted = mesh.faceted;
+    std::erase_if(faceted, [&](const unsigned int id) {
+      return id != no_boundary && !names.boundaries.names.contains(id);
+    });
+    std::string text;
     try
       {
         text = json{{"corotet mesh", hdf5_mesh_version},
@@ -94,7 +101,8 @@ namespace corotet
                     {"regions", to_json(names.regions)},
                     {"boundaries", to_json(names.boundaries)},
                     {"edges", to_json(names.edges)},
-                    {"corners", to_json(names.corners)}}
+                    {"corners", to_json(names.corners)},
+                    {"faceted", faceted}}
                  .dump();
       }
     catch (const json::type_error &)

@@ -8,6 +8,7 @@
 #include <corotet/base/number_table.h>
 #include <corotet/base/timing.h>
 #include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/facets.h>
 #include <corotet/mesh/hdf5_mesh.h>
 
 #include <fmt/format.h>
@@ -158,6 +159,9 @@ namespace corotet
           mesh.names.corners    = from_json(text.at("corners"));
           mesh.part.geometry_degree =
             text.at("geometry degree").get<unsigned int>();
+          // Files of the first programs do not have it.
+          mesh.faceted =
+            text.value("faceted", json::array()).get<std::set<unsigned int>>();
         }
       catch (const json::exception &error)
         {
@@ -167,6 +171,14 @@ namespace corotet
         refuse(path,
                fmt::format("found the geometry degree {}; 1 to 3 are allowed",
                            mesh.part.geometry_degree));
+      for (const unsigned int id : mesh.faceted)
+        if (id != no_boundary && !mesh.names.boundaries.names.contains(id))
+          refuse(path,
+                 fmt::format("found the faceted boundary {}, which has no name",
+                             id));
+      if (!mesh.faceted.empty())
+        mesh.remarks.push_back(
+          remark_on_facets(mesh.faceted, mesh.names.boundaries));
     }
 
     // Vertices have their numbers in the file here.

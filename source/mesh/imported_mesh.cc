@@ -3,6 +3,7 @@
 
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/edges.h>
+#include <corotet/mesh/facets.h>
 #include <corotet/mesh/imported_mesh.h>
 
 #include <deal.II/base/numbers.h>
@@ -330,6 +331,9 @@ namespace corotet
             }
       }
     add_boundaries(mesh, vertex_of_node, sets);
+    // Cells that are straight may have more nodes in the file.
+    if (mesh.geometry_degree == 1)
+      remark_facets(mesh, faceted_boundaries(mesh));
     return mesh;
   }
 } // namespace corotet

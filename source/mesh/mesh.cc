@@ -4,7 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
-#include <corotet/base/text.h>
+#include <corotet/base/named_values.h>
 #include <corotet/base/timing.h>
 #include <corotet/mesh/cell_order.h>
 #include <corotet/mesh/check_mesh.h>
@@ -83,8 +83,8 @@ namespace corotet
     std::string
     list(const MeshNames &names)
     {
-      const std::vector<std::string> words = names.known();
-      return words.empty() ? "none" : join(words);
+      const std::string words = list_of_names(names.known());
+      return words.empty() ? "none" : words;
     }
 
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/mesh/mesh_names.h>
 
@@ -141,18 +142,33 @@ namespace corotet
   MeshNames::known() const
   {
     std::vector<std::string> result;
+    std::set<unsigned int>   in_union;
+    for (const auto &[name, ids] : named.sets)
+      in_union.insert(ids.begin(), ids.end());
     for (const auto &[id, own] : named.names)
-      {
-        const bool is_in_union = std::any_of(named.sets.begin(),
-                                             named.sets.end(),
-                                             [id = id](const auto &set) {
-                                               return contains(set.second, id);
-                                             });
-        if (!own.empty() || !is_in_union)
-          result.push_back(name(id));
-      }
+      if (!own.empty())
+        result.push_back(own);
+      else if (!in_union.contains(id))
+        result.push_back(std::to_string(id));
     for (const auto &[name, ids] : named.sets)
       result.push_back(name);
+    return result;
+  }
+
+
+
+  std::vector<std::pair<std::string, std::vector<unsigned int>>>
+  MeshNames::known_with_ids() const
+  {
+    std::map<std::string, std::vector<unsigned int>> meaning = named.sets;
+    for (const auto &[id, own] : named.names)
+      if (!own.empty())
+        meaning.emplace(own, std::vector{id});
+    for (const auto &[id, own] : named.names)
+      meaning.emplace(std::to_string(id), std::vector{id});
+    std::vector<std::pair<std::string, std::vector<unsigned int>>> result;
+    for (const std::string &name : known())
+      result.emplace_back(name, meaning.at(name));
     return result;
   }
 
@@ -167,7 +183,7 @@ namespace corotet
     for (const auto &[id, own] : named.names)
       if (std::to_string(id) == name_or_id)
         return {id};
-    return {};
+    return named.ids(without_quotes(name_or_id));
   }
 
 
@@ -175,10 +191,9 @@ namespace corotet
   std::string
   MeshNames::listed() const
   {
-    const std::vector<std::string> names = known();
+    const std::string names  = list_of_names(known());
     const std::string plural = kind == "boundary" ? "boundaries" : kind + "s";
-    return names.empty() ? "no " + plural :
-                           "the " + plural + ": " + join(names);
+    return names.empty() ? "no " + plural : "the " + plural + ": " + names;
   }
 
 
@@ -234,11 +249,13 @@ namespace corotet
   PlaceNames::find(const std::string &name_or_id,
                    const std::string &entry) const
   {
-    Place place{boundaries.find_name(name_or_id),
-                edges.find_name(name_or_id),
-                corners.find_name(name_or_id)};
-    if (place != Place())
-      return place;
+    for (const std::string &name : {name_or_id, without_quotes(name_or_id)})
+      if (const Place place{boundaries.find_name(name),
+                            edges.find_name(name),
+                            corners.find_name(name)};
+          place != Place())
+        return place;
+    Place place;
     for (const auto &[names, ids] : {std::pair(&boundaries, &place.boundaries),
                                      std::pair(&edges, &place.edges),
                                      std::pair(&corners, &place.corners)})

@@ -141,12 +141,13 @@ namespace corotet
     {
       std::string result = title + "\n";
       std::size_t width  = 4;
-      for (const std::string &name : names.known())
+      const auto  known  = names.known_with_ids();
+      for (const auto &[name, ids] : known)
         width = std::max(width, name.size());
-      for (const std::string &name : names.known())
+      for (const auto &[name, ids] : known)
         {
           NamedPart part;
-          for (const unsigned int id : names.ids(name, ""))
+          for (const unsigned int id : ids)
             part.add(parts.at(id));
           result += fmt::format("  {:{}}  ", name, width);
           if (with_size)

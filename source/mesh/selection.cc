@@ -29,18 +29,29 @@ namespace corotet::selections
         , members(members)
         , entry(entry)
       {
-        std::string spaced;
-        for (const char c : text)
-          spaced +=
-            c == '(' || c == ')' ? std::string{' ', c, ' '} : std::string(1, c);
-        std::size_t end = 0;
-        for (std::size_t begin = 0;
-             (begin = spaced.find_first_not_of(" \t\n", end)) !=
-             std::string::npos;)
-          {
-            end = std::min(spaced.find_first_of(" \t\n", begin), spaced.size());
-            words.push_back(spaced.substr(begin, end - begin));
-          }
+        std::string word;
+        const auto  end_word = [&] {
+          if (!word.empty())
+            words.push_back(word);
+          word.clear();
+        };
+        for (std::size_t i = 0; i < text.size(); ++i)
+          if (const std::size_t end = end_of_quotes(text, i);
+              end != std::string::npos)
+            {
+              word += text.substr(i, end + 1 - i);
+              i = end;
+            }
+          else if (text[i] == '(' || text[i] == ')')
+            {
+              end_word();
+              words.emplace_back(1, text[i]);
+            }
+          else if (text[i] == ' ' || text[i] == '\t' || text[i] == '\n')
+            end_word();
+          else
+            word += text[i];
+        end_word();
       }
 
       Selected
@@ -147,7 +158,7 @@ namespace corotet::selections
                !is(")"))
           own.push_back(words[next++]);
         if (!is_shape(own[0], members))
-          return members.with_name(join(own, " "));
+          return members.with_name(without_quotes(join(own, " ")));
         const Shape &measured =
           shapes.emplace_back(measure(own, members, entry));
         std::vector<bool> result(measured.distances.size());
@@ -205,9 +216,10 @@ namespace corotet::selections
                              const std::vector<std::size_t> &)> &give_name,
     Log                                                         &log)
   {
-    for (const auto &[name, selection] :
+    for (const auto &[item, selection] :
          named_values(text, entry, "'name: selection, name: selection'"))
       {
+        const std::string name = without_quotes(item);
         if (is_taken(name))
           throw InputError(entry,
                            fmt::format("the mesh has this name, or another "

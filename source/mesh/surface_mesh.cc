@@ -133,7 +133,8 @@ namespace corotet
 
 
 
-    // Names of the bodies: those that all triangles around one have.
+    // Names of the bodies: those that all triangles around one have, whatever
+    // others some of them have.
     std::vector<std::vector<std::string>>
     names_of_bodies(const TriangleSurface &surface, const SurfaceShells &shells)
     {
@@ -148,8 +149,14 @@ namespace corotet
       for (const SurfaceBody &body : shells.bodies)
         {
           const std::set<unsigned int> &around = groups[body.shells[0]];
-          result.push_back(around.size() == 1 ? surface.names[*around.begin()] :
-                                                std::vector<std::string>());
+          std::vector<std::string>      names  = surface.names[*around.begin()];
+          for (const unsigned int group : around)
+            std::erase_if(names, [&](const std::string &name) {
+              const std::vector<std::string> &of_group = surface.names[group];
+              return std::find(of_group.begin(), of_group.end(), name) ==
+                     of_group.end();
+            });
+          result.push_back(names);
         }
       return result;
     }

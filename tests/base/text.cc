@@ -4,6 +4,7 @@
 // Text helpers. Expected values follow from the definition of the Levenshtein
 // distance and of splitting; they are counted by hand.
 
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,24 @@ TEST(Text, SplitOutsideBrackets)
             (Parts{"min(1, x)", "y[2,3]", "z"}));
   EXPECT_EQ(split_outside_brackets("", ';'), Parts{""});
   EXPECT_EQ(split_outside_brackets("a;;", ';'), (Parts{"a", "", ""}));
+  // Names in quotes; a quote within a name, or without a second one, is none.
+  EXPECT_EQ(split_outside_brackets("\"a, b\" & \"(c\" : 1,d", ','),
+            (Parts{"\"a, b\" & \"(c\" : 1", "d"}));
+  EXPECT_EQ(split_outside_brackets("5\" pipe, 6\" pipe, \"a", ','),
+            (Parts{"5\" pipe", "6\" pipe", "\"a"}));
   // A bracket too many must not hide the separators behind it.
   EXPECT_EQ(split_outside_brackets("a);b", ';'), (Parts{"a)", "b"}));
+}
+
+TEST(Text, NamesAndValues)
+{
+  using Items = std::vector<std::pair<std::string, std::optional<std::string>>>;
+  EXPECT_EQ(
+    names_and_values("a: 1, \"b, c: d\" & \"e:\" : f(x, 2); 3, g"),
+    (Items{{"a", "1"}, {"\"b, c: d\" & \"e:\"", "f(x, 2); 3"}, {"g", {}}}));
+  EXPECT_EQ(names_and_values("5\" : 1, \"x: 2"),
+            (Items{{"5\"", "1"}, {"\"x", "2"}}));
+  EXPECT_EQ(without_quotes("\"a, b\""), "a, b");
+  for (const std::string name : {"\"a\" & \"b\"", "\"", "\"\"", "a\""})
+    EXPECT_EQ(without_quotes(name), name);
 }

@@ -66,6 +66,32 @@ TEST(BoundaryConditions, Refusals)
             std::string::npos);
 }
 
+// Names in quotes may have what lists are made of.
+TEST(BoundaryConditions, NamesInQuotes)
+{
+  const PlaceNames own({{{0, "face, x"}, {1, "a: b & c"}, {2, "top"}}, {}},
+                       {{}, {}},
+                       {{}, {}});
+  const auto message = [&](const std::string &entry, const std::string &value) {
+    BoundaryConditionParameters parameters;
+    dealii::ParameterHandler    prm;
+    parameters.declare_parameters(prm);
+    prm.set(entry, value);
+    return refusal([&] { BoundaryConditions conditions(parameters, own); });
+  };
+  for (const auto &[entry, value] :
+       std::vector<std::pair<std::string, std::string>>{
+         {"Fixed", "\"face, x\", top"},
+         {"Fixed", "\"face, x\" & \"a: b & c\", \"top\""},
+         {"Displacement", "\"a: b & c\" & \"face, x\": 0; 0; t"},
+         {"Traction", "\"a: b & c\": 0; 0; 1, \"face, x\" : 1; 0; 0"},
+         {"Pressure", "top: 1, \"face, x\": 2"}})
+    EXPECT_EQ(message(entry, value), "nothing was refused") << value;
+  EXPECT_EQ(message("Fixed", "face, x"),
+            "Boundary conditions/Fixed: no such boundary: found 'face'; the "
+            "mesh has the boundaries: \"face, x\", \"a: b & c\", top");
+}
+
 TEST(BoundaryConditions, DifferentComponentsMayDiffer)
 {
   EXPECT_EQ(condition_refusal({{"Displacement", "left: free; free; max(t, 1)"},

@@ -71,7 +71,7 @@ TEST_F(AbaqusFile, SetsAndSurfaces)
                          "*ELSET, ELSET=both, GENERATE\n 1, 100, 2\n"
                          "*ELSET, ELSET=again\n SECOND ONE, 7\n"
                          "*NSET, NSET=Floor, GENERATE\n10, 30, 10\n"
-                         "*NSET,\nNSET=part of it\n FLOOR, 50\n"
+                         "*NSET,\n** a comment\nNSET=part of it\n FLOOR, 50\n"
                          "*NSET, NSET=two\n10, 50\n"
                          "*SURFACE, NAME=side\n 7, S2\n 7, S4\n"
                          "*SURFACE, NAME=outside, TYPE=ELEMENT\n Body,\n"
@@ -175,6 +175,39 @@ TEST_F(AbaqusFile, PartsAndInstances)
   EXPECT_LT(mesh.vertices[6].distance(dealii::Point<3>(10, 1, 0)), 1e-14);
 }
 
+// As Abaqus/CAE writes them: sets of nodes and of elements with one name, of
+// one instance. With two, they have its name, too.
+TEST_F(AbaqusFile, NamesOfInstances)
+{
+  const std::string part = "*PART, NAME=block\n" + nodes + cells +
+                           "*NSET, NSET=Set-1\n10, 20, 30\n"
+                           "*ELSET, ELSET=Set-1\n7\n*END PART\n"
+                           "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one, "
+                           "PART=block\n*END INSTANCE\n";
+  const SerialMesh mesh = read(part + "*END ASSEMBLY\n");
+  EXPECT_EQ(known_regions(mesh), (Known{"Body", "Set-1"}));
+  EXPECT_NEAR(volume(mesh, "Set-1"), 1 / 6., 1e-15);
+  EXPECT_NEAR(area(mesh, "Set-1"), 0.5, 1e-15);
+  EXPECT_EQ(known_regions(read(part + "*INSTANCE, NAME=two, PART=block\n"
+                                      "9, 0, 0\n*END INSTANCE\n")),
+            (Known{"one.Body", "one.Set-1", "two.Body", "two.Set-1"}));
+}
+
+// Names in quotes may have commas.
+TEST_F(AbaqusFile, NamesWithCommas)
+{
+  const SerialMesh mesh =
+    read(nodes + "*ELEMENT, TYPE=C3D4, ELSET=\"my set, left\"\n"
+                 "7, 10, 20, 30, 40\n"
+                 "*ELEMENT, TYPE=C3D4, ELSET = \"my set, right\"\n"
+                 "9, 20, 30, 40, 50\n*ELSET, ELSET=5\" pipe\n"
+                 "\"my set, left\", 9\n");
+  EXPECT_EQ(known_regions(mesh),
+            (Known{"5\" pipe", "my set, left", "my set, right"}));
+  EXPECT_NEAR(volume(mesh, "my set, left"), 1 / 6., 1e-15);
+  EXPECT_NEAR(volume(mesh, "5\" pipe"), 0.5, 1e-15);
+}
+
 // "instance.member", also where a set of the assembly has a point in its name.
 TEST_F(AbaqusFile, MembersOfInstances)
 {
@@ -192,7 +225,7 @@ TEST_F(AbaqusFile, MembersOfInstances)
   EXPECT_NEAR(area(mesh, "again"), 0.5 + std::sqrt(0.75), 1e-14);
   EXPECT_NEAR(volume(mesh, "both"), 1 / 6. + 0.5, 1e-14);
   EXPECT_EQ(message(start + "*NSET, NSET=a\ntwo.12\n"),
-            "part.inp:22: there is no node two.12");
+            "part.inp:22: there is no node two.12 before this line");
   EXPECT_EQ(message(start + "*NSET, NSET=a\ntwo.hand\n"),
             "part.inp:22: there is no node and no set of nodes 'two.hand' "
             "before this line");
@@ -251,6 +284,13 @@ TEST_F(AbaqusFile, IncludedFiles)
   folder.write("sub/data.txt", "10,0,0,0\n20,1,0,0\n30,0,1,0\n40,0,0,1\n");
   EXPECT_EQ(read("*NODE, INPUT=sub/data.txt\n50,1,1,1\n" + cells).cells.size(),
             2u);
+  // Between a keyword and its data, and within these.
+  EXPECT_NEAR(area(read("*NODE, NSET=all\n*INCLUDE, INPUT=sub/data.txt\n"
+                        "50,1,1,1\n" +
+                        cells),
+                   "all"),
+              1.5 + 1.5 * std::sqrt(3.),
+              1e-14);
   EXPECT_EQ(message("*INCLUDE, INPUT=part.inp\n"),
             "part.inp:1: found files that include each other 20 levels deep; "
             "do they include themselves?");
@@ -294,7 +334,7 @@ TEST_F(AbaqusFile, Refusals)
      ":8: the last element of this *ELEMENT has too few nodes: found 3; needed "
      "are 4"},
     {nodes + "*ELEMENT, TYPE=C3D4\n1, 10, 20, 30, 41\n",
-     ":9: there is no node 41"},
+     ":9: there is no node 41 before this line"},
     {nodes + cells + "7, 10, 20, 30, 40\n", ":11: element 7 is there already"},
     {nodes + "*ELEMENT, TYPE=C3D4" + std::string(1'000'000, 'A') +
        "\n1,10,20,30,40\n",
@@ -303,7 +343,9 @@ TEST_F(AbaqusFile, Refusals)
        "... (1000020 characters); allowed are C3D4 and C3D10 with their "
        "variants, and triangles and lines, which give their names to faces and "
        "nodes"},
-    {nodes + cells + "*NSET, NSET=a\n12\n", ":12: there is no node 12"},
+    {nodes + cells + "*NSET, NSET=a\n12\n",
+     ":12: there is no node 12 before this line"},
+    {cells + nodes, ":2: there is no node 10 before this line"},
     {nodes + cells + "*ELSET, ELSET=a\nbodi\n",
      ":12: there is no element and no set of elements 'bodi' before this line"},
     {nodes + cells + "*SURFACE, NAME=a\nbody, S5\n",

@@ -4,11 +4,15 @@
 // Straight cells along curved surfaces are noticed by their facets; surfaces
 // that are made of planes are not taken for curved.
 
+#include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/facets.h>
+#include <corotet/mesh/hdf5_mesh.h>
+#include <corotet/mesh/imported_mesh.h>
 
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "../temporary_folder.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -112,4 +116,36 @@ TEST(Facets, Remark)
   for (const std::string word :
        {"z-min", "surfaces without a name", "Geometry degree"})
     EXPECT_NE(mesh.remarks[0].find(word), std::string::npos) << word;
+}
+
+// Meshes of other programs are looked at, too; a file of our own keeps what was
+// found, as its ranks have parts of the surface only.
+TEST(Facets, OfFiles)
+{
+  SerialMesh mesh = box("6, 1, 1", "6, 2, 2");
+  for (Point<3> &x : mesh.vertices)
+    x = bent(x, 15);
+  ImportedMesh imported;
+  imported.nodes = mesh.vertices;
+  for (const SerialMesh::Cell &cell : mesh.cells)
+    imported.cells.insert(imported.cells.end(),
+                          cell.vertices.begin(),
+                          cell.vertices.end());
+  for (const SerialMesh::Face &face : mesh.faces)
+    imported.face_sets[mesh.boundaries.names.at(face.boundary)].push_back(
+      face.vertices);
+  SerialMesh read = serial_mesh(imported);
+  check_mesh(read);
+  ASSERT_EQ(read.remarks.size(), 1u);
+  EXPECT_NE(read.remarks[0].find("curved surfaces (z-max, z-min)"),
+            std::string::npos)
+    << read.remarks[0];
+  const TemporaryFolder folder;
+  const std::string     file = folder / "body.h5", again = folder / "again.h5";
+  write_hdf5_mesh(file, read);
+  write_hdf5_mesh(again, read_hdf5_mesh(file));
+  EXPECT_EQ(read_hdf5_mesh(again).remarks, read.remarks);
+  read.faceted = {};
+  write_hdf5_mesh(file, read);
+  EXPECT_TRUE(read_hdf5_mesh(file).remarks.empty());
 }

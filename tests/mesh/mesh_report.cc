@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "../body.h"
 #include "mesh/tools.h"
 
@@ -74,4 +76,22 @@ TEST(MeshReport, Shapes)
   expect_line(text, "       50-80  60.00 %  " + std::string(24, '#'));
   expect_line(text, "      80-100  40.00 %  " + std::string(16, '#'));
   expect_line(text, "       1-1.5 100.00 %  " + std::string(40, '#'));
+}
+
+// Each cell with a name of its own: the time is that of so many names, not of
+// their square, which would be half a minute here.
+TEST(MeshReport, ManyNames)
+{
+  using Clock        = std::chrono::steady_clock;
+  const auto seconds = [](const SerialMesh &mesh) {
+    const auto start = Clock::now();
+    mesh_report(mesh);
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  SerialMesh   mesh    = box("1, 1, 1", "20, 20, 20");
+  const double of_few  = seconds(mesh);
+  unsigned int n_cells = 0;
+  for (SerialMesh::Cell &cell : mesh.cells)
+    cell.region = n_cells++;
+  EXPECT_LT(seconds(mesh), 10 * of_few + 1) << n_cells;
 }

@@ -117,6 +117,23 @@ namespace
 
 
 
+  // Names in quotes may have what lists and selections are made of.
+  TEST_F(Selecting, NamesInQuotes)
+  {
+    SerialMesh body = box();
+    for (auto &[id, name] : body.boundaries.names)
+      if (name == "x-min")
+        name = "(left) and, lower";
+    const SerialMesh mesh =
+      with(body,
+           "\"a, b\": \"(left) and, lower\" or z-max, "
+           "c: not \"a, b\" and not \"(left) and, lower\"");
+    EXPECT_NEAR(tests::area(mesh, "a, b"), 3, 1e-14);
+    EXPECT_NEAR(tests::area(mesh, "c"), 7, 1e-14);
+  }
+
+
+
   // What there was keeps its meaning, and a selection can use those before it.
   TEST_F(Selecting, Overlaps)
   {

@@ -105,6 +105,24 @@ namespace
 
 
 
+  // A body is called what all of its surface is called, and by no more: here an
+  // object of two materials.
+  TEST_F(SurfaceMesh, ObjectOfSeveralMaterials)
+  {
+    std::string text =
+      "o Cube\nusemtl m0\n" + obj_text(box_triangles({0, 0, 0}, {1, 1, 1}));
+    text.insert(text.find("f ", text.find("f ") + 1),
+                "g part all\nusemtl m1\n");
+    const SerialMesh mesh = mesh_of(text);
+    EXPECT_NEAR(tests::volume(mesh, "Cube"), 1, 1e-12);
+    EXPECT_EQ(MeshNames("region", mesh.regions).known(),
+              (std::vector<std::string>{"Cube", "solid 1"}));
+    EXPECT_NEAR(tests::area(mesh, "m0"), 0.5, 1e-12);
+    EXPECT_NEAR(tests::area(mesh, "m1"), 5.5, 1e-12);
+  }
+
+
+
   TEST_F(SurfaceMesh, BodiesAndHollows)
   {
     const Triangles outer  = box_triangles({0, 0, 0}, {1, 1, 1}),

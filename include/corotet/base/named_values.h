@@ -13,9 +13,23 @@
 
 namespace corotet
 {
+  /// Where the quotes end that a name has which begins at @p i of a list:
+  /// "a, b"; npos if none begins there, or it has no end.
+  std::size_t
+  end_of_quotes(const std::string &text, const std::size_t i);
+
+  /// Names with commas between them, and in quotes where a list would take them
+  /// for several.
+  std::string
+  list_of_names(std::vector<std::string> names);
+
+  /// A name without the quotes that it has in a list, if it has any.
+  std::string
+  without_quotes(const std::string &name);
+
   /**
    * The items of a list "name: value, name", separated by commas outside of
-   * brackets; none if @p text is empty.
+   * brackets and of quotes, which names keep; none if @p text is empty.
    */
   std::vector<std::pair<std::string, std::optional<std::string>>>
   names_and_values(const std::string &text);

@@ -47,9 +47,9 @@ namespace corotet
   printable(const std::string &message, const bool keep_lines = false);
 
   /**
-   * The parts of @p text between separators that stand outside of all () and
-   * [], without white space around them. A text without separator is one part;
-   * an empty text is one empty part.
+   * The parts of @p text between separators outside of (), [] and of names in
+   * quotes, without white space around them. A text without separator is one
+   * part; an empty text is one empty part.
    */
   std::vector<std::string>
   split_outside_brackets(const std::string &text, const char separator);

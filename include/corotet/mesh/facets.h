@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <set>
+#include <string>
 
 namespace corotet
 {
@@ -30,8 +31,12 @@ namespace corotet
   std::set<unsigned int>
   faceted_boundaries(const SerialMesh &mesh);
 
-  /// Adds a remark to a mesh of straight cells along curved @p boundaries,
-  /// unless there are none.
+  /// What the log says of straight cells along curved boundaries, by their ids.
+  std::string
+  remark_on_facets(const std::set<unsigned int> &boundaries,
+                   const NamedSets              &named);
+
+  /// Adds that remark to a mesh, unless there are no such @p boundaries.
   void
   remark_facets(SerialMesh &mesh, const std::set<unsigned int> &boundaries);
 } // namespace corotet

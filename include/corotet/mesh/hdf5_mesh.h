@@ -21,8 +21,8 @@ namespace corotet
    * number among the curved cells or -1; "curved_nodes", three coordinates of
    * each node of a curved cell's map; "faces", "edges" and "corners", the cell,
    * the number in it (as in CellPart) and the id of what has a name, by cells;
-   * "description", a text in JSON with the version, the degree of the maps and
-   * the names.
+   * "description", a text in JSON with the version, the degree of the maps,
+   * the names, and the ids of "faceted" boundaries (remark_facets()).
    */
   SpreadMesh
   read_hdf5_mesh(const std::string &path, const MPI_Comm comm);

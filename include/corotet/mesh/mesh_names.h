@@ -9,6 +9,7 @@
 #include <compare>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -108,6 +109,11 @@ namespace corotet
     /// All names, and ids without one: what ids() takes.
     std::vector<std::string>
     known() const;
+
+    /// The same, with the ids that they mean: many of them take no longer for
+    /// each.
+    std::vector<std::pair<std::string, std::vector<unsigned int>>>
+    known_with_ids() const;
 
     /// All ids, with their own names.
     const std::map<unsigned int, std::string> &

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -109,6 +110,9 @@ namespace corotet
     /// What the user should know about how the mesh was made: lines for the
     /// log.
     std::vector<std::string> remarks;
+    /// What one of them is about, remark_facets(): ids of curved boundaries
+    /// with straight cells.
+    std::set<unsigned int> faceted;
   };
 } // namespace corotet
 

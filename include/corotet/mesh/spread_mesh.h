@@ -7,6 +7,7 @@
 #include <corotet/mesh/mesh_part.h>
 #include <corotet/mesh/used_names.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ namespace corotet
     /// Wall time [s] of sharing it out, if one rank had it before.
     double                   scatter_time = 0;
     std::vector<std::string> remarks;
+    std::set<unsigned int>   faceted;
     /// Whether rank 0 has told the log of the mesh.
     bool is_described = false;
   };
