@@ -137,7 +137,7 @@ TEST(Facets, OfFiles)
   SerialMesh read = serial_mesh(imported);
   check_mesh(read);
   ASSERT_EQ(read.remarks.size(), 1u);
-  EXPECT_NE(read.remarks[0].find("curved surfaces (z-max, z-min)"),
+  EXPECT_NE(read.remarks[0].find("curved surfaces (z-min, z-max)"),
             std::string::npos)
     << read.remarks[0];
   const TemporaryFolder folder;
