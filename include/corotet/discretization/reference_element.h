@@ -67,7 +67,7 @@ namespace corotet
 
     /**
      * For stiffness and mass of curved cells with maps of at most the element's
-     * degree p: of degree 2p; 4, 11, 24 points; with bubbles of degree 5, 14
+     * degree p: of degree 2p; 4, 14, 24 points; with bubbles of degree 5, 14
      * points. So, with q <= p for the degree of the map,
      * - volumes are exact, of degree 3(q-1), and so are forces of constant
      *   stresses, of degree p-1 + 2(q-1);

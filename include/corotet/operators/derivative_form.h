@@ -67,7 +67,7 @@ namespace corotet
   public:
     static constexpr int n_polynomials = bernstein::size<degree - 1>;
     /// Of the rules for stiffness of straight and curved cells.
-    static constexpr int max_points = degree == 1 ? 4 : degree == 2 ? 11 : 24;
+    static constexpr int max_points = degree == 1 ? 4 : degree == 2 ? 14 : 24;
     /// Whether coefficients are derivatives, too.
     static constexpr bool has_coefficients = true;
 
