@@ -284,9 +284,11 @@ TEST(MshFile, WhatIsReplaced)
       EXPECT_EQ(refused(other, folder / other),
                 "'" + (folder / other) +
                   "' is the file that is read; give another name");
-      EXPECT_THROW(write_mesh(folder / ("none/" + other),
-                              tests::box("1, 1, 1", "1, 1, 1")),
-                   MachineError);
+      EXPECT_EQ(refused("none/" + other),
+                "'" + (folder / ("none/" + other)) +
+                  "' cannot be written: there is no folder '" +
+                  (folder / "none") +
+                  "'; allowed is a name in a folder that is there");
     }
   EXPECT_EQ(refused("b.vtk"),
             "a mesh is written to a .msh or an .h5 file: found '" +
