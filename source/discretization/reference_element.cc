@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/discretization/finite_element.h>
+#include <corotet/discretization/point_orbits.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/discretization/with_degree.h>
 #include <corotet/mesh/edges.h>

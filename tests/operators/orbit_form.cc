@@ -5,6 +5,7 @@
 // the transpose of that, and the order of points in orbits.
 
 #include <corotet/discretization/bernstein.h>
+#include <corotet/discretization/point_orbits.h>
 #include <corotet/operators/orbit_form.h>
 
 #include <deal.II/base/exceptions.h>

@@ -6,7 +6,7 @@
 
 #include <corotet/base/simd.h>
 #include <corotet/discretization/bernstein.h>
-#include <corotet/discretization/point_orbits.h>
+#include <corotet/discretization/reference_element.h>
 
 namespace corotet
 {

@@ -6,6 +6,7 @@
 
 #include <corotet/discretization/coarser_nodes.h>
 #include <corotet/discretization/discretization.h>
+#include <corotet/operators/assembled_matrix.h>
 #include <corotet/operators/block_matrix.h>
 #include <corotet/operators/frozen_cell_matrices.h>
 #include <corotet/operators/surface_matrix.h>
