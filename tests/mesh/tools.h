@@ -84,7 +84,7 @@ namespace corotet::tests
   inline void
   add_two_boxes()
   {
-    using namespace gmsh::model;
+    namespace occ = gmsh::model::occ;
     occ::addBox(0, 0, 0, 1, 1, 1, 1);
     occ::addBox(1, 0, 0, 2, 1, 1, 2);
     gmsh::vectorpair              all;
