@@ -159,8 +159,10 @@ namespace corotet
   {
     std::vector<dealii::Point<3>> points  = rule.get_points();
     std::vector<double>           weights = rule.get_weights();
-    std::vector<PointOrbit>       orbits  = sort_into_orbits(points, weights);
-    PointValues                   result  = tabulate(element, points, weights);
+    AssertThrow(points.size() <= max_stiffness_points(element.n_nodes()),
+                dealii::ExcInternalError());
+    std::vector<PointOrbit> orbits = sort_into_orbits(points, weights);
+    PointValues             result = tabulate(element, points, weights);
     if (element.degree() > 1 && !element.has_bubbles())
       {
         unsigned int q = 0;

@@ -9,32 +9,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "lanes.h"
 
 using namespace corotet;
+using namespace corotet::tests;
 
 namespace
 {
   using V = Simd<double>;
 
-  /// Numbers without a pattern, other ones in each lane.
-  V
-  some_numbers(const int i)
-  {
-    V result;
-    for (int lane = 0; lane < n_lanes<double>; ++lane)
-      result[lane] = std::sin(1.7 * i + 0.3 * lane + 1);
-    return result;
-  }
-
-  void
-  expect_same(const V &a, const V &b)
-  {
-    // Some hundred products of numbers of size one, of which derivatives of
-    // degree 3 are up to ten times as large.
-    for (int lane = 0; lane < n_lanes<double>; ++lane)
-      EXPECT_NEAR(a[lane], b[lane], 1e-13);
-  }
+  // Some hundred products of numbers of size one, of which derivatives of
+  // degree 3 are up to ten times as large.
+  constexpr double tolerance = 1e-13;
 
   template <int n>
   void
@@ -77,14 +63,15 @@ namespace
               expected_weighted_f[i][ak / 3] +=
                 rule.weights[q] * dN * given[q][ak];
             }
-          expect_same(found[q][ak], expected);
+          expect_same(found[q][ak], expected, tolerance);
         }
     for (int ia = 0; ia < 3 * n; ++ia)
       {
-        expect_same(f[ia / 3][ia % 3], expected_f[ia / 3][ia % 3]);
+        expect_same(f[ia / 3][ia % 3], expected_f[ia / 3][ia % 3], tolerance);
         if constexpr (Form::has_coefficients)
           expect_same(weighted_f[ia / 3][ia % 3],
-                      expected_weighted_f[ia / 3][ia % 3]);
+                      expected_weighted_f[ia / 3][ia % 3],
+                      tolerance);
       }
   }
 

@@ -12,10 +12,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
+#include "lanes.h"
+
 using namespace corotet;
+using namespace corotet::tests;
 
 namespace
 {
@@ -60,22 +62,8 @@ namespace
     return result;
   }
 
-  V
-  some_numbers(const int i)
-  {
-    V result;
-    for (int lane = 0; lane < n_lanes<double>; ++lane)
-      result[lane] = std::sin(1.3 * i + 0.7 * lane + 1);
-    return result;
-  }
-
-  void
-  expect_same(const V &a, const V &b)
-  {
-    // Some dozen products of numbers up to three.
-    for (int lane = 0; lane < n_lanes<double>; ++lane)
-      EXPECT_NEAR(a[lane], b[lane], 1e-14);
-  }
+  // Some dozen products of numbers up to three.
+  constexpr double tolerance = 1e-14;
 
   /// For derivatives of degree p, which are of degree p - 1.
   template <int p>
@@ -107,7 +95,7 @@ namespace
                 expected += B * c[i];
                 expected_sums[i] += B * given[q];
               }
-            expect_same(values[q], expected);
+            expect_same(values[q], expected, tolerance);
           }
         for (const bool weighted : {false, true})
           {
@@ -119,7 +107,8 @@ namespace
             transposed.coefficients(found);
             for (int i = 0; i < n; ++i)
               expect_same(found[i],
-                          (weighted ? orbit.weight : 1.) * expected_sums[i]);
+                          (weighted ? orbit.weight : 1.) * expected_sums[i],
+                          tolerance);
           }
       }
   }

@@ -89,6 +89,15 @@ namespace corotet
       std::vector<PointOrbit> orbits;
     };
 
+    /// The most points that rules for stiffness, of straight and of curved
+    /// cells, have for an element of @p n_nodes nodes: kernels keep the values
+    /// at all of them.
+    static constexpr unsigned int
+    max_stiffness_points(const unsigned int n_nodes)
+    {
+      return n_nodes == 4 ? 4 : n_nodes == 20 ? 24 : 14;
+    }
+
     explicit ReferenceElement(const Element element);
 
     /// One that is made once, and lives as long as the program.

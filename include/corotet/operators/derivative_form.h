@@ -66,8 +66,7 @@ namespace corotet
 
   public:
     static constexpr int n_polynomials = bernstein::size<degree - 1>;
-    /// Of the rules for stiffness of straight and curved cells.
-    static constexpr int max_points = degree == 1 ? 4 : degree == 2 ? 14 : 24;
+    static constexpr int max_points = ReferenceElement::max_stiffness_points(n);
     /// Whether coefficients are derivatives, too.
     static constexpr bool has_coefficients = true;
 
@@ -183,7 +182,7 @@ namespace corotet
     using V = Simd<double>;
 
   public:
-    static constexpr int  max_points       = 14;
+    static constexpr int max_points = ReferenceElement::max_stiffness_points(n);
     static constexpr bool has_coefficients = false;
 
     using NodalValues  = V[n][3];
