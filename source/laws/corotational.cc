@@ -3,6 +3,7 @@
 
 #include <corotet/laws/cell_centred.h>
 #include <corotet/laws/corotational.h>
+#include <corotet/material/quaternion_simd.h>
 #include <corotet/operators/law_sweeps.h>
 
 namespace corotet
@@ -11,12 +12,13 @@ namespace corotet
   {
     /**
      * Corotational elasticity with the rotation of each point, P = R sigma(S -
-     * I) with F = R S [seed, 2.73 to 2.76].
+     * I) with F = R S [seed, 2.73 to 2.76]. Rotations are kept as quaternions:
+     * applications of the tangents wait for what was kept.
      */
     struct CorotationalAtPoints
     {
-      static constexpr int n_stored = 15;
-      static constexpr int n_frozen = 9;
+      static constexpr int n_stored = 10;
+      static constexpr int n_frozen = 4;
 
       COROTET_ALWAYS_INLINE PolarLanes
       stress(const LameLanes    &lame,
@@ -50,8 +52,8 @@ namespace corotet
         stretch(R, F, S);
         const unsigned int clamped =
           rotation_stiffness(lame.lambda, lame.mu, S, T);
-        static_for<9>([&](auto i) { stored[i] = R[i / 3][i % 3]; });
-        static_for<6>([&](auto i) { stored[9 + i] = T[i]; });
+        keep(R, stored);
+        static_for<6>([&](auto i) { stored[4 + i] = T[i]; });
         return clamped;
       }
 
@@ -64,8 +66,8 @@ namespace corotet
       {
         Tensor2Lanes R, A, sigma;
         Simd<double> T[6], a[3], t[3];
-        static_for<9>([&](auto i) { R[i / 3][i % 3] = stored[i]; });
-        static_for<6>([&](auto i) { T[i] = stored[9 + i]; });
+        kept(stored, R);
+        static_for<6>([&](auto i) { T[i] = stored[4 + i]; });
         transposed_times(R, dF, A);
         isotropic_stress(frozen_factor * lame.lambda,
                          frozen_factor * lame.mu,
@@ -83,7 +85,7 @@ namespace corotet
       {
         Tensor2Lanes F, R;
         rotation(H, F, R);
-        static_for<9>([&](auto i) { stored[i] = R[i / 3][i % 3]; });
+        keep(R, stored);
       }
 
       COROTET_ALWAYS_INLINE void
@@ -93,7 +95,7 @@ namespace corotet
                         Tensor2Lanes                &dP) const
       {
         Tensor2Lanes R;
-        static_for<9>([&](auto i) { R[i / 3][i % 3] = stored[i]; });
+        kept(stored, R);
         corotational_tangent(R, lame.lambda, lame.mu, dF, dP);
       }
 
@@ -124,6 +126,25 @@ namespace corotet
         internal::copy(H, F);
         add_identity(F);
         return polar_decomposition(F, R);
+      }
+
+      /// The first four numbers that are stored, of a rotation; and back.
+      template <int n>
+      static COROTET_ALWAYS_INLINE void
+      keep(const Tensor2Lanes &R, Simd<double> (&stored)[n])
+      {
+        Simd<double> q[4];
+        to_quaternion(R, q);
+        static_for<4>([&](auto i) { stored[i] = q[i]; });
+      }
+
+      template <int n>
+      static COROTET_ALWAYS_INLINE void
+      kept(const Simd<double> (&stored)[n], Tensor2Lanes &R)
+      {
+        Simd<double> q[4];
+        static_for<4>([&](auto i) { q[i] = stored[i]; });
+        to_rotation(q, R);
       }
     };
   } // namespace
