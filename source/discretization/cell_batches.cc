@@ -4,16 +4,21 @@
 #include <corotet/discretization/cell_batches.h>
 #include <corotet/discretization/nodes.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
-#include <bit>
+#include <limits>
 
 namespace corotet
 {
   namespace
   {
-    // Small enough for what a chunk touches to stay in the second-level cache,
-    // large enough for its overhead not to matter.
-    constexpr unsigned int batches_per_chunk = 8 * floats_per_batch;
+    // What a chunk reads and adds up, 64 bytes for each node in double
+    // precision, may fill a second-level cache of 1 MiB: cells that follow each
+    // other need little of it at a time, and large chunks have few nodes in
+    // common.
+    constexpr unsigned int nodes_of_chunk = 1 << 14;
+    constexpr unsigned int cells_of_chunk = 1 << 13;
 
     constexpr unsigned int
     divide_up(const unsigned int n, const unsigned int size)
@@ -34,10 +39,16 @@ namespace corotet
   {
     cell_batches = std::make_unique<CellBatches>(*this);
     std::vector<unsigned int>().swap(nodes_of_cells);
-    static_assert(std::has_single_bit(batch_size));
-    nodes_of_batches = cell_batches->nodes(0);
-    n_filled_up      = cell_batches->n_owned_batches() * batch_size - n_owned;
-    log_width        = std::countr_zero(batch_size);
+  }
+
+  CellNodes
+  Nodes::cell_nodes(const unsigned int cell) const
+  {
+    if (nodes_of_cells.empty())
+      return cell_batches->cell_nodes(cell);
+    return {nodes_of_cells.data() +
+              static_cast<std::size_t>(cell) * n_cell_nodes,
+            n_cell_nodes};
   }
 
   CellBatches::CellBatches(const Nodes &nodes)
@@ -47,30 +58,188 @@ namespace corotet
     , n_local_cells(nodes.n_local_cells())
     , n_owned(divide_up(n_owned_cells, batch_size * floats_per_batch) *
               floats_per_batch)
-    , at_end(n_owned + divide_up(n_local_cells - n_owned_cells, batch_size))
+    , n_all(n_owned + divide_up(n_local_cells - n_owned_cells, batch_size))
   {
-    const std::size_t n = static_cast<std::size_t>(n_cell_nodes) * batch_size;
-    node_numbers.resize(at_end.size() * n);
-    for (unsigned int b = 0; b < at_end.size(); ++b)
+    constexpr unsigned int size      = batch_size * floats_per_batch;
+    const auto [first, end]          = nodes.cells_with_ghosts();
+    const unsigned int first_ghosted = first / size * floats_per_batch;
+    const unsigned int end_ghosted   = divide_up(end, size) * floats_per_batch;
+    plan           = divide(nodes, 0, n_owned, {first_ghosted, end_ghosted});
+    plan_of_ghosts = divide(nodes, n_owned, n_all, {});
+    const auto n_chunks_before = [&](const unsigned int batch) {
+      return static_cast<unsigned int>(
+        std::count_if(plan.begin(), plan.end(), [&](const Chunk &chunk) {
+          return chunk.first < batch;
+        }));
+    };
+    ghosted_chunks = {n_chunks_before(first_ghosted),
+                      n_chunks_before(end_ghosted)};
+    find_final_nodes(nodes);
+    number_nodes(nodes);
+  }
+
+  template <typename Function>
+  void
+  CellBatches::for_nodes(const Nodes       &nodes,
+                         const unsigned int batch,
+                         const Function    &function) const
+  {
+    const bool         is_owned = batch < n_owned;
+    const unsigned int first    = is_owned ?
+                                    batch * batch_size :
+                                    n_owned_cells + (batch - n_owned) * batch_size;
+    const unsigned int last = (is_owned ? n_owned_cells : n_local_cells) - 1;
+    const std::size_t  start =
+      static_cast<std::size_t>(batch) * n_cell_nodes * batch_size;
+    for (unsigned int lane = 0; lane < batch_size; ++lane)
       {
-        const bool         is_owned = b < n_owned;
-        const unsigned int first    = is_owned ?
-                                        b * batch_size :
-                                        n_owned_cells + (b - n_owned) * batch_size;
-        const unsigned int last =
-          (is_owned ? n_owned_cells : nodes.n_local_cells()) - 1;
-        unsigned int *const numbers = node_numbers.data() + b * n;
+        const CellNodes cell = nodes.cell_nodes(std::min(first + lane, last));
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
-          for (unsigned int lane = 0; lane < batch_size; ++lane)
-            numbers[i * batch_size + lane] =
-              nodes.cell_nodes(std::min(first + lane, last))[i];
-        if (std::find(numbers, numbers + n, nodes.n_local_nodes() - 1) !=
-            numbers + n)
-          at_end[b] = 1;
+          function(start + i * batch_size + lane, cell[i]);
       }
-    plan_chunks(nodes);
-    if (exceed_caches<double>())
-      plan_fetches(nodes);
+  }
+
+  std::vector<CellBatches::Chunk>
+  CellBatches::divide(const Nodes                     &nodes,
+                      const unsigned int               begin,
+                      const unsigned int               end,
+                      const std::vector<unsigned int> &cuts) const
+  {
+    std::vector<Chunk> result;
+    // One more than the number of the last chunk that has a node.
+    std::vector<unsigned int> last_chunk(n_local_nodes, 0);
+    unsigned int              n_nodes = 0;
+    for (unsigned int batch = begin; batch < end; batch += floats_per_batch)
+      {
+        if (result.empty() || n_nodes >= nodes_of_chunk ||
+            (batch - result.back().first) * batch_size >= cells_of_chunk ||
+            std::find(cuts.begin(), cuts.end(), batch) != cuts.end())
+          {
+            result.push_back({batch, batch, 0, 0, 0, 0, 0, 0});
+            n_nodes = 0;
+          }
+        Chunk &chunk = result.back();
+        chunk.end    = std::min(batch + floats_per_batch, end);
+        for (unsigned int b = batch; b < chunk.end; ++b)
+          for_nodes(nodes, b, [&](const std::size_t, const unsigned int n) {
+            if (last_chunk[n] != result.size())
+              ++n_nodes;
+            last_chunk[n] = result.size();
+          });
+      }
+    return result;
+  }
+
+  void
+  CellBatches::find_final_nodes(const Nodes &nodes)
+  {
+    std::vector<unsigned int> last_chunk(nodes.n_owned_nodes(), 0);
+    for (unsigned int c = 0; c < plan.size(); ++c)
+      for (unsigned int b = plan[c].first; b < plan[c].end; ++b)
+        for_nodes(nodes, b, [&](const std::size_t, const unsigned int n) {
+          if (n < last_chunk.size())
+            last_chunk[n] = c;
+        });
+    unsigned int n_final = 0;
+    for (unsigned int c = 0; c < plan.size(); ++c)
+      {
+        plan[c].first_node = n_final;
+        while (n_final < nodes.first_shared_node() && last_chunk[n_final] <= c)
+          ++n_final;
+        plan[c].n_final = n_final;
+      }
+  }
+
+  void
+  CellBatches::number_nodes(const Nodes &nodes)
+  {
+    constexpr unsigned int none         = -1;
+    const unsigned int     first_shared = nodes.first_shared_node();
+    // Slots in use, by node, and those that are free again.
+    std::vector<unsigned int> slot(n_local_nodes, none);
+    std::vector<unsigned int> free_slots;
+    for (unsigned int n = first_shared; n < n_local_nodes; ++n)
+      slot[n] = n - first_shared;
+    slots = n_local_nodes - first_shared;
+    // The number of a node in its last chunk, and one more than that of the
+    // chunk.
+    std::vector<unsigned int> number(n_local_nodes), last_chunk(n_local_nodes);
+    std::vector<unsigned int> others;
+    node_numbers.resize(static_cast<std::size_t>(n_all) * n_cell_nodes *
+                        batch_size);
+    chunk_of_batch.resize(n_all);
+    unsigned int chunk_number = 0;
+    for (auto *const chunks : {&plan, &plan_of_ghosts})
+      for (Chunk &chunk : *chunks)
+        {
+          others.clear();
+          const auto is_final = [&](const unsigned int n) {
+            return n >= chunk.first_node && n < chunk.n_final;
+          };
+          for (unsigned int b = chunk.first; b < chunk.end; ++b)
+            for_nodes(nodes, b, [&](const std::size_t, const unsigned int n) {
+              if (!is_final(n) && last_chunk[n] != chunk_number + 1)
+                others.push_back(n);
+              last_chunk[n] = chunk_number + 1;
+            });
+          std::sort(others.begin(), others.end());
+          chunk.first_open = open.size();
+          for (const unsigned int n : others)
+            {
+              number[n] =
+                chunk.n_final_nodes() + open.size() - chunk.first_open;
+              if (slot[n] == none && !free_slots.empty())
+                {
+                  slot[n] = free_slots.back();
+                  free_slots.pop_back();
+                }
+              else if (slot[n] == none)
+                slot[n] = slots++;
+              open.push_back({n, slot[n]});
+            }
+          chunk.end_open        = open.size();
+          chunk.first_continued = continued.size();
+          for (unsigned int n = chunk.first_node; n < chunk.n_final; ++n)
+            {
+              number[n] = n - chunk.first_node;
+              if (slot[n] != none)
+                {
+                  continued.push_back({number[n], slot[n]});
+                  free_slots.push_back(slot[n]);
+                }
+            }
+          chunk.end_continued = continued.size();
+          const unsigned int n_nodes =
+            chunk.n_final_nodes() + chunk.end_open - chunk.first_open;
+          AssertThrow(n_nodes <= std::numeric_limits<std::uint16_t>::max(),
+                      dealii::ExcInternalError());
+          most_nodes = std::max(most_nodes, n_nodes);
+          for (unsigned int b = chunk.first; b < chunk.end; ++b)
+            {
+              chunk_of_batch[b] = chunk_number;
+              for_nodes(nodes,
+                        b,
+                        [&](const std::size_t k, const unsigned int n) {
+                          node_numbers[k] = number[n];
+                        });
+            }
+          ++chunk_number;
+        }
+    open.shrink_to_fit();
+    continued.shrink_to_fit();
+  }
+
+  CellNodes
+  CellBatches::cell_nodes(const unsigned int cell) const
+  {
+    const auto [batch, lane] = place(cell);
+    const Chunk &chunk       = chunk_of(batch);
+    return {nodes(batch) + lane,
+            batch_size,
+            n_cell_nodes,
+            chunk.first_node,
+            chunk.n_final_nodes(),
+            open.data() + chunk.first_open};
   }
 
   std::pair<unsigned int, unsigned int>
@@ -89,65 +258,14 @@ namespace corotet
   CellBatches::apart() const
   {
     CellBatches result(*this);
-    // One more, so that four numbers can be read everywhere.
-    result.n_local_nodes = batch_size * n_cell_nodes + 1;
-    result.at_end.assign(at_end.size(), 0);
-    result.fetched_nodes.clear();
-    result.fetch_starts.clear();
-    unsigned int *next = result.node_numbers.data();
-    for (unsigned int batch = 0; batch < n_batches(); ++batch)
-      for (unsigned int i = 0; i < n_cell_nodes; ++i)
-        for (unsigned int lane = 0; lane < batch_size; ++lane)
-          *next++ = lane * n_cell_nodes + i;
+    for (std::size_t k = 0; k < node_numbers.size(); ++k)
+      {
+        const unsigned int lane = k % batch_size;
+        const unsigned int i    = k / batch_size % n_cell_nodes;
+        result.node_numbers[k]  = lane * n_cell_nodes + i;
+      }
+    for (auto *const chunks : {&result.plan, &result.plan_of_ghosts})
+      chunks->clear();
     return result;
-  }
-
-  void
-  CellBatches::plan_chunks(const Nodes &nodes)
-  {
-    std::vector<unsigned int> last_chunk(nodes.n_owned_nodes(), 0);
-    for (unsigned int first = 0; first < n_owned; first += batches_per_chunk)
-      {
-        const unsigned int end = std::min(first + batches_per_chunk, n_owned);
-        for (const unsigned int *n = this->nodes(first); n < this->nodes(end);
-             ++n)
-          if (*n < nodes.n_owned_nodes())
-            last_chunk[*n] = plan.size();
-        plan.push_back({first, end, 0});
-      }
-    unsigned int n_final = 0;
-    for (unsigned int c = 0; c < plan.size(); ++c)
-      {
-        while (n_final < nodes.first_shared_node() && last_chunk[n_final] <= c)
-          ++n_final;
-        plan[c].n_final = n_final;
-      }
-    constexpr unsigned int size = batches_per_chunk * batch_size;
-    ghosted_chunks              = {nodes.cells_with_ghosts().first / size,
-                                   divide_up(nodes.cells_with_ghosts().second, size)};
-  }
-
-  void
-  CellBatches::plan_fetches(const Nodes &nodes)
-  {
-    // One more than the batch that had a node last.
-    std::vector<unsigned int> last_use(nodes.n_local_nodes(), 0);
-    fetch_starts.reserve(n_batches() + 1 + 2 * floats_per_batch);
-    fetch_starts.push_back(0);
-    for (unsigned int b = 0; b < n_batches(); ++b)
-      {
-        for (const unsigned int *n = this->nodes(b); n < this->nodes(b + 1);
-             ++n)
-          {
-            unsigned int &last = last_use[*n];
-            if (last == 0 || last + batches_per_chunk <= b)
-              fetched_nodes.push_back(*n);
-            last = b + 1;
-          }
-        fetch_starts.push_back(fetched_nodes.size());
-      }
-    fetch_starts.resize(n_batches() + 1 + 2 * floats_per_batch,
-                        fetched_nodes.size());
-    fetched_nodes.shrink_to_fit();
   }
 } // namespace corotet

@@ -232,12 +232,6 @@ namespace corotet
       fetch(const ElasticData &data, const unsigned int batch)
       {
         fetch_object(data.coefficients + batch);
-        if constexpr (!Factored<CellKernel>::keeps_B)
-          for (const unsigned int node :
-               data.batches.nodes_to_fetch(batch, batch + 1))
-            __builtin_prefetch(data.linearized_displacement +
-                                 3 * static_cast<std::size_t>(node),
-                               0);
       }
 
       static COROTET_ALWAYS_INLINE void

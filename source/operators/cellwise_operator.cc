@@ -60,8 +60,8 @@ namespace corotet
     diagonal_of_A.zero_out_ghost_values();
     cell_loop.run(
       diagonal_of_A,
-      [&](const auto first, const auto end, const T *source, T *sums) {
-        diagonal_sweep(data, first, end, source, sums);
+      [&](const auto &chunk, const T *source, T *sums) {
+        diagonal_sweep(data, chunk.first, chunk.end, source, sums);
       },
       [&](const unsigned int i, auto y) {
         y *= unit;
@@ -81,10 +81,9 @@ namespace corotet
     FormData<T> data = this->data;
     data.mass_factor *=
       mass_scale(nodes().element()) / stiffness_scale(nodes().element());
-    const auto add =
-      [&](const auto first, const auto end, const T *source, T *sums) {
-        sweep(data, first, end, source, sums);
-      };
+    const auto add = [&](const auto &chunk, const T *source, T *sums) {
+      sweep(data, chunk.first, chunk.end, source, sums);
+    };
     if (surface != nullptr)
       {
         // Before the sweep, which may change the source.

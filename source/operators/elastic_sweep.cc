@@ -179,7 +179,7 @@ namespace corotet
             CellKernel::template apply<true, false, true>(
               &data.coefficients[batch], Simd<double>{}, &offset, u, f);
           }
-        scatter_add<CellKernel::n_nodes>(f, data.batches.nodes(batch), sums);
+        scatter_add<CellKernel::n_nodes>(data.batches, batch, f, sums);
       }
     };
 

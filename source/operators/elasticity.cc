@@ -119,12 +119,22 @@ namespace corotet
     const CellBatches &batches = discretization.batches();
     const ElasticSweep rotate  = rotation_sweep(discretization.element());
     ElasticData        data    = rotating_data();
-    rotate(data, 0, batches.n_owned_batches(), u.begin(), nullptr);
+    read_cells(rotate, batches.chunks(), data, u);
     // Those of other laws are of their own points, with the force.
     if (material_law->has_cell_rotation())
       counts = data.counts;
-    rotate(
-      data, batches.n_owned_batches(), batches.n_batches(), u.begin(), nullptr);
+    read_cells(rotate, batches.chunks_of_ghosts(), data, u);
+  }
+
+  void
+  Elasticity::read_cells(const ElasticSweep                     sweep,
+                         const std::vector<CellBatches::Chunk> &chunks,
+                         ElasticData                           &data,
+                         const Vector                          &u) const
+  {
+    cell_loop.read(chunks, u, [&](const auto &chunk, const double *source) {
+      sweep(data, chunk.first, chunk.end, source, nullptr);
+    });
   }
 
   template <typename Data>
@@ -141,10 +151,9 @@ namespace corotet
   {
     cell_loop.run(
       u,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double       *sums) { sweep(data, first, end, source, sums); },
+      [&](const auto &chunk, const double *source, double *sums) {
+        sweep(data, chunk.first, chunk.end, source, sums);
+      },
       [&](const unsigned int i, const auto y) {
         store_to(y * scale, f.begin() + i);
       });
@@ -171,13 +180,10 @@ namespace corotet
         // Where rotations are not unique, round-off chooses: those of owned and
         // of ghost cells must come from one function.
         const CellBatches &batches = discretization.batches();
-        rotation_sweep(discretization.element())(data,
-                                                 sweeps.force_rotates ?
-                                                   batches.n_owned_batches() :
-                                                   0,
-                                                 batches.n_batches(),
-                                                 u.begin(),
-                                                 nullptr);
+        const ElasticSweep rotate  = rotation_sweep(discretization.element());
+        if (!sweeps.force_rotates)
+          read_cells(rotate, batches.chunks(), data, u);
+        read_cells(rotate, batches.chunks_of_ghosts(), data, u);
       }
     if (dilatation)
       dilatation->add_force(f, u, data);
@@ -194,10 +200,9 @@ namespace corotet
     ElasticData data = rotating_data();
     cell_loop.run(
       u,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double       *sums) { sweeps.force(data, first, end, source, sums); },
+      [&](const auto &chunk, const double *source, double *sums) {
+        sweeps.force(data, chunk.first, chunk.end, source, sums);
+      },
       // No cell of this rank will need these nodes again in this sweep.
       [&](const unsigned int i, const auto y) {
         using V = decltype(y + y);
@@ -252,8 +257,7 @@ namespace corotet
   Elasticity::local_state(const Vector &u) const
   {
     ElasticData data = elastic_data();
-    sweeps.state(
-      data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
+    read_cells(sweeps.state, discretization.batches().chunks(), data, u);
     const PointResults &local = data.results;
     return {local.energy +
               (dilatation ? dilatation->local_energy(u, data) : 0.),

@@ -30,11 +30,12 @@ namespace corotet
         const std::size_t n = std::size_t(3) * discretization.n_local_nodes();
         linearized_displacement.resize_fast(n);
         std::copy_n(u.begin(), n, linearized_displacement.begin());
+        chunk_displacement.resize_fast(
+          std::size_t(4) * discretization.batches().max_chunk_nodes());
       }
     ElasticData data       = elastic_data();
     data.new_linearization = linearization.data();
-    work.linearize(
-      data, 0, discretization.batches().n_owned_batches(), u.begin(), nullptr);
+    read_cells(work.linearize, discretization.batches().chunks(), data, u);
     if (dilatation && tangent == Tangent::consistent)
       dilatation->linearize(u, data);
     return dealii::Utilities::MPI::sum(data.n_clamped,
@@ -50,22 +51,29 @@ namespace corotet
                                   const Vector             *lumped_mass) const
   {
     Assert(!linearization.empty(), dealii::ExcNotInitialized());
-    ElasticData data                 = elastic_data();
-    data.linearization               = linearization.data();
-    data.linearized_displacement     = linearized_displacement.begin();
-    data.frozen_factor               = frozen_factor;
-    data.masses                      = masses;
-    data.mass_factor                 = c_M;
-    const ElasticSweep         sweep = sweeps.tangent(linearized_tangent).apply;
+    ElasticData data   = elastic_data();
+    data.linearization = linearization.data();
+    data.frozen_factor = frozen_factor;
+    data.masses        = masses;
+    data.mass_factor   = c_M;
+    const auto &[size, linearize, sweep, needs_displacement] =
+      sweeps.tangent(linearized_tangent);
     std::optional<GhostsInUse> ghosts;
     if (dilatation)
       ghosts.emplace(v);
     cell_loop.run(
       v,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double       *sums) { sweep(data, first, end, source, sums); },
+      [&](const auto &chunk, const double *source, double *sums) {
+        if (needs_displacement)
+          {
+            load_chunk(discretization.batches(),
+                       chunk,
+                       linearized_displacement.data(),
+                       chunk_displacement.data());
+            data.linearized_displacement = chunk_displacement.data();
+          }
+        sweep(data, chunk.first, chunk.end, source, sums);
+      },
       [&](const unsigned int i, const auto y) {
         using V  = decltype(y + y);
         V result = y;
@@ -92,11 +100,7 @@ namespace corotet
     const TangentSweeps &work    = sweeps.tangent(linearized_tangent);
     ElasticData          ghosts  = elastic_data();
     ghosts.new_linearization     = linearization.data();
-    work.linearize(ghosts,
-                   batches.n_owned_batches(),
-                   batches.n_batches(),
-                   u.begin(),
-                   nullptr);
+    read_cells(work.linearize, batches.chunks_of_ghosts(), ghosts, u);
 
     // Unit vectors in all cells of a batch at once, as if these had no common
     // nodes.
@@ -114,24 +118,26 @@ namespace corotet
     data.mass_factor                   = c_M;
     const unsigned int            n    = discretization.n_nodes_per_cell();
     const std::size_t             size = std::size_t(4) * batch_size * n;
-    dealii::AlignedVector<double> source(std::size_t(3) * (batch_size * n + 1));
+    dealii::AlignedVector<double> source(size);
     dealii::AlignedVector<double> displacement(source.size());
     data.linearized_displacement = displacement.data();
     dealii::AlignedVector<double> columns(std::size_t(3) * n * size);
     for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
       {
         columns.fill(0.);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int lane = 0; lane < batch_size; ++lane)
-            for (unsigned int a = 0; a < 3; ++a)
-              displacement[3 * (lane * n + i) + a] =
-                u.begin()[std::size_t(3) *
-                            batches.nodes(batch)[batch_size * i + lane] +
-                          a];
+        const auto [first, n_cells] = batches.cells(batch);
+        for (unsigned int lane = 0; lane < n_cells; ++lane)
+          {
+            const CellNodes nodes = discretization.cell_nodes(first + lane);
+            for (unsigned int i = 0; i < n; ++i)
+              std::copy_n(u.begin() + std::size_t(3) * nodes[i],
+                          3,
+                          &displacement[4 * (lane * n + i)]);
+          }
         for (unsigned int column = 0; column < 3 * n; ++column)
           {
             for (unsigned int lane = 0; lane < batch_size; ++lane)
-              source[3 * lane * n + column] = 1;
+              source[(lane * n + column / 3) * 4 + column % 3] = 1;
             work.apply(
               data, batch, batch + 1, source.data(), &columns[column * size]);
             if (dilatation && linearized_tangent == Tangent::consistent)
@@ -140,7 +146,7 @@ namespace corotet
                                             source.data(),
                                             &columns[column * size]);
             for (unsigned int lane = 0; lane < batch_size; ++lane)
-              source[3 * lane * n + column] = 0;
+              source[(lane * n + column / 3) * 4 + column % 3] = 0;
           }
         take(batch, columns.data());
       }

@@ -160,10 +160,9 @@ namespace corotet
       form_sweep<double>(discretization.element(), Terms::mass);
     cell_loop.run(
       a,
-      [&](const auto    first,
-          const auto    end,
-          const double *source,
-          double       *sums) { sweep(data, first, end, source, sums); },
+      [&](const auto &chunk, const double *source, double *sums) {
+        sweep(data, chunk.first, chunk.end, source, sums);
+      },
       [&](const unsigned int i, const auto y) { store_to(y, f.begin() + i); });
   }
 } // namespace corotet

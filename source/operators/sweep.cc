@@ -57,7 +57,7 @@ namespace corotet
         else
           Kernel::template apply<with_stiffness, with_mass>(
             data.coefficients + batch / n_batches, masses, nullptr, u, v);
-        scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
+        scatter_add<Kernel::n_nodes>(data.batches, batch, v, sums);
       }
     };
 
@@ -91,7 +91,7 @@ namespace corotet
             *data.batches.curved(), batch, cell, masses, v);
         else
           of_straight_cells(cell, masses, v);
-        scatter_add<Kernel::n_nodes>(v, data.batches.nodes(batch), sums);
+        scatter_add<Kernel::n_nodes>(data.batches, batch, v, sums);
       }
 
     private:

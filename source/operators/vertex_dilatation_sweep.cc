@@ -40,6 +40,7 @@ namespace corotet
     const std::vector<unsigned int>      &material_of_cell)
     : discretization(discretization)
     , material_of_cell(material_of_cell)
+    , cell_loop(discretization)
   {
     std::vector<unsigned int> index;
     for (const IsotropicMaterial &material : all_materials)
@@ -56,8 +57,9 @@ namespace corotet
     values.resize(numbers.n_local());
     moduli.resize(numbers.n_local());
     sums.resize(4 * std::size_t(discretization.n_local_nodes()));
-
     const CellBatches &batches = discretization.batches();
+    chunk_sums.resize(4 * std::size_t(batches.max_chunk_nodes()));
+
     copies_of_cells.resize(std::size_t(n_vertices) * batch_size *
                            batches.n_batches());
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
@@ -76,6 +78,33 @@ namespace corotet
     exchange.update(moduli.data());
   }
 
+  template <typename Read, typename AfterChunk>
+  void
+  VertexDilatation::read_cells(const Vector     &source,
+                               const Read       &read,
+                               const AfterChunk &after_chunk) const
+  {
+    const CellBatches &batches = discretization.batches();
+    for (const auto *const chunks :
+         {&batches.chunks(), &batches.chunks_of_ghosts()})
+      cell_loop.read(*chunks,
+                     source,
+                     [&](const CellBatches::Chunk &chunk,
+                         const double             *chunk_values) {
+                       for (unsigned int batch = chunk.first; batch < chunk.end;
+                            ++batch)
+                         read(batch, chunk_values);
+                       after_chunk(chunk);
+                     });
+  }
+
+  template <typename Read>
+  void
+  VertexDilatation::read_cells(const Vector &source, const Read &read) const
+  {
+    read_cells(source, read, [](const CellBatches::Chunk &) {});
+  }
+
   template <bool of_displacement>
   void
   VertexDilatation::sum_dilatations(const Vector      &source,
@@ -86,12 +115,12 @@ namespace corotet
            dealii::ExcMessage("Ghost entries are not up to date."));
     std::fill(values.begin(), values.end(), 0.);
     const unsigned int *copy = copies_of_cells.data();
-    for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
-      {
+    read_cells(
+      source, [&](const unsigned int batch, const double *chunk_values) {
         CellValues   u;
         Simd<double> g[9];
         Tensor2Lanes H;
-        gather_differences<n_vertices>(data.batches, batch, source.begin(), u);
+        gather_differences<n_vertices>(data.batches, batch, chunk_values, u);
         load_rotated(data, batch, g);
         rotated_gradient(g, u, H);
         Simd<double> dilatation = H[0][0] + H[1][1] + H[2][2];
@@ -106,7 +135,7 @@ namespace corotet
         for (unsigned int i = 0; i < n_vertices; ++i, copy += batch_size)
           for (unsigned int lane = 0; lane < batch_size; ++lane)
             values[copy[lane]] += dilatation[lane];
-      }
+      });
   }
 
   void
@@ -154,36 +183,43 @@ namespace corotet
       });
     });
     static_for<3>([&](auto a) { f[0][a] = -(f[1][a] + f[2][a] + f[3][a]); });
-    scatter_add<n_vertices>(f, data.batches.nodes(batch), target);
+    scatter_add<n_vertices>(data.batches, batch, f, target);
   }
 
   template <bool with_rotation_part>
   void
   VertexDilatation::add_stress(Vector            &f,
-                               const double      *source,
+                               const Vector      &source,
                                const double       factor,
                                const ElasticData &data)
   {
-    for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
-      {
-        CellValues   in_cell;
-        Simd<double> g[9];
-        load_rotated(data, batch, g);
-        const Simd<double> pressure =
-          factor * lanes(data.constants[batch].volume) * mean_pressure(batch);
-        static_for<3>([&](auto a) {
-          in_cell[0][a] = Simd<double>{};
-          static_for<3>([&](auto k) {
-            in_cell[k + 1][a] = pressure * g[3 * k + a];
-            in_cell[0][a] -= in_cell[k + 1][a];
-          });
+    const auto add = [&](const unsigned int batch, const double *chunk_values) {
+      CellValues   in_cell;
+      Simd<double> g[9];
+      load_rotated(data, batch, g);
+      const Simd<double> pressure =
+        factor * lanes(data.constants[batch].volume) * mean_pressure(batch);
+      static_for<3>([&](auto a) {
+        in_cell[0][a] = Simd<double>{};
+        static_for<3>([&](auto k) {
+          in_cell[k + 1][a] = pressure * g[3 * k + a];
+          in_cell[0][a] -= in_cell[k + 1][a];
         });
-        scatter_add<n_vertices>(in_cell,
-                                data.batches.nodes(batch),
-                                sums.data());
-        if constexpr (with_rotation_part)
-          add_rotation_part(data, batch, source, sums.data());
-      }
+      });
+      scatter_add<n_vertices>(data.batches, batch, in_cell, chunk_sums.data());
+      if constexpr (with_rotation_part)
+        add_rotation_part(data, batch, chunk_values, chunk_sums.data());
+    };
+    read_cells(source, add, [&](const CellBatches::Chunk &chunk) {
+      double *sum = chunk_sums.data();
+      for (unsigned int n = chunk.first_node; n < chunk.n_final; ++n, sum += 4)
+        move_sum(sum, &sums[4 * std::size_t(n)]);
+      for (const PartialSum &open : data.batches.open_nodes(chunk))
+        {
+          move_sum(sum, &sums[4 * std::size_t(open.node)]);
+          sum += 4;
+        }
+    });
     take_sums(sums.data(),
               0,
               discretization.n_owned_nodes(),
@@ -203,7 +239,7 @@ namespace corotet
   {
     sum_dilatations<true>(u, data);
     make_pressures();
-    add_stress<false>(f, nullptr, 1., data);
+    add_stress<false>(f, u, 1., data);
   }
 
   double
@@ -224,7 +260,7 @@ namespace corotet
   {
     sum_dilatations<false>(v, data);
     make_pressures();
-    add_stress<false>(f, nullptr, factor, data);
+    add_stress<false>(f, v, factor, data);
   }
 
   void
@@ -235,28 +271,29 @@ namespace corotet
     linearization.resize_fast(std::size_t(6) * batch_size *
                               data.batches.n_batches());
     double *stored = linearization.data();
-    for (unsigned int batch = 0; batch < data.batches.n_batches(); ++batch)
-      {
-        CellValues   in_cell;
-        Simd<double> g[9], S[6], T[6];
-        Tensor2Lanes R, B;
-        gather_differences<n_vertices>(data.batches, batch, u.begin(), in_cell);
-        load_rotated(data, batch, g);
-        rotations_of(data, batch, R);
-        rotated_gradient(g, in_cell, B);
-        add_transposed(R, B);
-        symmetric_part(B, S);
-        inverse_spin_tensor(S, T);
-        const Simd<double> volume = lanes(data.constants[batch].volume);
-        const Simd<double> factor = volume * mean_pressure(batch);
-        static_for<6>([&](auto s) {
-          // Lanes without a cell have no rotation.
-          const Simd<double> value =
-            volume > 0. ? T[s] * factor : broadcast(0.);
-          store_aligned(value, stored + s * batch_size);
-        });
-        stored += std::size_t(6) * batch_size;
-      }
+    read_cells(u, [&](const unsigned int batch, const double *chunk_values) {
+      CellValues   in_cell;
+      Simd<double> g[9], S[6], T[6];
+      Tensor2Lanes R, B;
+      gather_differences<n_vertices>(data.batches,
+                                     batch,
+                                     chunk_values,
+                                     in_cell);
+      load_rotated(data, batch, g);
+      rotations_of(data, batch, R);
+      rotated_gradient(g, in_cell, B);
+      add_transposed(R, B);
+      symmetric_part(B, S);
+      inverse_spin_tensor(S, T);
+      const Simd<double> volume = lanes(data.constants[batch].volume);
+      const Simd<double> factor = volume * mean_pressure(batch);
+      static_for<6>([&](auto s) {
+        // Lanes without a cell have no rotation.
+        const Simd<double> value = volume > 0. ? T[s] * factor : broadcast(0.);
+        store_aligned(value, stored + s * batch_size);
+      });
+      stored += std::size_t(6) * batch_size;
+    });
   }
 
   void
@@ -267,7 +304,7 @@ namespace corotet
   {
     sum_dilatations<false>(v, data);
     make_pressures();
-    add_stress<true>(f, v.begin(), factor, data);
+    add_stress<true>(f, v, factor, data);
   }
 
   std::vector<double>

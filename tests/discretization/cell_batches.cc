@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What sweeps ask for ahead.
+// The plan of a sweep: chunks, the numbers of nodes in them, and where sums of
+// nodes that chunks share are kept.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <vector>
 
 #include "../body.h"
 
@@ -29,17 +32,22 @@ namespace
       return discretization.batches();
     }
 
-    /// Distinct nodes of batches [first, end).
-    std::set<unsigned int>
-    nodes(const unsigned int first, const unsigned int end) const
-    {
-      return {batches().nodes(first), batches().nodes(end)};
-    }
-
     Log            log;
     Mesh           mesh;
     Discretization discretization;
   };
+
+  // The local nodes of a chunk in the order of their numbers there.
+  std::vector<unsigned int>
+  nodes_of(const CellBatches &batches, const CellBatches::Chunk &chunk)
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int n = chunk.first_node; n < chunk.n_final; ++n)
+      result.push_back(n);
+    for (const PartialSum &open : batches.open_nodes(chunk))
+      result.push_back(open.node);
+    return result;
+  }
 } // namespace
 
 TEST(CellBatches, SmallBodiesStayInTheCaches)
@@ -49,36 +57,102 @@ TEST(CellBatches, SmallBodiesStayInTheCaches)
   EXPECT_FALSE(body.batches().exceed_caches<float>());
 }
 
-// Each node of a batch is among those of the 16 batches (8 in machines whose
-// registers of floats are registers of doubles) before it, or is asked for,
-// once; and only those are.
-TEST(CellBatches, NodesThatAreFarAwayAreAskedFor)
+// Chunks follow each other without gaps; the numbers of the batches are those
+// of the cells' nodes, each node has one number, and all numbers have a cell.
+TEST(CellBatches, ChunksNumberTheNodesOfTheirCells)
 {
-  // 148,000 nodes, on one rank 8 MiB of vectors.
+  // 148,000 nodes: several chunks.
   const CubicBox     body("18, 18, 18");
   const CellBatches &batches = body.batches();
-  ASSERT_TRUE(batches.exceed_caches<double>());
-  const unsigned int window      = 8 * floats_per_batch;
-  std::size_t        n_asked_for = 0;
-  for (unsigned int b = 0; b < batches.n_batches(); ++b)
+  EXPECT_TRUE(batches.exceed_caches<double>());
+  EXPECT_GT(batches.chunks().size(), 3u);
+  unsigned int next_batch = 0;
+  for (const auto *const chunks :
+       {&batches.chunks(), &batches.chunks_of_ghosts()})
+    for (const CellBatches::Chunk &chunk : *chunks)
+      {
+        EXPECT_EQ(chunk.first, next_batch);
+        next_batch                            = chunk.end;
+        const std::vector<unsigned int> nodes = nodes_of(batches, chunk);
+        EXPECT_EQ(std::set<unsigned int>(nodes.begin(), nodes.end()).size(),
+                  nodes.size());
+        EXPECT_LE(nodes.size(), batches.max_chunk_nodes());
+        std::set<unsigned int> met;
+        for (unsigned int b = chunk.first; b < chunk.end; ++b)
+          {
+            const auto [first, n_cells] = batches.cells(b);
+            for (unsigned int lane = 0; lane < n_cells; ++lane)
+              {
+                const CellNodes cell =
+                  body.discretization.cell_nodes(first + lane);
+                for (unsigned int i = 0; i < cell.size(); ++i)
+                  {
+                    const unsigned int k =
+                      batches.nodes(b)[i * batch_size + lane];
+                    ASSERT_LT(k, nodes.size());
+                    ASSERT_EQ(nodes[k], cell[i]);
+                    met.insert(k);
+                  }
+              }
+          }
+        EXPECT_EQ(met.size(), nodes.size());
+      }
+  EXPECT_EQ(next_batch, batches.n_batches());
+}
+
+// What a sweep over owned cells does with sums: each slot is empty when a node
+// gets it, a node finds what earlier chunks have left, and at the end of a
+// chunk every final node has had all cells that it has on this rank.
+TEST(CellBatches, SumsAreCompleteWhenTheyAreTaken)
+{
+  const CubicBox                       body("18, 18, 18");
+  const CellBatches                   &batches = body.batches();
+  const Discretization                &d       = body.discretization;
+  std::map<unsigned int, unsigned int> n_cells_of_node, n_met;
+  std::map<unsigned int, unsigned int> node_in_slot;
+  std::vector<unsigned int>            n_in_slot(batches.n_slots());
+  for (unsigned int c = 0; c < d.n_owned_cells(); ++c)
+    for (const unsigned int n : d.cell_nodes(c))
+      ++n_cells_of_node[n];
+  unsigned int next_node = 0;
+  for (const CellBatches::Chunk &chunk : batches.chunks())
     {
-      const auto present = body.nodes(b - std::min(b, window), b);
-      std::vector<unsigned int> far_away;
-      for (const unsigned int n : body.nodes(b, b + 1))
-        if (!present.contains(n))
-          far_away.push_back(n);
-      const auto                asked_for = batches.nodes_to_fetch(b, b + 1);
-      std::vector<unsigned int> sorted(asked_for.begin(), asked_for.end());
-      std::sort(sorted.begin(), sorted.end());
-      ASSERT_EQ(sorted, far_away) << "batch " << b;
-      n_asked_for += sorted.size();
+      ASSERT_EQ(chunk.first_node, next_node);
+      next_node = chunk.n_final;
+      std::map<unsigned int, unsigned int> met;
+      for (unsigned int b = chunk.first; b < chunk.end; ++b)
+        {
+          const auto [first, n] = batches.cells(b);
+          for (unsigned int c = first; c < first + n; ++c)
+            for (const unsigned int node : d.cell_nodes(c))
+              ++met[node];
+        }
+      for (const PartialSum &open : batches.open_nodes(chunk))
+        {
+          const auto [place, is_new] =
+            node_in_slot.try_emplace(open.slot, open.node);
+          ASSERT_EQ(place->second, open.node);
+          n_in_slot[open.slot] += met[open.node];
+        }
+      for (const PartialSum &continued : batches.continued_nodes(chunk))
+        {
+          const unsigned int node = chunk.first_node + continued.node;
+          ASSERT_EQ(node_in_slot.at(continued.slot), node);
+          met[node] += n_in_slot[continued.slot];
+          n_in_slot[continued.slot] = 0;
+          node_in_slot.erase(continued.slot);
+        }
+      for (unsigned int n = chunk.first_node; n < chunk.n_final; ++n)
+        ASSERT_EQ(met[n], n_cells_of_node[n]);
     }
-  EXPECT_EQ(batches
-              .nodes_to_fetch(batches.n_batches(),
-                              batches.n_batches() + floats_per_batch)
-              .size(),
-            0u);
-  // Along the curve few nodes are left and met again.
-  EXPECT_GE(n_asked_for, body.discretization.n_local_nodes());
-  EXPECT_LE(n_asked_for, 2u * body.discretization.n_local_nodes());
+  EXPECT_EQ(next_node, d.first_shared_node());
+  // What is left belongs to nodes that other ranks have, in their order.
+  for (unsigned int n = d.first_shared_node(); n < d.n_local_nodes(); ++n)
+    EXPECT_EQ(n_in_slot[n - d.first_shared_node()], n_cells_of_node[n]);
+  // Slots of the others are used again.
+  std::size_t n_continued = 0;
+  for (const CellBatches::Chunk &chunk : batches.chunks())
+    n_continued += batches.continued_nodes(chunk).size();
+  EXPECT_LT(batches.n_slots() - (d.n_local_nodes() - d.first_shared_node()),
+            n_continued);
 }

@@ -5,7 +5,9 @@
 #define corotet_discretization_cell_batches_h
 
 #include <corotet/base/simd.h>
+#include <corotet/discretization/cell_nodes.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -22,20 +24,41 @@ namespace corotet
   inline constexpr unsigned int floats_per_batch = n_lanes<float> / batch_size;
 
   /**
-   * The local cells in batches of batch_size, and the plan of a sweep over the
-   * owned ones. Batches at the end are filled up: lanes without a cell have
-   * nodes of another one and must contribute zeros.
+   * The local cells in batches of batch_size, and the plan of a sweep over
+   * them. Batches at the end are filled up: lanes without a cell have nodes of
+   * another one and must contribute zeros.
+   *
+   * A sweep goes from chunk to chunk: batches whose nodes fit into the second
+   * level of the caches together. Nodes have a number in each chunk that has
+   * them, and sweeps know these numbers only: what they read is copied into an
+   * array with four numbers for each node of the chunk, and what they add up is
+   * taken from another one (operators/cell_loop.h). So the scattered accesses
+   * of cells stay in the cache and need half the memory for numbers, and
+   * vectors are read and written from one end to the other.
    */
   class CellBatches
   {
   public:
-    /// Batches [first, end): after them the owned nodes below n_final get no
-    /// contributions of owned cells any more.
+    /// Batches [first, end). In the chunk the nodes [first_node, n_final) are
+    /// the first ones, in this order: they are owned, and no owned cell
+    /// contributes to them afterwards. Others follow.
     struct Chunk
     {
       unsigned int first;
       unsigned int end;
+      unsigned int first_node;
       unsigned int n_final;
+      /// Ranges of open_nodes() and continued_nodes().
+      unsigned int first_open;
+      unsigned int end_open;
+      unsigned int first_continued;
+      unsigned int end_continued;
+
+      unsigned int
+      n_final_nodes() const
+      {
+        return n_final - first_node;
+      }
     };
 
     explicit CellBatches(const Nodes &nodes);
@@ -52,7 +75,7 @@ namespace corotet
     unsigned int
     n_batches() const
     {
-      return at_end.size();
+      return n_all;
     }
 
     /// What there is to know about batches with curved cells; null if no cell
@@ -84,44 +107,30 @@ namespace corotet
 
     /// The same batches as if no cells shared nodes: in each batch, node i of
     /// the cell in lane l has the number l * nodes per cell + i. For sweeps
-    /// over one batch.
+    /// over one batch; there are no chunks.
     CellBatches
     apart() const;
 
-    /// Local numbers of the nodes of a batch, [node][lane].
-    const unsigned int *
+    /// Numbers of the nodes of a batch in its chunk, [node][lane].
+    const std::uint16_t *
     nodes(const unsigned int batch) const
     {
       return node_numbers.data() +
              static_cast<std::size_t>(batch) * n_cell_nodes * batch_size;
     }
 
-    /// Whether a batch has the last local node: four numbers must not be read
-    /// from there.
-    bool
-    is_at_end(const unsigned int batch) const
-    {
-      return at_end[batch] != 0;
-    }
+    /// Those of a local cell.
+    CellNodes
+    cell_nodes(const unsigned int cell) const;
 
-    /// Whether sweeps should ask for nodes_to_fetch() ahead: their vectors of
-    /// numbers of type T are too large for the caches of a processor core.
+    /// Whether sweeps should ask ahead for what they read of the cells: with
+    /// vectors of numbers of type T it is too large for the caches of a
+    /// processor core.
     template <typename T>
     bool
     exceed_caches() const
     {
       return n_local_nodes * sizeof(T) > max_cached_nodes * sizeof(double);
-    }
-
-    /// Local numbers of the nodes of batches [batch, end) that the 8 *
-    /// floats_per_batch batches before do not have, which leaves them far away
-    /// from the processor. Only if they exceed_caches<double>(). @p end may be
-    /// beyond n_batches() by 2 * floats_per_batch.
-    std::span<const unsigned int>
-    nodes_to_fetch(const unsigned int batch, const unsigned int end) const
-    {
-      return {fetched_nodes.data() + fetch_starts[batch],
-              fetched_nodes.data() + fetch_starts[end]};
     }
 
     const std::vector<Chunk> &
@@ -137,16 +146,76 @@ namespace corotet
       return ghosted_chunks;
     }
 
+    /// Those of ghost cells; all their nodes are open.
+    const std::vector<Chunk> &
+    chunks_of_ghosts() const
+    {
+      return plan_of_ghosts;
+    }
+
+    /// The nodes that follow the final ones in a chunk, ascending.
+    std::span<const PartialSum>
+    open_nodes(const Chunk &chunk) const
+    {
+      return {open.data() + chunk.first_open, open.data() + chunk.end_open};
+    }
+
+    /// The final nodes of a chunk to which chunks before have contributed, by
+    /// their numbers in the chunk.
+    std::span<const PartialSum>
+    continued_nodes(const Chunk &chunk) const
+    {
+      return {continued.data() + chunk.first_continued,
+              continued.data() + chunk.end_continued};
+    }
+
+    /// The most that a chunk has.
+    unsigned int
+    max_chunk_nodes() const
+    {
+      return most_nodes;
+    }
+
+    /// Slots of partial sums. The first ones are those of the owned nodes that
+    /// other ranks contribute to and of ghosts, in their order.
+    unsigned int
+    n_slots() const
+    {
+      return slots;
+    }
+
   private:
+    /// Calls function(k, n) for the numbers k among node_numbers of a batch and
+    /// the local nodes n that belong there.
+    template <typename Function>
     void
-    plan_chunks(const Nodes &nodes);
+    for_nodes(const Nodes       &nodes,
+              const unsigned int batch,
+              const Function    &function) const;
+
+    /// Divides batches [begin, end) into chunks, also at @p cuts.
+    std::vector<Chunk>
+    divide(const Nodes                     &nodes,
+           const unsigned int               begin,
+           const unsigned int               end,
+           const std::vector<unsigned int> &cuts) const;
 
     void
-    plan_fetches(const Nodes &nodes);
+    find_final_nodes(const Nodes &nodes);
 
-    /// A sweep reads three numbers of each node and adds to four. Asking ahead
-    /// pays if these take more than 3 MiB: second-level caches have half a
-    /// megabyte to two, and those behind them are shared and slower.
+    void
+    number_nodes(const Nodes &nodes);
+
+    const Chunk &
+    chunk_of(const unsigned int batch) const
+    {
+      const unsigned int c = chunk_of_batch[batch];
+      return c < plan.size() ? plan[c] : plan_of_ghosts[c - plan.size()];
+    }
+
+    /// What a core has to itself is half a megabyte to two, and what lies
+    /// behind that is shared and slower: cells are asked for ahead where
+    /// vectors of three and four numbers for each node take more than 3 MiB.
     static constexpr unsigned int max_cached_nodes =
       (3 << 20) / (7 * sizeof(double));
 
@@ -155,13 +224,16 @@ namespace corotet
     unsigned int               n_owned_cells;
     unsigned int               n_local_cells;
     unsigned int               n_owned;
-    std::vector<unsigned int>  node_numbers;
-    std::vector<unsigned char> at_end;
-    /// nodes_to_fetch() of all batches, and where those of each start; empty
-    /// for small bodies.
-    std::vector<unsigned int>             fetched_nodes;
-    std::vector<unsigned int>             fetch_starts;
+    unsigned int               n_all;
+    std::vector<std::uint16_t> node_numbers;
+    /// Of each batch: its chunk; those of ghost cells are counted on.
+    std::vector<unsigned int>             chunk_of_batch;
     std::vector<Chunk>                    plan;
+    std::vector<Chunk>                    plan_of_ghosts;
+    std::vector<PartialSum>               open;
+    std::vector<PartialSum>               continued;
+    unsigned int                          most_nodes = 0;
+    unsigned int                          slots      = 0;
     std::pair<unsigned int, unsigned int> ghosted_chunks;
     std::shared_ptr<const CurvedBatches>  curved_batches;
   };

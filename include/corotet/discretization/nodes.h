@@ -5,6 +5,7 @@
 #define corotet_discretization_nodes_h
 
 #include <corotet/base/vector.h>
+#include <corotet/discretization/cell_nodes.h>
 #include <corotet/discretization/element.h>
 
 #include <deal.II/base/partitioner.h>
@@ -19,78 +20,6 @@
 namespace corotet
 {
   class CellBatches;
-
-  /**
-   * Local numbers of the nodes of a cell, in the order of the element.
-   */
-  class CellNodes
-  {
-  public:
-    /// Node i is first[std::size_t(i) * stride].
-    CellNodes(const unsigned int *first,
-              const unsigned int  stride,
-              const unsigned int  n)
-      : first(first)
-      , stride(stride)
-      , n(n)
-    {}
-
-    unsigned int
-    size() const
-    {
-      return n;
-    }
-
-    unsigned int
-    operator[](const unsigned int i) const
-    {
-      return first[std::size_t(i) * stride];
-    }
-
-    /// Goes through the nodes.
-    struct Iterator
-    {
-      unsigned int
-      operator*() const
-      {
-        return first[std::size_t(i) * stride];
-      }
-
-      Iterator &
-      operator++()
-      {
-        ++i;
-        return *this;
-      }
-
-      bool
-      operator==(const Iterator &other) const
-      {
-        return i == other.i;
-      }
-
-      const unsigned int *first;
-      unsigned int        stride;
-      unsigned int        i;
-    };
-
-    Iterator
-    begin() const
-    {
-      return {first, stride, 0};
-    }
-
-    Iterator
-    end() const
-    {
-      return {first, stride, n};
-    }
-
-  private:
-    const unsigned int *first;
-    unsigned int        stride;
-    unsigned int        n;
-  };
 
   /**
    * The nodes of an element on a distributed mesh of tetrahedra: which
@@ -160,21 +89,7 @@ namespace corotet
 
     /// Those of local cell @p cell.
     CellNodes
-    cell_nodes(const unsigned int cell) const
-    {
-      if (nodes_of_batches == nullptr)
-        return {nodes_of_cells.data() +
-                  static_cast<std::size_t>(cell) * n_cell_nodes,
-                1,
-                n_cell_nodes};
-      // Batches of ghost cells follow those of owned ones, which are filled up.
-      const unsigned int place = cell < n_owned ? cell : cell + n_filled_up;
-      const unsigned int lane  = place & ((1u << log_width) - 1);
-      const std::size_t  first = place - lane;
-      return {nodes_of_batches + first * n_cell_nodes + lane,
-              1u << log_width,
-              n_cell_nodes};
-    }
+    cell_nodes(const unsigned int cell) const;
 
     dealii::types::global_dof_index
     n_global_nodes() const
@@ -268,10 +183,6 @@ namespace corotet
     std::unique_ptr<CellBatches> cell_batches;
 
   private:
-    /// Those of the batches, once there are any, and how to find a cell there.
-    const unsigned int *nodes_of_batches = nullptr;
-    unsigned int        n_filled_up      = 0;
-    unsigned int        log_width        = 0;
     mutable std::map<std::type_index, std::shared_ptr<void>> work_spaces;
   };
 } // namespace corotet

@@ -25,17 +25,16 @@ namespace corotet
    *
    *   - Data, what it reads and writes, with a member batches, and Number;
    *   - n_batches, how many batches it takes at once;
-   *   - apply(is_curved, data, batch, source, sums): adds to @p sums, four
-   *     numbers per local node, what the cells of a batch make of @p source.
+   *   - apply(is_curved, data, batch, source, sums): adds to @p sums what the
+   *     cells of a batch make of @p source, arrays of the nodes of its chunk.
    *     is_curved is std::true_type or std::false_type, always the latter if
    *     the operation has a member ignores_curvature;
-   *   - fetch(data, batch), if it wants to: asks for what else it reads there.
+   *   - fetch(data, batch), if it wants to: asks for what it reads of cells.
    *
-   * Where vectors are larger than the caches, what the next but one batch needs
-   * is on its way while a batch is worked on: waiting for scattered nodes would
-   * take as long as the work. One batch ahead is too late for short work. For
-   * long work it is early enough, and two cost up to half the time more:
-   * operations with a member works_long get one.
+   * Where that is larger than the caches, what the next but one batch needs is
+   * on its way while a batch is worked on. One batch ahead is too late for
+   * short work. For long work it is early enough, and two cost up to half the
+   * time more: operations with a member works_long get one.
    */
   template <typename Operation>
   class BatchSweep
@@ -85,26 +84,14 @@ namespace corotet
            batch += Operation::n_batches)
         {
           if (fetches)
-            fetch(data, batch + n_batches_ahead, source, sums);
+            fetch(data, batch + n_batches_ahead);
           Operation::apply(is_curved, data, batch, source, sums);
         }
     }
 
     static COROTET_ALWAYS_INLINE void
-    fetch(Data              &data,
-          const unsigned int batch,
-          const Number      *source,
-          Number            *sums)
+    fetch(Data &data, const unsigned int batch)
     {
-      const auto nodes =
-        data.batches.nodes_to_fetch(batch, batch + Operation::n_batches);
-      // Some sweeps have no source, some no sums.
-      if (source != nullptr)
-        for (const unsigned int node : nodes)
-          __builtin_prefetch(source + 3 * static_cast<std::size_t>(node), 0);
-      if (sums != nullptr)
-        for (const unsigned int node : nodes)
-          __builtin_prefetch(sums + 4 * static_cast<std::size_t>(node), 1);
       if constexpr (requires { Operation::fetch(data, batch); })
         if (batch < data.batches.n_owned_batches())
           Operation::fetch(data, batch);

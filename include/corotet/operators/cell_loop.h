@@ -10,14 +10,70 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace corotet
 {
+  /// Copies nodes from a vector with three numbers for each to an aligned array
+  /// with four; @p node(k) is the k-th of @p n, in ascending order.
+  template <typename T, typename Node>
+  COROTET_ALWAYS_INLINE void
+  copy_to_fours(const T           *vector,
+                const unsigned int n,
+                const Node        &node,
+                T                 *fours)
+  {
+    if (n == 0)
+      return;
+    for (unsigned int k = 0; k + 1 < n; ++k)
+      store_aligned(load_unaligned<4>(vector +
+                                      3 * static_cast<std::size_t>(node(k))),
+                    fours + 4 * static_cast<std::size_t>(k));
+    // A fourth number need not be there.
+    std::copy_n(vector + 3 * static_cast<std::size_t>(node(n - 1)),
+                3,
+                fours + 4 * static_cast<std::size_t>(n - 1));
+  }
+
+  /// Copies the nodes of a chunk of cells from a vector of all local nodes to
+  /// an array of the chunk.
+  template <typename T>
+  inline void
+  load_chunk(const CellBatches        &batches,
+             const CellBatches::Chunk &chunk,
+             const T                  *vector,
+             T                        *values)
+  {
+    const auto open = batches.open_nodes(chunk);
+    copy_to_fours(
+      vector,
+      chunk.n_final_nodes(),
+      [&](const unsigned int k) { return chunk.first_node + k; },
+      values);
+    copy_to_fours(
+      vector,
+      open.size(),
+      [&](const unsigned int k) { return open[k].node; },
+      values + 4 * static_cast<std::size_t>(chunk.n_final_nodes()));
+  }
+
+  /// target += source, of four numbers; the source is zero afterwards.
+  template <typename T>
+  COROTET_ALWAYS_INLINE void
+  move_sum(T *source, T *target)
+  {
+    store_aligned(load_aligned<4>(target) + load_aligned<4>(source), target);
+    store_aligned(SimdVector<T, 4>{}, source);
+  }
+
   /**
-   * Sweeps over the owned cells whose contributions to nodes are summed up,
-   * over all ranks. Values of ghosts travel to the ranks that need them, and
-   * contributions to ghosts back to their owners, while cells without ghosts
-   * are worked on. Sums are handed on, chunk by chunk, as soon as they are
-   * complete.
+   * Sweeps over the cells, chunk by chunk, whose contributions to nodes are
+   * summed up, over all ranks. Values of ghosts travel to the ranks that need
+   * them, and contributions to ghosts back to their owners, while cells without
+   * ghosts are worked on. Sums are handed on, chunk by chunk, as soon as they
+   * are complete; those of nodes that other chunks have, too, are kept until
+   * then.
    *
    * @p nodes must outlive this object.
    */
@@ -32,19 +88,19 @@ namespace corotet
       , is_distributed(
           dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
       , space(nodes.work_space<Space>())
-      , sums(space->sums)
+      , partial_sums(space->partial_sums)
       , exchange(space->exchange)
     {}
 
     /**
-     * Runs over all batches of owned cells.
+     * Runs over all owned cells.
      *
-     * @p add(first, end, source, sums) adds what batches [first, end)
-     * contribute to the array sums, four numbers per local node; source are the
-     * local values of @p src. @p take(i, y) gets the sum y of the owned unknown
-     * i, or those of several from i on (see take_sums()); it may change @p src
-     * there. Ghost entries of @p src are brought up to date if they are not in
-     * use, and left as they came. Collective.
+     * @p add(chunk, source, sums) adds what the batches of a chunk contribute
+     * to its array sums; source is the array of its values of @p src. @p
+     * take(i, y) gets the sum y of the owned unknown i, or those of several
+     * from i on (see take_sums()); it may change @p src there. Ghost entries of
+     * @p src are brought up to date if they are not in use, and left as they
+     * came. Collective.
      */
     template <typename Add, typename Take>
     void
@@ -54,14 +110,15 @@ namespace corotet
       const CellBatches &batches  = nodes.batches();
       const auto         ghosted  = batches.chunks_with_ghosts();
       const unsigned int n_chunks = batches.chunks().size();
-      unsigned int       n_taken  = 0;
       const auto sweep = [&](const unsigned int begin, const unsigned int end) {
         for (unsigned int c = begin; c < end; ++c)
           {
             const CellBatches::Chunk &chunk = batches.chunks()[c];
-            add(chunk.first, chunk.end, src.begin(), sums.data());
-            take_sums(sums.data(), n_taken, chunk.n_final, take);
-            n_taken = chunk.n_final;
+            T *const                  sums  = space->sums.data();
+            load_chunk(batches, chunk, src.begin(), space->values.data());
+            add(chunk, static_cast<const T *>(space->values.data()), sums);
+            keep_partial_sums(chunk);
+            take_sums(sums, chunk.first_node, chunk.n_final, take);
           }
       };
 
@@ -76,9 +133,28 @@ namespace corotet
       sweep(ghosted.second, n_chunks);
       if (is_distributed)
         receive_contributions();
-      take_sums(sums.data(), n_taken, nodes.n_owned_nodes(), take);
+      take_sums(partial_sums.data(),
+                nodes.first_shared_node(),
+                nodes.n_owned_nodes(),
+                take);
       if (fetch)
         src.zero_out_ghost_values();
+    }
+
+    /// Calls @p read(chunk, source) for chunks of owned or of ghost cells;
+    /// source is the array of the values of @p src, whose ghosts must be up to
+    /// date. Not collective.
+    template <typename Read>
+    void
+    read(const std::vector<CellBatches::Chunk> &chunks,
+         const VectorType                      &src,
+         const Read                            &read) const
+    {
+      for (const CellBatches::Chunk &chunk : chunks)
+        {
+          load_chunk(nodes.batches(), chunk, src.begin(), space->values.data());
+          read(chunk, static_cast<const T *>(space->values.data()));
+        }
     }
 
     const Nodes &
@@ -88,15 +164,43 @@ namespace corotet
     }
 
   private:
+    /// Of nodes that other chunks have, too: takes what these have contributed
+    /// to final ones, and gives what this one has contributed to others.
+    void
+    keep_partial_sums(const CellBatches::Chunk &chunk) const
+    {
+      const CellBatches &batches = nodes.batches();
+      T *const           sums    = space->sums.data();
+      T *sum = sums + 4 * static_cast<std::size_t>(chunk.n_final_nodes());
+      for (const PartialSum &open : batches.open_nodes(chunk))
+        {
+          move_sum(sum, &partial_sums[4 * static_cast<std::size_t>(open.slot)]);
+          sum += 4;
+        }
+      for (const PartialSum &continued : batches.continued_nodes(chunk))
+        move_sum(&partial_sums[4 * static_cast<std::size_t>(continued.slot)],
+                 sums + 4 * static_cast<std::size_t>(continued.node));
+    }
+
+    /// Of owned nodes that are shared, and then of ghosts.
+    T *
+    partial_sum(const unsigned int node) const
+    {
+      return partial_sums.data() +
+             4 * static_cast<std::size_t>(node - nodes.first_shared_node());
+    }
+
     void
     send_contributions() const
     {
-      take_sums(sums.data(),
-                nodes.n_owned_nodes(),
-                nodes.n_local_nodes(),
-                [&](const unsigned int i, const auto y) {
-                  store_to(y, exchange.begin() + i);
-                });
+      for (unsigned int n = nodes.n_owned_nodes(); n < nodes.n_local_nodes();
+           ++n)
+        for (unsigned int a = 0; a < 3; ++a)
+          {
+            T &sum                          = partial_sum(n)[a];
+            *(exchange.begin() + 3 * n + a) = sum;
+            sum                             = 0;
+          }
       exchange.compress_start(1, dealii::VectorOperation::add);
     }
 
@@ -110,23 +214,30 @@ namespace corotet
         for (unsigned int a = 0; a < 3; ++a)
           {
             T &contribution = *(exchange.begin() + 3 * n + a);
-            sums[4 * static_cast<std::size_t>(n) + a] += contribution;
+            partial_sum(n)[a] += contribution;
             contribution = 0;
           }
     }
 
-    /// Loops over the same cells take turns.
+    /// Loops over the same cells take turns. All numbers are fours.
     struct Space
     {
       explicit Space(const Nodes &nodes)
-        : sums(4 * static_cast<std::size_t>(nodes.n_local_nodes()))
+        : values(4 *
+                 static_cast<std::size_t>(nodes.batches().max_chunk_nodes()))
+        , sums(values.size())
+        , partial_sums(4 * static_cast<std::size_t>(nodes.batches().n_slots()))
       {
         if (dealii::Utilities::MPI::n_mpi_processes(nodes.communicator()) > 1)
           nodes.initialize_vector(exchange);
       }
 
-      /// Four numbers per local node; all zero between sweeps.
+      /// Of the nodes of the chunk that is worked on.
+      dealii::AlignedVector<T> values;
+      /// The same; all zero between chunks.
       dealii::AlignedVector<T> sums;
+      /// See CellBatches; all zero between sweeps.
+      dealii::AlignedVector<T> partial_sums;
       /// Owned entries are zero but between receiving and handing on. Empty on
       /// one rank.
       VectorType exchange;
@@ -135,7 +246,7 @@ namespace corotet
     const Nodes                 &nodes;
     const bool                   is_distributed;
     const std::shared_ptr<Space> space;
-    dealii::AlignedVector<T>    &sums;
+    dealii::AlignedVector<T>    &partial_sums;
     VectorType                  &exchange;
   };
 } // namespace corotet

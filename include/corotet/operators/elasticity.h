@@ -259,6 +259,12 @@ namespace corotet
     /// grad u at the centre of a cell.
     dealii::Tensor<2, 3>
     centre_gradient(const unsigned int cell, const Vector &u) const;
+    /// Lets @p sweep read the displacement @p u in chunks of cells.
+    void
+    read_cells(const ElasticSweep                     sweep,
+               const std::vector<CellBatches::Chunk> &chunks,
+               ElasticData                           &data,
+               const Vector                          &u) const;
     /// f = scale times what @p sweep makes of @p u and @p data.
     template <typename Data>
     void
@@ -289,7 +295,9 @@ namespace corotet
     dealii::AlignedVector<double> linearization;
     /// Where it was made, with ghosts, if the sweeps need it.
     dealii::AlignedVector<double> linearized_displacement;
-    Tangent                       linearized_tangent = Tangent::frozen_rotation;
+    /// That of the chunk of cells that is worked on.
+    mutable dealii::AlignedVector<double> chunk_displacement;
+    Tangent linearized_tangent = Tangent::frozen_rotation;
 
     RotationCounts counts;
 

@@ -9,13 +9,12 @@
 #include <type_traits>
 
 /**
- * Between vectors in memory and registers with one cell per lane.
+ * Between arrays of the nodes of a chunk of cells (CellBatches) and registers
+ * with one cell per lane.
  *
- * Vectors hold x, y, z of one node after another. A node is read as four
- * numbers (the fourth belongs to the next node) and registers of nodes are
- * transposed. Sums are written to an array that has four numbers per node, so
- * that adding to a node is one load, one addition and one store; with three, a
- * store and the next load would overlap, which processors are slow at.
+ * The arrays have four numbers for each node, of which three count: reading a
+ * node is one load, adding to it one load, one addition and one store, none of
+ * which crosses cache lines. Registers of nodes are transposed.
  */
 namespace corotet
 {
@@ -77,20 +76,22 @@ namespace corotet
     }
   } // namespace internal
 
-  /**
-   * Values at the nodes of the cells of one register.
-   * @param numbers Of the nodes, [batch][node][lane], as CellBatches has them.
-   */
+  /// Values at the nodes of the register of cells that starts with @p batch,
+  /// of an array @p source of its chunk.
   template <int n_nodes, typename T>
   COROTET_ALWAYS_INLINE void
-  gather(const T *source, const unsigned int *numbers, Simd<T> (&u)[n_nodes][3])
+  gather_batch(const CellBatches &batches,
+               const unsigned int batch,
+               const T           *source,
+               Simd<T> (&u)[n_nodes][3])
   {
     using internal::shuffle_fours;
+    const std::uint16_t *numbers = batches.nodes(batch);
     for (int i = 0; i < n_nodes; ++i, numbers += batch_size)
       {
         const auto node = [&](const int lane) {
-          return load_unaligned<4>(
-            source + 3 * static_cast<std::size_t>(
+          return load_aligned<4>(
+            source + 4 * static_cast<std::size_t>(
                            numbers[internal::place_in_batches<n_nodes>(lane)]));
         };
         // Transposed blocks of 4 x 4, of which nobody wants the last row.
@@ -106,46 +107,6 @@ namespace corotet
                                             shuffle_fours<1, 5, 3, 7>(r2, r3));
         u[i][2] = shuffle_fours<2, 3, 6, 7>(xz_01, xz_23);
       }
-  }
-
-  /// The same, reading no number but those of the nodes.
-  template <int n_nodes, typename T>
-  __attribute__((noinline)) void
-  gather_one_by_one(const T            *source,
-                    const unsigned int *numbers,
-                    Simd<T> (&u)[n_nodes][3])
-  {
-    for (int i = 0; i < n_nodes; ++i, numbers += batch_size)
-      for (int lane = 0; lane < n_lanes<T>; ++lane)
-        for (int a = 0; a < 3; ++a)
-          u[i][a][lane] =
-            source[3 * static_cast<std::size_t>(
-                         numbers[internal::place_in_batches<n_nodes>(lane)]) +
-                   a];
-  }
-
-  /// Values at the nodes of the register of cells that starts with @p batch.
-  template <int n_nodes, typename T>
-  COROTET_ALWAYS_INLINE void
-  gather_batch(const CellBatches &batches,
-               const unsigned int batch,
-               const T           *source,
-               Simd<T> (&u)[n_nodes][3])
-  {
-    bool at_end = false;
-    for (unsigned int b = 0; b < n_lanes<T> / batch_size; ++b)
-      at_end |= batches.is_at_end(batch + b);
-    if (__builtin_expect(at_end, 0))
-      {
-        // By a copy, so that u itself need not live in memory.
-        Simd<T> copy[n_nodes][3];
-        gather_one_by_one<n_nodes, T>(source, batches.nodes(batch), copy);
-        for (int i = 0; i < n_nodes; ++i)
-          for (int a = 0; a < 3; ++a)
-            u[i][a] = copy[i][a];
-      }
-    else
-      gather<n_nodes, T>(source, batches.nodes(batch), u);
   }
 
   /// The same less the value at the first node: gradients do not see a
@@ -164,34 +125,37 @@ namespace corotet
     });
   }
 
-  /// Adds the values of cells to @p sums, an aligned array of four numbers per
-  /// node.
+  /// Adds the values of the register of cells that starts with @p batch to an
+  /// array @p sums of its chunk.
   template <int n_nodes, typename T>
   COROTET_ALWAYS_INLINE void
-  scatter_add(const Simd<T> (&v)[n_nodes][3],
-              const unsigned int *numbers,
-              T                  *sums)
+  scatter_add(const CellBatches &batches,
+              const unsigned int batch,
+              const Simd<T> (&v)[n_nodes][3],
+              T *sums)
   {
     using internal::shuffle_fours;
+    const std::uint16_t *numbers = batches.nodes(batch);
     for (int i = 0; i < n_nodes; ++i, numbers += batch_size)
       {
         const Simd<T> zero{};
-        const Simd<T> xy_01   = shuffle_fours<0, 4, 1, 5>(v[i][0], v[i][1]);
-        const Simd<T> xy_23   = shuffle_fours<2, 6, 3, 7>(v[i][0], v[i][1]);
-        const Simd<T> z_01    = shuffle_fours<0, 4, 1, 5>(v[i][2], zero);
-        const Simd<T> z_23    = shuffle_fours<2, 6, 3, 7>(v[i][2], zero);
-        const Simd<T> rows[4] = {shuffle_fours<0, 1, 4, 5>(xy_01, z_01),
-                                 shuffle_fours<2, 3, 6, 7>(xy_01, z_01),
-                                 shuffle_fours<0, 1, 4, 5>(xy_23, z_23),
-                                 shuffle_fours<2, 3, 6, 7>(xy_23, z_23)};
-        static_for<n_lanes<T>>([&](const auto lane) {
-          T *const sum =
+        const Simd<T> xy_02   = shuffle_fours<0, 4, 2, 6>(v[i][0], v[i][1]);
+        const Simd<T> xy_13   = shuffle_fours<1, 5, 3, 7>(v[i][0], v[i][1]);
+        const Simd<T> z_02    = shuffle_fours<0, 4, 2, 6>(v[i][2], zero);
+        const Simd<T> z_13    = shuffle_fours<1, 5, 3, 7>(v[i][2], zero);
+        const Simd<T> rows[4] = {shuffle_fours<0, 1, 4, 5>(xy_02, z_02),
+                                 shuffle_fours<0, 1, 4, 5>(xy_13, z_13),
+                                 shuffle_fours<2, 3, 6, 7>(xy_02, z_02),
+                                 shuffle_fours<2, 3, 6, 7>(xy_13, z_13)};
+        static_for<n_lanes<T>>([&](auto lane) {
+          constexpr int r = lane % 4, b = lane / 4;
+          T *const      sum =
             sums + 4 * static_cast<std::size_t>(
                          numbers[internal::place_in_batches<n_nodes>(lane)]);
-          const auto value =
-            internal::block<lane / 4>(rows[lane % 4],
-                                      std::make_integer_sequence<int, 4>());
-          store_aligned(load_aligned<4>(sum) + value, sum);
+          store_aligned(
+            load_aligned<4>(sum) +
+              internal::block<b>(rows[r], std::make_integer_sequence<int, 4>()),
+            sum);
         });
       }
   }
@@ -214,38 +178,26 @@ namespace corotet
     /// take_sums() of as many nodes as a register of @p n numbers has.
     template <int n, typename T, typename Function>
     COROTET_ALWAYS_INLINE void
-    take_sums_of(T *sums, const unsigned int node, const Function &function)
+    take_sums_of(T *sums, const unsigned int first, const Function &function)
     {
       using V            = SimdVector<T, n>;
-      T *const       s   = sums + 4 * static_cast<std::size_t>(node);
       constexpr auto all = std::make_integer_sequence<int, n>();
       V              registers[4];
-      static_for<4>([&](auto k) { registers[k] = load_aligned<n>(s + k * n); });
+      static_for<4>(
+        [&](auto k) { registers[k] = load_aligned<n>(sums + k * n); });
       static_for<3>([&](auto k) {
-        function(3 * node + k * n,
+        function(first + k * n,
                  without_fourths<k, n>(registers[k], registers[k + 1], all));
       });
-      static_for<4>([&](auto k) { store_aligned(V{}, s + k * n); });
+      static_for<4>([&](auto k) { store_aligned(V{}, sums + k * n); });
     }
   } // namespace internal
 
-  /// take_sums() of one node.
-  template <typename T, typename Function>
-  COROTET_ALWAYS_INLINE void
-  take_sum(T *sums, const unsigned int node, const Function &function)
-  {
-    for (unsigned int a = 0; a < 3; ++a)
-      {
-        T &sum = sums[4 * static_cast<std::size_t>(node) + a];
-        function(3 * node + a, sum);
-        sum = 0;
-      }
-  }
-
   /**
-   * Takes the sums of nodes [begin, end) out of @p sums, which are zero
-   * afterwards, and calls function(i, y): y is the sum of unknown i of a
-   * vector, or a SimdVector of those from i on.
+   * Takes the sums of nodes [begin, end), which follow each other in the
+   * aligned array @p sums from its start on with four numbers each and are zero
+   * afterwards. Calls function(i, y): y is the sum of unknown i, or a
+   * SimdVector of those from i on.
    */
   template <typename T, typename Function>
   inline void
@@ -260,16 +212,17 @@ namespace corotet
     constexpr unsigned int n_narrow = 4;
     constexpr unsigned int n_wide =
       std::is_same_v<T, float> ? n_lanes<T> : n_narrow;
-    // Where such registers may be loaded.
     unsigned int n = begin;
-    for (; n % (n_wide / 4) != 0 && n < end; ++n)
-      take_sum(sums, n, function);
-    for (; n + n_wide <= end; n += n_wide)
-      internal::take_sums_of<n_wide>(sums, n, function);
-    for (; n + n_narrow <= end; n += n_narrow)
-      internal::take_sums_of<n_narrow>(sums, n, function);
-    for (; n < end; ++n)
-      take_sum(sums, n, function);
+    for (; n + n_wide <= end; n += n_wide, sums += 4 * n_wide)
+      internal::take_sums_of<n_wide>(sums, 3 * n, function);
+    for (; n + n_narrow <= end; n += n_narrow, sums += 4 * n_narrow)
+      internal::take_sums_of<n_narrow>(sums, 3 * n, function);
+    for (; n < end; ++n, sums += 4)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          function(3 * n + a, sums[a]);
+          sums[a] = 0;
+        }
   }
 
   /// A number or a SimdVector from memory, as V says; and back.

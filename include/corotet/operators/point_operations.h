@@ -173,7 +173,7 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     add_to(double *sums, const NodalValues &f) const
     {
-      scatter_add<n_nodes>(f, data.batches.nodes(batch), sums);
+      scatter_add<n_nodes>(data.batches, batch, f, sums);
     }
 
     /// Where the batch's numbers of a linearization are written.

@@ -62,9 +62,9 @@ namespace corotet
   };
 
   /**
-   * Adds to @p sums, four numbers per local node, what batches [first, end) of
-   * owned cells contribute to K source / stiffness_scale + mass_factor M source
-   * / mass_scale, or to one of the terms.
+   * Adds to @p sums what batches [first, end) of a chunk contribute to K source
+   * / stiffness_scale + mass_factor M source / mass_scale, or to one of the
+   * terms. Source and sums have four numbers for each node of the chunk.
    */
   template <typename T>
   using FormSweep = void (*)(const FormData<T> &data,

@@ -8,6 +8,7 @@
 #include <corotet/discretization/discretization.h>
 #include <corotet/material/isotropic.h>
 #include <corotet/operators/block_matrix.h>
+#include <corotet/operators/cell_loop.h>
 #include <corotet/operators/material_nodes.h>
 #include <corotet/operators/sweep.h>
 
@@ -130,9 +131,19 @@ namespace corotet
     template <bool with_rotation_part>
     void
     add_stress(Vector            &f,
-               const double      *source,
+               const Vector      &source,
                const double       factor,
                const ElasticData &data);
+    /// Calls read(batch, values) for all local batches, with the values of @p
+    /// source in the chunk, and after_chunk(chunk).
+    template <typename Read, typename AfterChunk>
+    void
+    read_cells(const Vector     &source,
+               const Read       &read,
+               const AfterChunk &after_chunk) const;
+    template <typename Read>
+    void
+    read_cells(const Vector &source, const Read &read) const;
     /// Mean of the four vertices of each cell of a batch.
     Simd<double>
     mean_pressure(const unsigned int batch) const;
@@ -157,8 +168,11 @@ namespace corotet
     std::vector<double> moduli;
     /// Of each copy; see make_pressures().
     std::vector<double> values;
+    CellLoop<double>    cell_loop;
     /// Four numbers per local node; zero between sweeps.
     dealii::AlignedVector<double> sums;
+    /// Those of the chunk of cells that is worked on.
+    dealii::AlignedVector<double> chunk_sums;
     /// p V G^{-1} of all local batches, [6][lane] each.
     dealii::AlignedVector<double> linearization;
 
