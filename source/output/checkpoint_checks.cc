@@ -4,6 +4,7 @@
 // What the run of a checkpoint must have in common with the one that goes on.
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/output/checkpoints.h>
 #include <corotet/output/table_checksums.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <string_view>
 
 namespace corotet
 {
@@ -75,16 +77,35 @@ namespace corotet
           entries[path + key] = node.get<std::string>();
     }
 
-    // Whether two texts are the same but for the way to write a number, and
-    // for blanks, which files do not keep all.
-    bool
-    is_same(std::string a, std::string b)
+    // The items of a list, of whatever kind, and what separates them, without
+    // blanks around them.
+    std::vector<std::string>
+    items_and_separators(const std::string &text)
     {
-      for (std::string *const text : {&a, &b})
-        {
-          std::replace(text->begin(), text->end(), '\t', ' ');
-          *text = dealii::Utilities::trim(*text);
-        }
+      std::vector<std::string> parts(1);
+      for (std::size_t i = 0; i < text.size(); ++i)
+        if (const std::size_t end = end_of_quotes(text, i);
+            end != std::string::npos)
+          {
+            parts.back() += text.substr(i, end + 1 - i);
+            i = end;
+          }
+        else if (std::string_view(",;:&").find(text[i]) !=
+                 std::string_view::npos)
+          {
+            parts.emplace_back(1, text[i]);
+            parts.emplace_back();
+          }
+        else
+          parts.back() += text[i] == '\t' ? ' ' : text[i];
+      for (std::string &part : parts)
+        part = dealii::Utilities::trim(part);
+      return parts;
+    }
+
+    bool
+    is_same_text_or_number(const std::string &a, const std::string &b)
+    {
       if (a == b)
         return true;
       char        *end_a = nullptr, *end_b = nullptr;
@@ -92,6 +113,20 @@ namespace corotet
                    y = std::strtod(b.c_str(), &end_b);
       return !a.empty() && !b.empty() && *end_a == '\0' && *end_b == '\0' &&
              x == y;
+    }
+
+    // Whether two texts are the same but for the way to write numbers, and for
+    // blanks around the items of lists.
+    bool
+    is_same(const std::string &a, const std::string &b)
+    {
+      const std::vector<std::string> parts_a = items_and_separators(a),
+                                     parts_b = items_and_separators(b);
+      return std::equal(parts_a.begin(),
+                        parts_a.end(),
+                        parts_b.begin(),
+                        parts_b.end(),
+                        is_same_text_or_number);
     }
   } // namespace
 

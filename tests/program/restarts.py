@@ -7,6 +7,7 @@ start, or is run once more from its own parameters, finds its results and its fi
 
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -61,6 +62,28 @@ class Restarts(ProgramTest):
         for step in ("0.03", "0.5", "1e-3"):
             self.run_entries(SHORT, "--restart", "--set", f"Time integration/Time step = {step}")
             self.assertEqual(rows_without_time(self.folder / "run"), rows)
+
+    def test_other_spelling(self):
+        """Blanks around the items of lists and the spelling of numbers do not matter, with a checkpoint and without; formulas do."""
+        entries = {**SHORT, "Mesh/box/Size": "1, 0.1, 0.1", "Material/Density": "body: 1000", "Boundary conditions/Fixed": "x-min & z-min, x-min",
+                   "Boundary conditions/Displacement": "x-max & z-max: free; 0.1*t; 0"}
+        others = {"Mesh/box/Cells": "4,1,1", "Mesh/box/Size": "1.0,1e-1 , 0.10", "Material/Density": "body:1e3", "Loads/Gravity": "0;0.0;-1e1",
+                  "Boundary conditions/Fixed": "x-min&z-min,x-min", "Boundary conditions/Displacement": "x-max&z-max:free;0.1*t;0.0",
+                  "Output/Probes": "tip:1 0.05 0.05"}
+        others = [word for entry, value in others.items() for word in ("--set", f"{entry} = {value}")]
+        self.run_entries(entries)
+        before = contents(self.folder / "run")
+        for change, found in (("Loads/Gravity", "0; 0; -5*2"), ("Loads/Gravity", "0; 0; -10.1"), ("Mesh/box/Cells", "4, 1, 2"),
+                              ("Boundary conditions/Displacement", "x-max & z-max: free; 0.1 * t; 0"), ("Output/Probes", "tip: 1 0.05 0.05, mid: 0.5 0.05 0.05")):
+            self.check_refused(before, self.run_entries(entries, "--restart", *others, "--set", f"{change} = {found}", status=1),
+                               f"--set: {change}: --restart: found '{re.escape(found)}', which the run cannot go on with")
+        run = self.run_entries(entries, "--restart", *others, "--set", "Time integration/End time = 0.3")
+        self.assertNotIn("begins anew", run.stdout)
+        self.assertEqual(float(read_history(self.folder / "run")[0]["time"]), 0)
+        self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.3, delta=1e-12)
+        self.run_killed(entries, "--set", "Output/Overwrite = true")
+        shutil.rmtree(self.folder / "run" / "checkpoint", ignore_errors=True)
+        self.assertIn("the run begins anew", self.run_entries(entries, "--restart", *others).stdout)
 
     def test_refusals_change_no_file(self):
         """Neither do those that are found when the checkpoint has been read."""

@@ -63,8 +63,8 @@ namespace corotet
 
   /// The first entry that differs and with which a run that began with the
   /// entries @p before cannot go on, if there is one; both are the text of
-  /// every entry. How a number is written does not matter, nor do entries that
-  /// only one of them has.
+  /// every entry. How numbers are written does not matter, nor do blanks around
+  /// the items of lists, and entries that only one of them has.
   std::optional<ChangedEntry>
   forbidden_change(const nlohmann::ordered_json &before,
                    const nlohmann::ordered_json &now);
