@@ -296,7 +296,7 @@ namespace corotet
 
     zero = !space_dependent && !time_dependent;
     for (unsigned int c = 0; zero && c < n_components; ++c)
-      zero = value(dealii::Point<3>(), 0, c) == 0;
+      zero = formulas->value(dealii::Point<3>(), 0, c) == 0;
   }
 
   unsigned int
@@ -369,5 +369,18 @@ namespace corotet
     for (unsigned int c = 0; c < 3; ++c)
       result[c] = value(p, t, c);
     return result;
+  }
+
+  bool
+  is_zero_expression(const std::string &text, const unsigned int n_components)
+  {
+    try
+      {
+        return Expression(text, n_components, "").is_zero();
+      }
+    catch (const InputError &)
+      {
+        return false;
+      }
   }
 } // namespace corotet

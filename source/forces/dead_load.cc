@@ -3,8 +3,6 @@
 
 #include <corotet/forces/dead_load.h>
 
-#include <deal.II/base/utilities.h>
-
 namespace corotet
 {
   using dealii::Point;
@@ -81,10 +79,9 @@ namespace corotet
   std::vector<ForceKind::GivenEntry>
   VectorFieldKind::given() const
   {
-    const std::string none = "0; 0; 0";
-    if (dealii::Utilities::trim(text) == none)
+    if (is_zero_expression(text, 3))
       return {};
-    return {{"Loads/" + entry, text, none}};
+    return {{"Loads/" + entry, text, "0; 0; 0"}};
   }
 
   void

@@ -33,35 +33,31 @@ namespace corotet
     , coefficients(discretization, context.reference)
     , surface_operator(discretization)
   {
-    evaluate(time, [&](const std::string &message) {
-      throw InputError(entry, message);
-    });
+    evaluate(time);
   }
 
   double
-  SurfaceCoefficient::checked_value(
-    const Point<3>                                 &x,
-    const unsigned int                              component,
-    const std::function<void(const std::string &)> &error) const
+  SurfaceCoefficient::checked_value(const Point<3>    &x,
+                                    const unsigned int component) const
   {
     const double k = value.value(x, time, component);
     if (!(k >= 0) || !std::isfinite(k))
-      error(fmt::format("found the value {:g} at ({:.6g}, {:.6g}, {:.6g}) of "
-                        "boundary '{}' at t = {:g}; allowed: finite values, "
-                        "none below zero",
-                        k,
-                        x[0],
-                        x[1],
-                        x[2],
-                        discretization.mesh().boundaries().name(boundary),
-                        time));
+      throw InputError(
+        entry,
+        fmt::format("found the value {:g} at ({:.6g}, {:.6g}, {:.6g}) of "
+                    "boundary '{}' at t = {:g}; allowed: finite values, "
+                    "none below zero",
+                    k,
+                    x[0],
+                    x[1],
+                    x[2],
+                    discretization.mesh().boundaries().name(boundary),
+                    time));
     return k;
   }
 
   void
-  SurfaceCoefficient::evaluate(
-    const double                                    time,
-    const std::function<void(const std::string &)> &error) const
+  SurfaceCoefficient::evaluate(const double time) const
   {
     this->time = time;
     coefficients.clear();
@@ -70,12 +66,12 @@ namespace corotet
         SurfaceMatrix::Tensor D;
         if (direction == Direction::axes)
           for (unsigned int a = 0; a < 3; ++a)
-            D[a][a] = checked_value(point.at_rest, a, error);
+            D[a][a] = checked_value(point.at_rest, a);
         else
           {
             const Tensor<1, 3> n = point.area / point.area.norm();
-            D                    = checked_value(point.at_rest, 0, error) *
-                symmetrize(outer_product(n, n));
+            D =
+              checked_value(point.at_rest, 0) * symmetrize(outer_product(n, n));
           }
         return D;
       });
@@ -89,15 +85,13 @@ namespace corotet
     if (depends_on_time() && time != this->time)
       try
         {
-          evaluate(time, [&](const std::string &message) {
-            throw ComputationError(entry + ": " + message);
-          });
+          evaluate(time);
         }
-      catch (...)
+      catch (const InputError &error)
         {
           // Numbers of no time.
           this->time = std::numeric_limits<double>::quiet_NaN();
-          throw;
+          throw WrongValueError(error);
         }
     return coefficients;
   }

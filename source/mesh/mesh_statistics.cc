@@ -52,8 +52,13 @@ namespace corotet
         geometry_degree,
         element_degree == 1 ?
           "taken as straight ones by elements of degree 1" :
-          fmt::format("smallest Jacobian determinant {:.3g} times its mean "
+          fmt::format("{}smallest Jacobian determinant {:.3g} times its mean "
                       "in the cell",
+                      geometry_degree > element_degree ?
+                        fmt::format("taken as ones of degree {0} by elements "
+                                    "of degree {0}, ",
+                                    element_degree) :
+                        "",
                       least_determinant)));
     if (quality.smallest_dihedral_angle < 2)
       log.warning("the mesh has almost flat cells; solvers will need many "

@@ -47,6 +47,45 @@ namespace corotet::selections
 
 
 
+    [[noreturn]] void
+    refuse_shape(const std::string              &what,
+                 const std::vector<std::string> &words,
+                 const std::string              &allowed,
+                 const std::string              &entry)
+    {
+      throw InputError(entry,
+                       fmt::format("{}: found '{}'; allowed {}",
+                                   what,
+                                   shortened(join(words, " ")),
+                                   allowed));
+    }
+
+
+
+    // A shape of another kind of members.
+    [[noreturn]] void
+    refuse_kind(const std::string              &reason,
+                const std::vector<std::string> &words,
+                const Members                  &members,
+                const std::string              &entry)
+    {
+      std::vector<std::string> allowed;
+      for (const auto &[name, kind] : kinds)
+        {
+          const bool is_of_faces = name == "normal" || name == "patch";
+          if (is_of_faces ?
+                members.surface != nullptr || !members.normals.empty() :
+                name != "sharp" || !members.angles.empty())
+            allowed.push_back("'" + kind.allowed + "'");
+        }
+      refuse_shape("a " + members.kind + " " + reason,
+                   words,
+                   "are " + join(allowed),
+                   entry);
+    }
+
+
+
     // Of a whole word, finite.
     bool
     parse(const std::string &word, double &number)
@@ -196,11 +235,7 @@ namespace corotet::selections
     const Kind        &kind = kinds.at(name);
     Numbers            n;
     const auto         refuse = [&](const std::string &what) {
-      throw InputError(entry,
-                       fmt::format("{}: found '{}'; allowed is '{}'",
-                                   what,
-                                   shortened(join(words, " ")),
-                                   kind.allowed));
+      refuse_shape(what, words, "is '" + kind.allowed + "'", entry);
     };
     for (std::size_t i = 1; i < words.size(); ++i)
       if (double number = 0; parse(words[i], number))
@@ -218,10 +253,9 @@ namespace corotet::selections
     if (is_of_faces && members.surface != nullptr)
       return of_nearest_face(measure(words, *members.surface, entry), members);
     if (is_of_faces && members.normals.empty())
-      refuse(
-        fmt::format("a {} has no normal and is on no patch", members.kind));
+      refuse_kind("has no normal and is on no patch", words, members, entry);
     if (name == "sharp" && members.angles.empty())
-      refuse(fmt::format("a {} is not between two faces", members.kind));
+      refuse_kind("is not between two faces", words, members, entry);
     if ((name == "plane" && point(n, 3).norm() == 0) ||
         (name == "normal" && point(n, 0).norm() == 0))
       refuse("a direction is zero");

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/expression.h>
 #include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/forces/body_force.h>
@@ -11,6 +12,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace corotet
 {
@@ -36,16 +39,18 @@ namespace corotet
   {
     const BoundaryConditionParameters &conditions =
       parameters.boundary_conditions;
-    const std::string                  zero = "0; 0; 0";
     std::vector<ForceKind::GivenEntry> data{
       {"Boundary conditions/Fixed", conditions.fixed, ""},
       {"Boundary conditions/Displacement", conditions.displacement, ""},
       {"Boundary conditions/Traction", conditions.traction, ""},
-      {"Boundary conditions/Pressure", conditions.pressure, ""},
-      {"Initial conditions/Displacement",
-       parameters.initial_displacement,
-       zero},
-      {"Initial conditions/Velocity", parameters.initial_velocity, zero}};
+      {"Boundary conditions/Pressure", conditions.pressure, ""}};
+    for (const auto &[entry, value] :
+         {std::pair{"Initial conditions/Displacement",
+                    parameters.initial_displacement},
+          std::pair{"Initial conditions/Velocity",
+                    parameters.initial_velocity}})
+      if (!is_zero_expression(value, 3))
+        data.push_back({entry, value, "0; 0; 0"});
     for (const ForceKind::GivenEntry &given : parameters.forces.given())
       data.push_back(given);
     for (const ForceKind::GivenEntry &given : data)

@@ -114,9 +114,9 @@ namespace corotet
         {
           equation.evaluate_forces(state, time, 1.);
         }
-      catch (const ComputationError &error)
+      catch (const WrongValueError &error)
         {
-          throw InputError("", error.what());
+          throw InputError(error.cause);
         }
       const auto found =
         take_not_finite(equation.body.discretization.communicator());

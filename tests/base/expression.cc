@@ -198,6 +198,19 @@ TEST(Expression, NotesValuesThatAreNotFinite)
   EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
 }
 
+// However it is written; what is no formula, or may be anything, is not zero.
+TEST(Expression, ZeroTexts)
+{
+  take_not_finite(MPI_COMM_WORLD);
+  for (const std::string text : {"0; 0; 0", " 0;0.0 ;-0", "1-1; 0; 0*pi"})
+    EXPECT_TRUE(is_zero_expression(text, 3)) << text;
+  for (const std::string text :
+       {"0; 0; 1", "0; 0; t", "0; 0", "", "0; 0; f(t)", "0; 0; 1/0"})
+    EXPECT_FALSE(is_zero_expression(text, 3)) << text;
+  // Nothing is computed with these.
+  EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
+}
+
 // What reads formulas calls itself for each of them.
 TEST(Expression, RefusesDeepParentheses)
 {

@@ -4,6 +4,7 @@
 // Springs and dashpots on the surface: their forces, energies and matrices, on
 // straight and curved faces, for each element and each level of p-multigrid.
 
+#include <corotet/base/exceptions.h>
 #include <corotet/discretization/coarser_nodes.h>
 #include <corotet/operators/surface_matrix.h>
 
@@ -317,6 +318,33 @@ TEST(Dashpots, Force)
   EXPECT_TRUE(terms.surface_matrix_depends_on_time());
   EXPECT_FALSE(terms.has_elastic());
   EXPECT_EQ(terms.energy({3., u, v}), 0);
+}
+
+// What is wrong at a later time is the same mistake of the same entry as at the
+// start, and values of other times are as good as before.
+TEST(Supports, WrongValuesOfLaterTimes)
+{
+  Block             body(1, supports("z-min: 1 - t; 0; 0"));
+  const ForceTerms &terms  = body.system.equation().terms;
+  const Vector      u      = translation(body, Tensor<1, 3>({2, 3, 4}));
+  const double      energy = terms.energy({0.5, u, u});
+  try
+    {
+      terms.energy({3., u, u});
+      FAIL() << "nothing was refused";
+    }
+  catch (const WrongValueError &error)
+    {
+      EXPECT_EQ(error.cause.entry, "Supports/Elastic");
+      const std::string text = error.cause.what();
+      EXPECT_TRUE(text.starts_with("found the value -2 at (")) << text;
+      EXPECT_TRUE(text.ends_with(" at t = 3; allowed: finite values, none "
+                                 "below zero"))
+        << text;
+      EXPECT_EQ(error.what(), "Supports/Elastic: " + text);
+      EXPECT_EQ(error.exit_status, 2);
+    }
+  EXPECT_EQ(terms.energy({0.5, u, u}), energy);
 }
 
 // Without the section there is nothing of it; zero stiffness is none, too.

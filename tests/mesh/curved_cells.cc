@@ -13,6 +13,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
 
 #include "mesh/tools.h"
 
@@ -218,6 +221,40 @@ TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
             std::string::npos);
   EXPECT_EQ(refusal([&] { check_mesh(mesh, 2); }), "nothing was refused");
   EXPECT_NEAR(check_curved_cells(mesh, "", 2, MPI_COMM_SELF), 1, 1e-14);
+}
+
+// Where elements have a lower degree than the cells, their volume is not that
+// of the geometry, which the line above tells: so the log says what they take.
+TEST(CurvedCells, LogSaysWhatElementsTake)
+{
+  const TemporaryFolder folder;
+  SerialMesh            mesh;
+  mesh.vertices        = {Point<3>(0, 0, 0),
+                          Point<3>(1, 0, 0),
+                          Point<3>(0, 1, 0),
+                          Point<3>(0, 0, 1)};
+  mesh.cells           = {{{{0, 1, 2, 3}}, 0, 0}};
+  mesh.geometry_degree = 3;
+  mesh.curved_nodes    = map_points(3);
+  for (Point<3> &x : mesh.curved_nodes)
+    x[1] -= 0.1 * x[0] * (1 - x[0]);
+  for (const auto &[degree, said] : std::map<unsigned int, std::string>{
+         {1, "taken as straight ones by elements of degree 1"},
+         {2, "taken as ones of degree 2 by elements of degree 2, smallest "},
+         {3, "smallest Jacobian determinant "}})
+    {
+      const std::string file = folder / fmt::format("{}.txt", degree);
+      {
+        Log log(MPI_COMM_SELF, true);
+        log.open(file);
+        Mesh(mesh, 0, 1., MPI_COMM_SELF, log, degree);
+      }
+      std::stringstream text;
+      text << std::ifstream(file).rdbuf();
+      EXPECT_NE(text.str().find("  1 curved cells of degree 3, " + said),
+                std::string::npos)
+        << text.str();
+    }
 }
 
 TEST(CurvedCells, Refusals)

@@ -110,8 +110,9 @@ TEST(SelectedEdges, Refusals)
        "m away");
   says("",
        "a: sharp",
-       "a corner is not between two faces: found 'sharp'; allowed is 'sharp "
-       "[angle]'");
+       "a corner is not between two faces: found 'sharp'; allowed are 'box x y "
+       "z x y z', 'cylinder x y z x y z radius', 'normal nx ny nz [angle]', "
+       "'patch x y z [angle]', 'plane x y z nx ny nz', 'sphere x y z radius'");
   says("a: sharp 1 2",
        "",
        "a shape has another number of numbers: found 'sharp 1 2'; allowed is "

@@ -234,9 +234,12 @@ namespace
     EXPECT_EQ(refusal([] { with(box(), "x-min"); }),
               "Selections/Boundaries: found 'x-min'; allowed: "
               "'name: selection, name: selection'");
-    EXPECT_NE(refusal([] { with(box(), "", "part: normal 0 0 1"); })
-                .find("Selections/Regions: a cell has no normal and is on no "
-                      "patch"),
-              std::string::npos);
+    for (const std::string shape : {"normal 0 0 1", "patch 0 0 1"})
+      EXPECT_EQ(refusal([&] { with(box(), "", "part: " + shape); }),
+                "Selections/Regions: a cell has no normal and is on no patch: "
+                "found '" +
+                  shape +
+                  "'; allowed are 'box x y z x y z', 'cylinder x y z x y z "
+                  "radius', 'plane x y z nx ny nz', 'sphere x y z radius'");
   }
 } // namespace

@@ -346,6 +346,12 @@ end
         self.assertIn("failed", {row["status"] for row in self.rows()})
         self.assertEqual(read_summary(self.folder / "out")["status"], "failed")
 
+    def test_no_data_in_any_spelling(self):
+        """Where the data are made, zero is no datum, however it is written."""
+        settings = [word for entry in ("Loads/Gravity", "Loads/Body force", "Initial conditions/Displacement", "Initial conditions/Velocity")
+                    for word in ("--set", f"{entry} = 0;0.0;-0")]
+        self.study(EXACT, "--validate", *settings)
+
     def test_refusals(self):
         """Mistakes are found before the first run."""
         for setting, message in (
@@ -360,6 +366,7 @@ end
             ("Exact solution/Displacement = ", "Exact solution/Displacement is empty"),
             ("Exact solution/Displacement boundary = top", "Exact solution/Displacement boundary"),
             ("Loads/Gravity = 0; 0; -9.81", "Loads/Gravity: found '0; 0; -9.81', but the data are made"),
+            ("Initial conditions/Velocity = 0;0;x", "Initial conditions/Velocity: found '0;0;x', but the data are made from the exact solution; allowed: '0; 0; 0', or"),
             ("Convergence study/Run = modes", "found 'exact solution' for modes"),
         ):
             with self.subTest(setting):

@@ -55,6 +55,21 @@ namespace corotet
   };
 
   /**
+   * An entry's value is wrong at a time that the computation has come to, which
+   * was not looked at before the start, when it would have been @p cause.
+   */
+  class WrongValueError : public ComputationError
+  {
+  public:
+    explicit WrongValueError(const InputError &cause)
+      : ComputationError(cause.entry + ": " + cause.what())
+      , cause(cause)
+    {}
+
+    const InputError cause;
+  };
+
+  /**
    * The machine failed (disk full, no permission): exit status 3.
    */
   class MachineError : public Error

@@ -86,6 +86,11 @@ namespace corotet
     bool time_dependent  = false;
     bool zero            = false;
   };
+
+  /// Whether @p text is an Expression with so many components, all of which are
+  /// constants of value zero; false if it is none, or one with tables.
+  bool
+  is_zero_expression(const std::string &text, const unsigned int n_components);
 } // namespace corotet
 
 #endif

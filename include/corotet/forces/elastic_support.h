@@ -7,8 +7,6 @@
 #include <corotet/forces/force_kind.h>
 #include <corotet/operators/surface_matrix.h>
 
-#include <functional>
-
 namespace corotet
 {
   /**
@@ -49,7 +47,7 @@ namespace corotet
       return value.is_zero();
     }
 
-    /// At that time. Throws ComputationError if values are negative or not
+    /// At that time. Throws WrongValueError if values are negative or not
     /// finite. Collective.
     const SurfaceMatrix &
     matrix(const double time) const;
@@ -58,14 +56,12 @@ namespace corotet
     operator_at(const double time) const;
 
   private:
-    /// Throws what @p error makes of a message.
+    /// Both throw InputError.
     void
-    evaluate(const double                                    time,
-             const std::function<void(const std::string &)> &error) const;
+    evaluate(const double time) const;
     double
-    checked_value(const dealii::Point<3>                         &x,
-                  const unsigned int                              component,
-                  const std::function<void(const std::string &)> &error) const;
+    checked_value(const dealii::Point<3> &x,
+                  const unsigned int      component) const;
 
     const Discretization           &discretization;
     const unsigned int              boundary;
