@@ -213,9 +213,9 @@ namespace corotet
     source.declare_parameters(prm, "Where the mesh comes from.");
     prm.add_parameter("Refinements",
                       n_refinements,
-                      "How often every tetrahedron is cut into eight [-]. Of a "
-                      ".geo, new vertices lie on the geometry; parts of "
-                      "curved cells lie on these.",
+                      "How often every tetrahedron is cut into eight [-]. New "
+                      "vertices lie on a geometry (.geo, STEP, IGES, BREP; not "
+                      "always on triangles), parts of curved cells on these.",
                       dealii::Patterns::Integer(0, 9));
     prm.add_parameter("Scale",
                       scale,

@@ -36,14 +36,21 @@ namespace corotet
                       "Whether degree 1, as the lowest level, also has the "
                       "rotations of the vertices, with which it bends: thin "
                       "cells need a fraction of the iterations so, and the "
-                      "level has twice as many unknowns. 'automatic': where "
-                      "more than a tenth of the cells are flat or stretched. "
-                      "Not with 'Coarse solver = amg', which knows none.",
+                      "level has twice as many unknowns. 'automatic': on "
+                      "bodies of few layers of cells (more than one face of "
+                      "the surface for every four cells) more than a tenth of "
+                      "whose cells are flat or stretched by more than 4, and "
+                      "on other bodies of up to 'Direct limit' unknowns of "
+                      "degree 1 whose cells are so by more than 15 in the "
+                      "mean. Not with 'Coarse solver = amg', which knows none.",
                       dealii::Patterns::Selection("automatic|true|false"));
     prm.add_parameter("Direct limit",
                       direct_limit,
-                      "Unknowns of degree 1 up to which 'automatic' means "
-                      "'direct' [-].",
+                      "Unknowns of degree 1 up to which 'automatic' of 'Coarse "
+                      "solver' means 'direct' [-]. Bodies of few layers of "
+                      "cells with rotations of the vertices may have 8 times "
+                      "as many, if factors take no more operations than those "
+                      "of a cube of that limit.",
                       dealii::Patterns::Integer(0));
   }
 } // namespace corotet

@@ -4,6 +4,7 @@
 #include <corotet/base/unused_entries.h>
 #include <corotet/studies/unused_parameters.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -18,7 +19,11 @@ namespace corotet
     const nlohmann::ordered_json solver = file.values().at("Linear solver");
     if (solver.at("Type") == "automatic")
       used.emplace_back("Linear solver/p-multigrid");
-    if (solver.at("p-multigrid").at("Coarse solver") == "amg")
+    const auto &multigrid = solver.at("p-multigrid");
+    const bool  is_multigrid =
+      solver.at("Type") == "automatic" || solver.at("Type") == "p-multigrid";
+    const bool is_amg_coarse = multigrid.at("Coarse solver") == "amg";
+    if (is_amg_coarse)
       used.emplace_back("Linear solver/amg");
     const RunType type              = parameters.simulation.type;
     const bool    is_study_of_modes = type == RunType::convergence_study &&
@@ -26,6 +31,17 @@ namespace corotet
     if (is_study_of_modes)
       used.emplace_back("Modes");
     std::vector<std::string> lines = find_unused_entries(file, used);
+    if (is_multigrid && is_amg_coarse &&
+        multigrid.at("Vertex rotations") == "true")
+      {
+        const std::string section = "Linear solver/p-multigrid/",
+                          entry   = section + "Vertex rotations";
+        lines.push_back(
+          fmt::format("{}: no effect, as \"{}Coarse solver\" is 'amg': {}",
+                      file.location(entry),
+                      section,
+                      entry));
+      }
     if (type == RunType::modes && parameters.checkpoint.wall_time_limit > 0)
       lines.push_back(file.location("Checkpoint/Wall time limit") +
                       ": no effect on modes: \"Checkpoint/Wall time limit\"");

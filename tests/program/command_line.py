@@ -156,6 +156,18 @@ class CommandLine(ProgramTest):
             run = self.run_program("beam.prm", "--validate", "--set", "Type = modes", "--set", f"Checkpoint/Wall time limit = {limit}")
             self.assertEqual(run.stdout.count('no effect on modes: "Checkpoint/Wall time limit"'), warned)
 
+    def test_rotations_without_effect(self):
+        """The coarse solver amg knows no rotations of vertices: where they are asked for, that is said; another solver has its own warning."""
+        (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
+        section = "Linear solver/p-multigrid/"
+        warning = f'no effect, as "{section}Coarse solver" is \'amg\': {section}Vertex rotations'
+        for solver, coarse, rotations, warned in (("automatic", "amg", "true", 1), ("p-multigrid", "amg", "true", 1), ("p-multigrid", "amg", "automatic", 0),
+                                                  ("p-multigrid", "direct", "true", 0), ("jacobi", "amg", "true", 0)):
+            with self.subTest((solver, coarse, rotations)):
+                out = self.run_program("beam.prm", "--validate", "--set", f"Linear solver/Type = {solver}", "--set", f"{section}Coarse solver = {coarse}",
+                                       "--set", f"{section}Vertex rotations = {rotations}").stdout
+                self.assertEqual(out.count(warning), warned, out)
+
     def test_make(self):
         """make hands over names with spaces and quotes as they are, and touches no other folder; in place of the toolchain a script shows its words."""
         toolchain = self.folder / "toolchain"
