@@ -206,10 +206,14 @@ namespace corotet
     // At the end of the step.
     equation.set_state(state);
     record.kinetic_energy = 0;
+    energy_of_supports    = 0;
     if (equation.is_dynamic)
       {
         body.mass.apply(momentum, equation.velocity());
         record.kinetic_energy = 0.5 * local_inner_product(momentum, state.v);
+        for (const unsigned int i : body.motion.unknowns())
+          energy_of_supports +=
+            0.5 * momentum.local_element(i) * state.v.local_element(i);
       }
     if (is_staggered)
       record.kinetic_energy -=
@@ -238,6 +242,7 @@ namespace corotet
                                  &record.angular_momentum})
       reduction.sum(*vector);
     reduction.sum(record.kinetic_energy);
+    reduction.sum(energy_of_supports);
     reduction.max(largest_square);
     elastic.reduce(reduction);
     reduction.sum(record.volume);

@@ -164,8 +164,23 @@ namespace corotet
     // With more, all modes that are wanted look alike to the solver: it takes
     // ages, and in the end errors are larger than differences.
     constexpr double most = 10;
-    lowest                = solver.lowest_eigenvalue(estimated_shift());
-    shift = parameters.modes.shift > 0 ? parameters.modes.shift : 0.01 * lowest;
+    // Soft springs resist motions without strain, but these deform nothing.
+    const Discretization &disc = the_body.discretization;
+    const RigidMotions    without_strain(disc, the_body.motion);
+    const double          first_look = estimated_shift();
+    lowest                           = solver.lowest_eigenvalue(first_look,
+                                      rigid_body_modes(disc, without_strain));
+    shift                            = 0.01 * lowest;
+    // A solve with A makes such a motion larger than other modes by the ratio
+    // of what they have of A: if that exceeds a million, these become the noise
+    // of that one.
+    if (without_strain.size() > rigid_motions.size())
+      shift =
+        std::max(0.01 * solver.lowest_eigenvalue(
+                          first_look, rigid_body_modes(disc, rigid_motions)),
+                 1e-6 * lowest);
+    if (parameters.modes.shift > 0)
+      shift = parameters.modes.shift;
     if (!(shift <= most * lowest))
       throw ComputationError(
         fmt::format("Modes/Shift: found {:.6g} 1/s^2; allowed: up to {:.3g} "

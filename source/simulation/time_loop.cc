@@ -377,7 +377,9 @@ namespace corotet
       std::abs(record.kinetic_energy) + record.elastic_energy;
     const bool is_visible = record.max_displacement >
                             1e-3 * std::cbrt(budget->initial_record().volume);
-    energy_supply = std::max(energy_supply, std::abs(record.external_work));
+    energy_supply = std::max(energy_supply,
+                             std::abs(record.external_work) +
+                               std::abs(budget->kinetic_energy_of_supports()));
     is_unstable   = is_visible && energy > factor * energy_supply;
     if (is_unstable)
       throw ComputationError(fmt::format(

@@ -43,9 +43,8 @@ namespace corotet
         if (!integrator->is_dynamic())
           throw InputError("Time integration/End time",
                            fmt::format("--restart: found {}; allowed in "
-                                       "statics, where loads grow with the "
-                                       "part of the run that is done: {}, as "
-                                       "before",
+                                       "statics, whose load steps are parts of "
+                                       "the run: {}, as before",
                                        parameters.end_time,
                                        end_time));
         const double t =

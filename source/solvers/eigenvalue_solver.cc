@@ -85,7 +85,6 @@ namespace corotet
     , linear_solver(linear_solver)
     , tolerance(tolerance)
     , progress(progress)
-    , null_space(std::move(null_space))
     , generator(1 + dealii::Utilities::MPI::this_mpi_process(
                       A.discretization().communicator()))
   {
@@ -98,20 +97,21 @@ namespace corotet
       dealii::Utilities::MPI::sum(static_cast<dealii::types::global_dof_index>(
                                     free.size()),
                                   A.discretization().communicator());
-    make_orthonormal();
+    this->null_space = orthonormal(std::move(null_space));
   }
 
-  void
-  EigenvalueSolver::make_orthonormal()
+  EigenvalueSolver::Basis
+  EigenvalueSolver::orthonormal(std::vector<Vector> vectors)
   {
     // Gram and Schmidt, twice each: what the first time leaves is round-off of
     // vectors that were far from orthogonal.
+    Basis  result;
     Vector Mx(right_side);
-    for (Vector &x : null_space)
+    for (Vector &x : vectors)
       {
         for (unsigned int round = 0; round < 2; ++round)
           {
-            remove_null_space(x);
+            result.remove_from(x);
             copy_with_ghosts(ghosted, x);
             A.mass().apply(Mx, ghosted);
             set_zero(Mx);
@@ -119,22 +119,26 @@ namespace corotet
             x *= factor;
             Mx *= factor;
           }
-        M_null_space.push_back(Mx);
+        result.vectors.push_back(std::move(x));
+        result.M_vectors.push_back(Mx);
       }
+    return result;
   }
 
   void
-  EigenvalueSolver::remove_null_space(Vector &x) const
+  EigenvalueSolver::Basis::remove_from(Vector &x) const
   {
-    for (unsigned int k = 0; k < M_null_space.size(); ++k)
-      x.add(-(x * M_null_space[k]), null_space[k]);
+    for (unsigned int k = 0; k < vectors.size(); ++k)
+      x.add(-(x * M_vectors[k]), vectors[k]);
   }
 
   double
-  EigenvalueSolver::lowest_eigenvalue(const double shift)
+  EigenvalueSolver::lowest_eigenvalue(const double        shift,
+                                      std::vector<Vector> motions)
   {
     A.update(1., shift);
-    Vector                                 x(right_side), f(x), g(x);
+    const Basis basis = orthonormal(std::move(motions));
+    Vector      x(right_side), f(x), g(x);
     std::uniform_real_distribution<double> random(-1, 1);
     x = 0;
     for (const unsigned int i : free)
@@ -142,7 +146,7 @@ namespace corotet
     for (unsigned int step = 0; step < 3; ++step)
       {
         apply_inverse(x);
-        remove_null_space(x);
+        basis.remove_from(x);
       }
     apply(f, g, x);
     return (x * f) / (x * g);
@@ -205,7 +209,7 @@ namespace corotet
     problem.setHermitian(false);
     problem.setNEV(n);
     std::vector<const Vector *> known;
-    for (const Vector &x : null_space)
+    for (const Vector &x : null_space.vectors)
       known.push_back(&x);
     for (const Vector &x : others.vectors)
       known.push_back(&x);
@@ -268,7 +272,16 @@ namespace corotet
           M(i, j) = pairs.vectors[i] * Mx[j];
         }
     std::vector<dealii::Vector<double>> ritz(n);
-    K.compute_generalized_eigenvalues_symmetric(M, ritz);
+    try
+      {
+        K.compute_generalized_eigenvalues_symmetric(M, ritz);
+      }
+    catch (const dealii::ExceptionBase &)
+      {
+        throw ComputationError(
+          "the modes are lost in round-off: those that were found are not "
+          "linearly independent");
+      }
 
     std::vector<Vector> &x = Kx;
     for (unsigned int j = 0; j < n; ++j)
@@ -295,7 +308,7 @@ namespace corotet
     for (unsigned int j = 0; j < n_all; ++j)
       {
         apply_inverse(pairs.vectors[j]);
-        remove_null_space(pairs.vectors[j]);
+        null_space.remove_from(pairs.vectors[j]);
       }
     rayleigh_ritz(pairs);
   }
@@ -305,8 +318,9 @@ namespace corotet
   {
     Eigenpairs         result;
     const unsigned int n_null =
-      std::min<std::size_t>(n_wanted, null_space.size());
-    result.vectors.assign(null_space.begin(), null_space.begin() + n_null);
+      std::min<std::size_t>(n_wanted, null_space.vectors.size());
+    result.vectors.assign(null_space.vectors.begin(),
+                          null_space.vectors.begin() + n_null);
     result.values.assign(n_null, 0.);
     if (n_null == n_wanted)
       return result;
@@ -317,6 +331,16 @@ namespace corotet
       n + std::min(n_extra_pairs, max_eigenvalues() - n_wanted);
     Eigenpairs pairs = search(n_sought, shift, tolerance, {});
     refine(pairs, n);
+    // Values far below the shift look alike to the search: errors of their
+    // vectors are small beside the shift, and not beside them. In another step
+    // errors of a mode with a value lambda become 1 + lambda / shift times
+    // smaller.
+    const unsigned int n_below_shift =
+      std::count_if(pairs.values.begin(),
+                    pairs.values.begin() + n,
+                    [&](const double value) { return value < shift; });
+    if (n_below_shift > 0)
+      refine(pairs, n_below_shift);
     // What a search finds is too large, if at all, by the square of its
     // tolerance.
     unsigned int n_missing = 0;

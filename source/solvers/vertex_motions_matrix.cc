@@ -205,8 +205,9 @@ namespace corotet
       FrozenCellMatrices::V cofactors[4][3];
       const auto            shear = cells->shear_stiffness(
         load_aligned<batch_size>(coefficients[batch].lame_ratio), cofactors);
-      const FrozenCellMatrices::V least = least_spring * cells->trace();
+      // In short steps the mass is far larger than what resists deformation.
       cells->add_mass();
+      const FrozenCellMatrices::V least = least_spring * cells->trace();
       leave_out_prescribed(first, n_cells, *cells);
       cells->combine();
       cells->add_springs(spring * shear, length, cofactors, least);

@@ -254,6 +254,35 @@ TEST(ModalAnalysis, Shift)
             0u);
 }
 
+// A body on springs that are so soft that it moves on them as a rigid one: its
+// other modes are those of the free body but for the ratio of both stiffnesses,
+// and the suspension has omega^2 = k / m, with the area of the side and the
+// mass 0.06 kg.
+TEST(ModalAnalysis, SoftSprings)
+{
+  const std::string body = box_body("1, 0.3, 0.2", "5, 2, 1", 2, 0.3, 9);
+  const Analysis    free(body);
+  for (const double k : {1e-3, 1e-6, 1e-9, 1e-12})
+    {
+      const Analysis suspended(
+        body + section("Supports",
+                       {{"Elastic", fmt::format("z-min: {0}; {0}; {0}", k)}}));
+      for (unsigned int i = 7; i <= 9; ++i)
+        EXPECT_NEAR(suspended.mode(i).frequency,
+                    free.mode(i).frequency,
+                    (1e2 * k + 1e-11) * free.mode(i).frequency)
+          << k;
+      // Moving along y and twisting about x go together, along z not.
+      double nearest = 1;
+      for (unsigned int i = 1; i <= 6; ++i)
+        nearest =
+          std::min(nearest,
+                   std::abs(suspended.mode(i).eigenvalue / (k * 0.3 / 0.06) -
+                            1));
+      EXPECT_LE(nearest, 1e2 * k + 1e-6) << k;
+    }
+}
+
 // Bending and twisting of a beam that is symmetric to its middle planes: each
 // mode has two or more largest components, of both signs. On all ranks together
 // and on each rank alone signs are the same: the products of the shapes with a

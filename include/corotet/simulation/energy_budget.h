@@ -85,6 +85,14 @@ namespace corotet
     void
     record(StepRecord &record, const State &state, const double time);
 
+    /// Kinetic energy of the prescribed unknowns in the state of the last
+    /// record() [J]: no work where their velocity jumps.
+    double
+    kinetic_energy_of_supports() const
+    {
+      return energy_of_supports;
+    }
+
     /// What the accounts of the next steps begin with. A budget that reads may
     /// be made with any state.
     void
@@ -137,6 +145,7 @@ namespace corotet
     /// Energy of elastic terms that depend on time, at the start [J].
     double     initial_changing_energy = 0;
     double     dissipation             = 0;
+    double     energy_of_supports      = 0;
     StepRecord initial;
     /// What dt, work and dissipation were before work was added.
     std::array<double, 3> before{};

@@ -70,12 +70,13 @@ namespace corotet
       return n_free < 16 ? 0 : n_free / 4;
     }
 
-    /// An estimate of the smallest eigenvalue that is not zero [1/s^2]: the
-    /// Rayleigh quotient after three steps of inverse iteration with @p shift,
-    /// from a random vector. From above, mostly by less than a factor of two if
-    /// the shift is not above it.
+    /// An estimate of the smallest eigenvalue [1/s^2] of x orthogonal to the
+    /// linearly independent @p motions, which have no ghost values and include
+    /// the null space: the Rayleigh quotient after three steps of inverse
+    /// iteration with @p shift, from a random vector. From above, mostly by
+    /// less than a factor of two if the shift is not above it.
     double
-    lowest_eigenvalue(const double shift);
+    lowest_eigenvalue(const double shift, std::vector<Vector> motions);
 
     /**
      * The @p n smallest, 1 to max_eigenvalues(), and the values of some that
@@ -108,12 +109,21 @@ namespace corotet
     class ShiftedInverse;
     class FreeMass;
 
-    /// Makes null_space orthonormal in the inner product of M, in its order.
-    void
-    make_orthonormal();
-    /// Makes x orthogonal to the null space.
-    void
-    remove_null_space(Vector &x) const;
+    /// Vectors that are orthonormal in the inner product of M, and what M makes
+    /// of them.
+    struct Basis
+    {
+      std::vector<Vector> vectors;
+      std::vector<Vector> M_vectors;
+
+      /// Makes x orthogonal to them.
+      void
+      remove_from(Vector &x) const;
+    };
+
+    /// The basis of what linearly independent @p vectors span, in their order.
+    Basis
+    orthonormal(std::vector<Vector> vectors);
     /// Up to @p n pairs orthogonal to the null space and to @p others.
     Eigenpairs
     search(const unsigned int n,
@@ -137,9 +147,7 @@ namespace corotet
     double                            tolerance;
     std::function<void(unsigned int)> progress;
     dealii::types::global_dof_index   n_free;
-    std::vector<Vector>               null_space;
-    /// M times these.
-    std::vector<Vector> M_null_space;
+    Basis                             null_space;
     /// Owned unknowns that are not prescribed.
     std::vector<unsigned int> free;
     /// Each search starts from other vectors: the same ones have no more of a
