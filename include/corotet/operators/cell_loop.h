@@ -15,26 +15,35 @@
 
 namespace corotet
 {
-  /// Copies nodes from a vector with three numbers for each to an aligned array
-  /// with four; @p node(k) is the k-th of @p n, in ascending order.
-  template <typename T, typename Node>
-  COROTET_ALWAYS_INLINE void
-  copy_to_fours(const T           *vector,
-                const unsigned int n,
-                const Node        &node,
-                T                 *fours)
+  namespace internal
   {
-    if (n == 0)
-      return;
-    for (unsigned int k = 0; k + 1 < n; ++k)
-      store_aligned(load_unaligned<4>(vector +
-                                      3 * static_cast<std::size_t>(node(k))),
-                    fours + 4 * static_cast<std::size_t>(k));
-    // A fourth number need not be there.
-    std::copy_n(vector + 3 * static_cast<std::size_t>(node(n - 1)),
-                3,
-                fours + 4 * static_cast<std::size_t>(n - 1));
-  }
+    /// Numbers in threes, from the start of a register on, as fours; the fourth
+    /// belongs to the next three.
+    template <typename V, int... l>
+    COROTET_ALWAYS_INLINE V
+    threes_to_fours(const V a, std::integer_sequence<int, l...>)
+    {
+      return __builtin_shufflevector(a, a, (l / 4 * 3 + l % 4)...);
+    }
+
+    /// Copies @p n nodes from a vector with three numbers for each to an
+    /// aligned array with four.
+    template <typename T>
+    COROTET_ALWAYS_INLINE void
+    copy_to_fours(const T *vector, const unsigned int n, T *fours)
+    {
+      constexpr int          lanes = n_lanes<T>;
+      constexpr unsigned int step  = lanes / 4;
+      unsigned int           k     = 0;
+      for (; 3 * k + lanes <= 3 * n;
+           k += step, vector += 3 * step, fours += lanes)
+        store_aligned(threes_to_fours(load_unaligned<lanes>(vector),
+                                      std::make_integer_sequence<int, lanes>()),
+                      fours);
+      for (; k < n; ++k, vector += 3, fours += 4)
+        std::copy_n(vector, 3, fours);
+    }
+  } // namespace internal
 
   /// Copies the nodes of a chunk of cells from a vector of all local nodes to
   /// an array of the chunk.
@@ -45,17 +54,21 @@ namespace corotet
              const T                  *vector,
              T                        *values)
   {
+    const unsigned int n_final = chunk.n_final_nodes();
+    internal::copy_to_fours(
+      vector + 3 * static_cast<std::size_t>(chunk.first_node), n_final, values);
     const auto open = batches.open_nodes(chunk);
-    copy_to_fours(
-      vector,
-      chunk.n_final_nodes(),
-      [&](const unsigned int k) { return chunk.first_node + k; },
-      values);
-    copy_to_fours(
-      vector,
-      open.size(),
-      [&](const unsigned int k) { return open[k].node; },
-      values + 4 * static_cast<std::size_t>(chunk.n_final_nodes()));
+    values += 4 * static_cast<std::size_t>(n_final);
+    for (std::size_t k = 0; k < open.size(); ++k, values += 4)
+      {
+        const T *const node =
+          vector + 3 * static_cast<std::size_t>(open[k].node);
+        // They ascend: all but the last have a fourth number behind them.
+        if (k + 1 < open.size())
+          store_aligned(load_unaligned<4>(node), values);
+        else
+          std::copy_n(node, 3, values);
+      }
   }
 
   /// target += source, of four numbers; the source is zero afterwards.

@@ -139,14 +139,14 @@ namespace corotet
     for (int i = 0; i < n_nodes; ++i, numbers += batch_size)
       {
         const Simd<T> zero{};
-        const Simd<T> xy_02   = shuffle_fours<0, 4, 2, 6>(v[i][0], v[i][1]);
-        const Simd<T> xy_13   = shuffle_fours<1, 5, 3, 7>(v[i][0], v[i][1]);
-        const Simd<T> z_02    = shuffle_fours<0, 4, 2, 6>(v[i][2], zero);
-        const Simd<T> z_13    = shuffle_fours<1, 5, 3, 7>(v[i][2], zero);
-        const Simd<T> rows[4] = {shuffle_fours<0, 1, 4, 5>(xy_02, z_02),
-                                 shuffle_fours<0, 1, 4, 5>(xy_13, z_13),
-                                 shuffle_fours<2, 3, 6, 7>(xy_02, z_02),
-                                 shuffle_fours<2, 3, 6, 7>(xy_13, z_13)};
+        const Simd<T> xy_01   = shuffle_fours<0, 4, 1, 5>(v[i][0], v[i][1]);
+        const Simd<T> xy_23   = shuffle_fours<2, 6, 3, 7>(v[i][0], v[i][1]);
+        const Simd<T> z_01    = shuffle_fours<0, 4, 1, 5>(v[i][2], zero);
+        const Simd<T> z_23    = shuffle_fours<2, 6, 3, 7>(v[i][2], zero);
+        const Simd<T> rows[4] = {shuffle_fours<0, 1, 4, 5>(xy_01, z_01),
+                                 shuffle_fours<2, 3, 6, 7>(xy_01, z_01),
+                                 shuffle_fours<0, 1, 4, 5>(xy_23, z_23),
+                                 shuffle_fours<2, 3, 6, 7>(xy_23, z_23)};
         static_for<n_lanes<T>>([&](auto lane) {
           constexpr int r = lane % 4, b = lane / 4;
           T *const      sum =
