@@ -181,6 +181,25 @@ namespace corotet
   }
 
   void
+  EnergyBudget::find_kinetic_energy(StepRecord &record, const State &state)
+  {
+    record.kinetic_energy = 0;
+    energy_of_supports    = 0;
+    if (equation.is_dynamic)
+      {
+        body.mass.apply(momentum, equation.velocity());
+        record.kinetic_energy = 0.5 * local_inner_product(momentum, state.v);
+        for (const unsigned int i : body.motion.unknowns())
+          energy_of_supports +=
+            0.5 * momentum.local_element(i) * state.v.local_element(i);
+      }
+    if (is_staggered)
+      record.kinetic_energy -=
+        0.125 * dt * dt *
+        local_inner_product(equation.last_forces().inertia, state.a);
+  }
+
+  void
   EnergyBudget::record(StepRecord  &record,
                        const State &state,
                        const double time)
@@ -205,19 +224,7 @@ namespace corotet
 
     // At the end of the step.
     equation.set_state(state);
-    record.kinetic_energy = 0;
-    energy_of_supports    = 0;
-    if (equation.is_dynamic)
-      {
-        body.mass.apply(momentum, equation.velocity());
-        record.kinetic_energy = 0.5 * local_inner_product(momentum, state.v);
-        for (const unsigned int i : body.motion.unknowns())
-          energy_of_supports +=
-            0.5 * momentum.local_element(i) * state.v.local_element(i);
-      }
-    if (is_staggered)
-      record.kinetic_energy -=
-        0.125 * dt * dt * local_inner_product(terms.inertia, state.a);
+    find_kinetic_energy(record, state);
     record.momentum = record.angular_momentum = Tensor<1, 3>();
     double largest_square                     = 0;
     for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)

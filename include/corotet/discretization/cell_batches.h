@@ -5,7 +5,7 @@
 #define corotet_discretization_cell_batches_h
 
 #include <corotet/base/simd.h>
-#include <corotet/discretization/cell_nodes.h>
+#include <corotet/discretization/nodes.h>
 
 #include <cstdint>
 #include <memory>
@@ -16,7 +16,6 @@
 namespace corotet
 {
   class CurvedBatches;
-  class Nodes;
 
   /// Registers of this many cells are what batches are counted in; a register
   /// of floats holds floats_per_batch batches.

@@ -129,6 +129,9 @@ namespace corotet
     carried(const unsigned int i) const;
     double
     external(const unsigned int i) const;
+    /// Momentum and kinetic energies, of this rank.
+    void
+    find_kinetic_energy(StepRecord &record, const State &state);
     void
     transfer_forces(Archive &archive, StepForces &forces) const;
 
