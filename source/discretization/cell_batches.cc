@@ -95,7 +95,7 @@ namespace corotet
       {
         const CellNodes cell = nodes.cell_nodes(std::min(first + lane, last));
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
-          function(start + i * batch_size + lane, cell[i]);
+          function(start + std::size_t(i) * batch_size + lane, cell[i]);
       }
   }
 

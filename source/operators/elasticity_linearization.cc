@@ -132,7 +132,7 @@ namespace corotet
             for (unsigned int i = 0; i < n; ++i)
               std::copy_n(u.begin() + std::size_t(3) * nodes[i],
                           3,
-                          &displacement[4 * (lane * n + i)]);
+                          &displacement[std::size_t(4) * (lane * n + i)]);
           }
         for (unsigned int column = 0; column < 3 * n; ++column)
           {
