@@ -19,8 +19,9 @@ namespace corotet
     // around it, c int mu |w - curl u / 2|^2 in each cell. Iterations are the
     // same from 1e-6 to 1e-1; large ones keep the matrix well conditioned.
     constexpr double spring = 0.01;
-    // What there is of it in crushed cells, in terms of the trace of their
-    // stiffness: enough to be seen beside round-off.
+    // What there is of it at least, in terms of the trace of stiffness and
+    // mass, in crushed cells and in short steps: enough to be seen beside
+    // round-off.
     constexpr double least_spring = 1e-12;
 
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();

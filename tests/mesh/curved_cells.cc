@@ -200,20 +200,31 @@ TEST(CurvedCells, FoldsAreNoMatterToDegreeOne)
             std::string::npos);
 }
 
+namespace
+{
+  // The reference cell with the nodes of degree 3, not curved yet.
+  SerialMesh
+  cubic_cell()
+  {
+    SerialMesh mesh;
+    mesh.vertices        = {Point<3>(0, 0, 0),
+                            Point<3>(1, 0, 0),
+                            Point<3>(0, 1, 0),
+                            Point<3>(0, 0, 1)};
+    mesh.cells           = {{{{0, 1, 2, 3}}, 0, 0}};
+    mesh.geometry_degree = 3;
+    mesh.curved_nodes    = map_points(3);
+    return mesh;
+  }
+} // namespace
+
 // The nodes at the thirds of an edge are moved by s and -s along y, so that its
 // middle stays. With barycentric coordinates l the determinant there is
 // 1 - 13.5 s l1 (2 l0 - l1), negative at l1 = 1/3 for s = 0.3. The quadratic
 // interpolant is straight.
 TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
 {
-  SerialMesh mesh;
-  mesh.vertices        = {Point<3>(0, 0, 0),
-                          Point<3>(1, 0, 0),
-                          Point<3>(0, 1, 0),
-                          Point<3>(0, 0, 1)};
-  mesh.cells           = {{{{0, 1, 2, 3}}, 0, 0}};
-  mesh.geometry_degree = 3;
-  mesh.curved_nodes    = map_points(3);
+  SerialMesh mesh = cubic_cell();
   for (Point<3> &x : mesh.curved_nodes)
     if (x[1] == 0 && x[2] == 0 && x[0] > 0 && x[0] < 1)
       x[1] += x[0] < 0.5 ? 0.3 : -0.3;
@@ -228,14 +239,7 @@ TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
 TEST(CurvedCells, LogSaysWhatElementsTake)
 {
   const TemporaryFolder folder;
-  SerialMesh            mesh;
-  mesh.vertices        = {Point<3>(0, 0, 0),
-                          Point<3>(1, 0, 0),
-                          Point<3>(0, 1, 0),
-                          Point<3>(0, 0, 1)};
-  mesh.cells           = {{{{0, 1, 2, 3}}, 0, 0}};
-  mesh.geometry_degree = 3;
-  mesh.curved_nodes    = map_points(3);
+  SerialMesh            mesh = cubic_cell();
   for (Point<3> &x : mesh.curved_nodes)
     x[1] -= 0.1 * x[0] * (1 - x[0]);
   for (const auto &[degree, said] : std::map<unsigned int, std::string>{
