@@ -9,6 +9,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <fmt/format.h>
+#include <link.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -16,6 +18,7 @@
 #include <cstdint>
 #include <fstream>
 #include <new>
+#include <span>
 
 namespace corotet
 {
@@ -35,6 +38,95 @@ namespace corotet
   {
     // See proc(5): 5 resets VmHWM.
     std::ofstream("/proc/self/clear_refs") << "5";
+  }
+
+  namespace
+  {
+    bool
+    has_text_relocations(const dl_phdr_info &library)
+    {
+      const std::span headers(library.dlpi_phdr, library.dlpi_phnum);
+      for (const ElfW(Phdr) & header : headers)
+        if (header.p_type == PT_DYNAMIC)
+          // NOLINTNEXTLINE(performance-no-int-to-ptr)
+          for (const auto *entry = reinterpret_cast<const ElfW(Dyn) *>(
+                 library.dlpi_addr + header.p_vaddr);
+               entry->d_tag != DT_NULL;
+               ++entry)
+            if (entry->d_tag == DT_TEXTREL ||
+                (entry->d_tag == DT_FLAGS &&
+                 (entry->d_un.d_val & DF_TEXTREL) != 0))
+              return true;
+      return false;
+    }
+
+    std::uintptr_t
+    page_size()
+    {
+      static const std::uintptr_t size = sysconf(_SC_PAGESIZE);
+      return size;
+    }
+
+    // The first beginning of a page that is not before an address.
+    std::uintptr_t
+    next_page(const std::uintptr_t address)
+    {
+      return (address + page_size() - 1) / page_size() * page_size();
+    }
+
+    // Whole pages of the process' own, or unchanged ones of a file. Where that
+    // fails, nothing has happened.
+    void
+    release_pages(const std::uintptr_t begin, const std::uintptr_t end)
+    {
+      if (end > begin)
+        // NOLINTNEXTLINE(performance-no-int-to-ptr)
+        madvise(reinterpret_cast<void *>(begin), end - begin, MADV_DONTNEED);
+    }
+
+    // What dl_iterate_phdr() calls.
+    int
+    release_library(dl_phdr_info *library,
+                    std::size_t /*size*/,
+                    void * /*data*/)
+    {
+      // Its read-only pages have been written to.
+      if (has_text_relocations(*library))
+        return 0;
+      const std::span headers(library->dlpi_phdr, library->dlpi_phnum);
+      for (const ElfW(Phdr) & header : headers)
+        // Neither data nor code, where debuggers write their breakpoints.
+        if (header.p_type == PT_LOAD && header.p_flags == PF_R)
+          {
+            const std::uintptr_t begin = library->dlpi_addr + header.p_vaddr;
+            const std::uintptr_t end   = begin + header.p_memsz;
+            release_pages(next_page(begin), end - end % page_size());
+          }
+      return 0;
+    }
+  } // namespace
+
+  void
+  release_library_pages()
+  {
+    dl_iterate_phdr(release_library, nullptr);
+  }
+
+  LastReading::LastReading(void *begin)
+    : end_of_released(next_page(reinterpret_cast<std::uintptr_t>(begin)))
+  {}
+
+  void
+  LastReading::passed(const void *place)
+  {
+    // Bytes for which a call of the system pays.
+    constexpr std::uintptr_t piece = 1 << 22;
+    const auto               end   = reinterpret_cast<std::uintptr_t>(place);
+    if (end < end_of_released + piece)
+      return;
+    const std::uintptr_t last = end - end % page_size();
+    release_pages(end_of_released, last);
+    end_of_released = last;
   }
 
   namespace

@@ -146,4 +146,12 @@ namespace corotet
     is_assembled = true;
     return assembled->matrix();
   }
+
+  BlockMatrix &
+  EffectiveOperator::matrix_to_take() const
+  {
+    matrix();
+    is_assembled = false;
+    return assembled->matrix();
+  }
 } // namespace corotet

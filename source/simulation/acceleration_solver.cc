@@ -26,6 +26,17 @@ namespace corotet
   }
 
   void
+  AccelerationSolver::release()
+  {
+    the_mass_solver.reset();
+    damping_operator.reset();
+    damping_factor = std::numeric_limits<double>::quiet_NaN();
+    surface.reset();
+    for (Vector *vector : {&residual, &acceleration, &ghosted})
+      Vector().swap(*vector);
+  }
+
+  void
   AccelerationSolver::solve_lumped(State       &state,
                                    const double time,
                                    const double velocity_factor,

@@ -87,6 +87,8 @@ namespace corotet
         if (!std::isfinite(body.root_mean_square(present.a)))
           throw ComputationError("the forces at the start are not finite" +
                                  system.equation().why_not_finite());
+        if (!integrator->is_explicit())
+          system.acceleration_solver().release();
       }
     budget = std::make_unique<EnergyBudget>(
       system.equation(),

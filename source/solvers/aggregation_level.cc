@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/memory.h>
 #include <corotet/solvers/aggregation_level.h>
 #include <corotet/solvers/largest_eigenvalue.h>
 #include <corotet/solvers/scaling.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -24,7 +26,8 @@ namespace corotet
 
   template <int d>
   void
-  AggregationLevel<d>::build(const BlockMatrix                         &A,
+  AggregationLevel<d>::build(const BlockMatrix &A,
+                             BlockMatrix       *given_up,
                              const std::shared_ptr<const BlockPattern> &pattern,
                              const std::vector<PointFrame<d>>          &frames,
                              const Coarsening &coarsening)
@@ -59,22 +62,29 @@ namespace corotet
     // Gives its memory to the motions: a copy costs little.
     blocks.clear();
     build_coarse(A, frames);
-    copy_blocks(A);
+    copy_blocks(A, given_up);
+    if (given_up != nullptr)
+      given_up->release_values();
   }
 
   template <int d>
   void
-  AggregationLevel<d>::copy_blocks(const BlockMatrix &A)
+  AggregationLevel<d>::copy_blocks(const BlockMatrix &A, BlockMatrix *given_up)
   {
     const NodeGraph &graph = points->graph();
     // A load of the last column reaches beyond it.
     blocks.resize_fast(offset(d) * graph.columns.size() + 2);
     std::fill(blocks.end() - 2, blocks.end(), 0.f);
-    float *block = blocks.data();
+    float                     *block = blocks.data();
+    std::optional<LastReading> reading;
+    if (given_up != nullptr && n_points > 0)
+      reading.emplace(given_up->row(0, 0));
     for (int i = 0; i < n_points; ++i)
       {
         const auto rows = A.template rows_of<d>(i);
-        const int  n    = graph.starts[i + 1] - graph.starts[i];
+        if (reading)
+          reading->passed(rows[0]);
+        const int n = graph.starts[i + 1] - graph.starts[i];
         for (int k = 0; k < n; ++k, block += offset(d))
           for (int a = 0; a < d; ++a)
             for (int b = 0; b < d; ++b)
@@ -239,11 +249,13 @@ namespace corotet
   template AggregationLevel<6>::AggregationLevel(const unsigned int);
   template void
   AggregationLevel<3>::build(const BlockMatrix &,
+                             BlockMatrix *,
                              const std::shared_ptr<const BlockPattern> &,
                              const std::vector<PointFrame<3>> &,
                              const Coarsening &);
   template void
   AggregationLevel<6>::build(const BlockMatrix &,
+                             BlockMatrix *,
                              const std::shared_ptr<const BlockPattern> &,
                              const std::vector<PointFrame<6>> &,
                              const Coarsening &);

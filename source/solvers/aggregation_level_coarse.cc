@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exchange.h>
+#include <corotet/base/memory.h>
 #include <corotet/solvers/aggregation_level.h>
 
 #include <algorithm>
@@ -70,13 +71,20 @@ namespace corotet
   AggregationLevel<d>::build_coarse(const BlockMatrix                &A,
                                     const std::vector<PointFrame<d>> &frames)
   {
-    // Room for one at a time.
-    prolongation     = {};
-    const auto exact = smoothed_motions(A, rigid_motions(frames));
+    // Room for one at a time. The larger array comes first, for where the
+    // blocks have been: a smaller one there would leave it no room.
+    prolongation = {};
+    std::vector<ModeBlock<double>> exact(prolongation_pattern.columns.size());
+    smooth_motions(exact, A, rigid_motions(frames));
     fill_coarse(A, exact);
-    prolongation.resize(prolongation_pattern.starts[n_points]);
-    for (std::size_t k = 0; k < prolongation.size(); ++k)
-      std::copy_n(&exact[k].values[0][0], 6 * d, &prolongation[k].values[0][0]);
+    const std::size_t n_entries = prolongation_pattern.starts[n_points];
+    prolongation.reserve(n_entries);
+    LastReading reading(exact.data());
+    for (std::size_t k = 0; k < n_entries; ++k)
+      {
+        reading.passed(&exact[k]);
+        prolongation.emplace_back(exact[k].rows());
+      }
   }
 
   /// Of known aggregates in the coarse matrix, in the same order; -1 where it

@@ -171,13 +171,13 @@ namespace corotet
   /// I - omega D^-1 A / unit and the motions, omega = 4/3 over the largest
   /// eigenvalue.
   template <int d>
-  std::vector<typename AggregationLevel<d>::template ModeBlock<double>>
-  AggregationLevel<d>::smoothed_motions(
+  void
+  AggregationLevel<d>::smooth_motions(
+    std::vector<ModeBlock<double>>       &result,
     const BlockMatrix                    &A,
-    const std::vector<ModeBlock<double>> &motions)
+    const std::vector<ModeBlock<double>> &motions) const
   {
-    std::vector<ModeBlock<double>> result(prolongation_pattern.columns.size());
-    const double                   omega = 4. / 3 / largest_eigenvalue;
+    const double                      omega = 4. / 3 / largest_eigenvalue;
     std::vector<std::array<Modes, d>> products;
     std::vector<int>                  place(known_aggregates.n_local());
     // Points of one block have the same columns in the prolongation.
@@ -209,7 +209,6 @@ namespace corotet
           }
     });
     prolongation_ghosts.update(result.data());
-    return result;
   }
 
   // One member at a time, as others are in files of their own.
@@ -217,12 +216,14 @@ namespace corotet
   AggregationLevel<3>::rigid_motions(const std::vector<PointFrame<3>> &);
   template std::vector<AggregationLevel<6>::ModeBlock<double>>
   AggregationLevel<6>::rigid_motions(const std::vector<PointFrame<6>> &);
-  template std::vector<AggregationLevel<3>::ModeBlock<double>>
-  AggregationLevel<3>::smoothed_motions(
+  template void
+  AggregationLevel<3>::smooth_motions(
+    std::vector<AggregationLevel<3>::ModeBlock<double>> &,
     const BlockMatrix &,
-    const std::vector<AggregationLevel<3>::ModeBlock<double>> &);
-  template std::vector<AggregationLevel<6>::ModeBlock<double>>
-  AggregationLevel<6>::smoothed_motions(
+    const std::vector<AggregationLevel<3>::ModeBlock<double>> &) const;
+  template void
+  AggregationLevel<6>::smooth_motions(
+    std::vector<AggregationLevel<6>::ModeBlock<double>> &,
     const BlockMatrix &,
-    const std::vector<AggregationLevel<6>::ModeBlock<double>> &);
+    const std::vector<AggregationLevel<6>::ModeBlock<double>> &) const;
 } // namespace corotet

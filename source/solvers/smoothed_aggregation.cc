@@ -11,6 +11,20 @@ namespace corotet
   void
   SmoothedAggregation::build(const BlockMatrix &A, const double *positions)
   {
+    build_from_finest(A, nullptr, positions);
+  }
+
+  void
+  SmoothedAggregation::build(BlockMatrix &&A, const double *positions)
+  {
+    build_from_finest(A, &A, positions);
+  }
+
+  void
+  SmoothedAggregation::build_from_finest(const BlockMatrix &A,
+                                         BlockMatrix       *given_up,
+                                         const double      *positions)
+  {
     const int n_nodes = A.pattern()->n_owned();
     communicator      = A.pattern()->communicator();
     n_unknowns        = 3 * n_nodes;
@@ -19,7 +33,7 @@ namespace corotet
     for (int i = 0; i < n_nodes; ++i)
       for (int a = 0; a < 3; ++a)
         frames[i].centre[a] = positions[3 * i + a];
-    finest.build(A, A.pattern(), frames, coarsening);
+    finest.build(A, given_up, A.pattern(), frames, coarsening);
     build_coarser(&finest.coarse());
   }
 
@@ -38,28 +52,27 @@ namespace corotet
     unsigned int n_above    = 0;
     Coarsening   of_coarser = coarsening;
     of_coarser.n_joined     = 1;
-    // Of a matrix below that of a level, what is needed from it is copied.
-    const auto release_matrix = [&](const unsigned int n_levels_above) {
-      if (n_levels_above > 0)
-        coarser[n_levels_above - 1]->release_coarse_matrix();
-      else if (!is_of_aggregates)
-        finest.release_coarse_matrix();
+    // What is needed of a matrix is copied. That of aggregates which this
+    // object was given stays.
+    const auto given_up = [&]() -> BlockMatrix * {
+      return is_of_aggregates && n_above == 0 ? nullptr : problem->matrix.get();
     };
     for (; problem->aggregates != nullptr; ++n_above)
       {
         if (n_above == coarser.size())
           coarser.push_back(std::make_unique<AggregationLevel<6>>(degree));
         coarser[n_above]->build(*problem->matrix,
+                                given_up(),
                                 problem->aggregates,
                                 problem->frames,
                                 of_coarser);
-        release_matrix(n_above);
         problem = &coarser[n_above]->coarse();
       }
     coarser.resize(n_above);
     last_unknowns.resize(6 * problem->frames.size());
     last_factor.factorize(*problem->matrix);
-    release_matrix(n_above);
+    if (BlockMatrix *const matrix = given_up())
+      matrix->release_values();
   }
 
   template <typename Level>

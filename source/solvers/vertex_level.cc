@@ -181,17 +181,13 @@ namespace corotet
     solver                          = parameters.coarse_type;
     if (solver == "automatic")
       solver = factors_pay(level_matrix) ? "direct" : "aggregation";
-    // Who solves by them has a copy of its own.
-    const auto release_values = [&] {
-      if (assembled)
-        assembled->release_values();
-      else if (!motions)
-        A.release_matrix();
-    };
     if (solver == "direct")
       {
         direct.factorize(level_matrix);
-        release_values();
+        if (assembled)
+          assembled->release_values();
+        else if (!motions)
+          A.release_matrix();
         return;
       }
     if (solver == "aggregation" && motions)
@@ -212,8 +208,9 @@ namespace corotet
       }
     if (solver == "aggregation")
       {
-        aggregation.build(level_matrix, places.begin());
-        release_values();
+        aggregation.build(assembled ? std::move(assembled->matrix()) :
+                                      std::move(A.matrix_to_take()),
+                          places.begin());
         return;
       }
     for (Vector *vector : {&x, &b})

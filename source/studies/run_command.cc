@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/log.h>
+#include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
@@ -310,6 +311,7 @@ namespace corotet
           lock.emplace(directory, comm);
         if (!goes_on)
           prepare_output_directory(directory, may_overwrite(), comm);
+        release_library_pages();
         action();
         say_where_results_are(table);
         parameters.verification.compare(

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "../body.h"
 #include "spring_box.h"
@@ -183,6 +184,25 @@ TEST(SmoothedAggregation, NodesWithoutNeighbours)
   preconditioner.set_coarsening({.most_aggregates = 5});
   preconditioner.build(*box.matrix, box.positions().data());
   EXPECT_LE(iterations(box, preconditioner), 2);
+}
+
+// With memory given back on the way, which takes some megabytes.
+TEST(SmoothedAggregation, MatrixMayBeGivenUp)
+{
+  const SpringBox     box({{30, 12, 12}}, true);
+  SmoothedAggregation keeping, taking;
+  keeping.build(*box.matrix, box.positions().data());
+  EXPECT_GT(box.matrix->n_values(), 0u);
+  taking.build(std::move(*box.matrix), box.positions().data());
+  EXPECT_EQ(box.matrix->n_values(), 0u);
+  Vector b = box.vector(), x(b), other(b);
+  for (unsigned int i = 0; i < b.locally_owned_size(); ++i)
+    b.local_element(i) = std::sin(box.owned.nth_index_in_set(i) + 1.);
+  keeping.vmult(x.begin(), b.begin(), 1);
+  taking.vmult(other.begin(), b.begin(), 1);
+  EXPECT_GT(x.l2_norm(), 0.);
+  other -= x;
+  EXPECT_EQ(other.l2_norm(), 0.);
 }
 
 // u.Pv = v.Pu up to the round-off of single precision, in both precisions.

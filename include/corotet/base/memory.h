@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <string>
 
@@ -20,6 +21,32 @@ namespace corotet
   /// Measures the peak from now on, where the system allows it (Linux does).
   void
   reset_peak_memory();
+
+  /// Gives back the pages of shared libraries that only the start has read:
+  /// tables of names and relocations, some 80 MB of deal.II and Trilinos, which
+  /// count as memory of each rank. They are read-only and come back from the
+  /// files when they are used.
+  void
+  release_library_pages();
+
+  /**
+   * The last reading of an array on the heap, from its beginning to its end:
+   * gives back the memory of what has been passed. That has no values any more,
+   * but may be written, and is freed as ever.
+   */
+  class LastReading
+  {
+  public:
+    explicit LastReading(void *begin);
+
+    /// All that is before @p place has been read.
+    void
+    passed(const void *place);
+
+  private:
+    /// Up to where memory has been given back, the beginning of a page.
+    std::uintptr_t end_of_released;
+  };
 
   /// What this process may have [byte]: the memory of the machine, or less
   /// where a limit is set.

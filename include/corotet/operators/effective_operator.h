@@ -58,6 +58,11 @@ namespace corotet
     const BlockMatrix &
     matrix() const;
 
+    /// The same for one who leaves it without numbers: the next call of
+    /// matrix() computes them again. Collective.
+    BlockMatrix &
+    matrix_to_take() const;
+
     /// Gives back the memory of the matrix' numbers until the next call of
     /// matrix() or other_matrix().
     void

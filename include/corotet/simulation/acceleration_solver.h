@@ -42,6 +42,11 @@ namespace corotet
     double
     largest_frequency(const State &state, const double time = 0);
 
+    /// Gives back all memory until the next solve: implicit runs need only the
+    /// first one. Not collective.
+    void
+    release();
+
   private:
     /// solve_acceleration() for a velocity of one moment at all entries, to
     /// which prescribed ones, too, add @p velocity_factor times a later on.

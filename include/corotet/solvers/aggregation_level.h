@@ -85,10 +85,12 @@ namespace corotet
 
     /**
      * @p A has the blocks of @p pattern, in pieces of 3 x 3; @p frames are
-     * those of the owned points.
+     * those of the owned points. @p given_up: A, if it may be left without
+     * values, which takes less memory, or null.
      */
     void
     build(const BlockMatrix                         &A,
+          BlockMatrix                               *given_up,
           const std::shared_ptr<const BlockPattern> &pattern,
           const std::vector<PointFrame<d>>          &frames,
           const Coarsening                          &coarsening);
@@ -98,14 +100,6 @@ namespace corotet
     coarse() const
     {
       return problem;
-    }
-
-    /// Gives back the memory of the coarse matrix until the next build(). Not
-    /// collective.
-    void
-    release_coarse_matrix()
-    {
-      problem.matrix.reset();
     }
 
     /// Of all ranks. Not collective.
@@ -212,9 +206,9 @@ namespace corotet
           target[a] += rows[a][k + c] * b[c];
     }
 
-    /// Of @p A / unit, in single precision.
+    /// Of @p A / unit, in single precision. @p given_up: see build().
     void
-    copy_blocks(const BlockMatrix &A);
+    copy_blocks(const BlockMatrix &A, BlockMatrix *given_up = nullptr);
     void
     copy_diagonal(const BlockMatrix &A);
     void
@@ -260,9 +254,11 @@ namespace corotet
                         const BlockMatrix                    &A,
                         const std::vector<ModeBlock<double>> &motions,
                         std::vector<int>                     &place) const;
-    std::vector<ModeBlock<double>>
-    smoothed_motions(const BlockMatrix                    &A,
-                     const std::vector<ModeBlock<double>> &motions);
+    /// @p result: an entry for each of the prolongation's pattern.
+    void
+    smooth_motions(std::vector<ModeBlock<double>>       &result,
+                   const BlockMatrix                    &A,
+                   const std::vector<ModeBlock<double>> &motions) const;
     void
     fill_coarse(const BlockMatrix                    &A,
                 const std::vector<ModeBlock<double>> &exact);

@@ -53,6 +53,10 @@ namespace corotet
     void
     build(const BlockMatrix &A, const double *positions);
 
+    /// The same, but A is left without values: that takes less memory.
+    void
+    build(BlockMatrix &&A, const double *positions);
+
     /// The same for a matrix of aggregates, whose numbers are near one.
     /// Collective.
     void
@@ -70,6 +74,11 @@ namespace corotet
     n_aggregates() const;
 
   private:
+    /// @p given_up: see AggregationLevel::build().
+    void
+    build_from_finest(const BlockMatrix &A,
+                      BlockMatrix       *given_up,
+                      const double      *positions);
     /// The levels of aggregates below @p problem.
     void
     build_coarser(const AggregateProblem *problem);
