@@ -131,15 +131,18 @@ namespace corotet
       return "";
     }
 
-    // muParser wants the parenthesis right after the name of a function.
+    // muParser wants the parenthesis right after the name of a function, and
+    // takes "||" before a letter for "|", which is defined here.
     std::string
-    without_blanks_before_parentheses(const std::string &formula)
+    with_blanks_as_wanted(const std::string &formula)
     {
       std::string result;
       for (const char c : formula)
         {
           if (c == '(')
             result.erase(result.find_last_not_of(" \t") + 1);
+          if (result.ends_with("||") || result.ends_with("&&"))
+            result += ' ';
           result += c;
         }
       return result;
@@ -213,8 +216,7 @@ namespace corotet
       if (reason.empty())
         try
           {
-            parsers[component].SetExpr(
-              without_blanks_before_parentheses(formula));
+            parsers[component].SetExpr(with_blanks_as_wanted(formula));
             // muParser finds most mistakes only when it evaluates for the first
             // time.
             variables = {{0.25, 0.5, 0.75, 0}};

@@ -16,16 +16,23 @@ namespace corotet
 {
   namespace
   {
+    // Not before t0, but for the round-off of both: a step that ends there is
+    // to see what follows, as derivatives do (JetFormula).
+    bool
+    has_come(const double t, const double t0)
+    {
+      constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();
+      return t >= t0 - round_off * std::abs(t0);
+    }
+
     double
     ramp(const double t, const double t0, const double t1)
     {
       if (!(t0 <= t1))
         return std::numeric_limits<double>::quiet_NaN();
-      if (t < t0)
-        return 0;
-      if (t >= t1)
+      if (has_come(t, t1))
         return 1;
-      return (t - t0) / (t1 - t0);
+      return t > t0 ? (t - t0) / (t1 - t0) : 0;
     }
 
     double
@@ -41,7 +48,7 @@ namespace corotet
       const double s = ramp(t, t0, t1);
       if (std::isnan(s))
         return s;
-      return t >= t0 && t < t1 ? 1 : 0;
+      return has_come(t, t0) && !has_come(t, t1) ? 1 : 0;
     }
 
     double

@@ -56,14 +56,16 @@ namespace corotet
     , n_local_nodes(nodes.n_local_nodes())
     , n_owned_cells(nodes.n_owned_cells())
     , n_local_cells(nodes.n_local_cells())
-    , n_owned(divide_up(n_owned_cells, batch_size * floats_per_batch) *
-              floats_per_batch)
-    , n_all(n_owned + divide_up(n_local_cells - n_owned_cells, batch_size))
   {
-    constexpr unsigned int size      = batch_size * floats_per_batch;
-    const auto [first, end]          = nodes.cells_with_ghosts();
-    const unsigned int first_ghosted = first / size * floats_per_batch;
-    const unsigned int end_ghosted   = divide_up(end, size) * floats_per_batch;
+    make_sections(nodes.first_cells_of_groups());
+    // Whole registers.
+    const auto [first, end] = nodes.cells_with_ghosts();
+    const unsigned int first_ghosted =
+      place(first).first / floats_per_batch * floats_per_batch;
+    const unsigned int end_ghosted =
+      end > 0 ?
+        (place(end - 1).first / floats_per_batch + 1) * floats_per_batch :
+        0;
     plan           = divide(nodes, 0, n_owned, {first_ghosted, end_ghosted});
     plan_of_ghosts = divide(nodes, n_owned, n_all, {});
     const auto n_chunks_before = [&](const unsigned int batch) {
@@ -78,22 +80,42 @@ namespace corotet
     number_nodes(nodes);
   }
 
+  void
+  CellBatches::make_sections(const std::vector<unsigned int> &first_cells)
+  {
+    std::vector<unsigned int> firsts(first_cells);
+    firsts.insert(firsts.end(), {0, n_owned_cells});
+    std::sort(firsts.begin(), firsts.end());
+    firsts.erase(std::unique(firsts.begin(), firsts.end()), firsts.end());
+    for (std::size_t s = 0; s < firsts.size(); ++s)
+      {
+        if (firsts[s] == n_owned_cells)
+          n_owned = n_all;
+        if (firsts[s] == n_local_cells)
+          break;
+        sections.push_back({firsts[s], n_all});
+        const bool         is_last = s + 1 == firsts.size();
+        const unsigned int n =
+          (is_last ? n_local_cells : firsts[s + 1]) - firsts[s];
+        n_all += is_last ? divide_up(n, batch_size) :
+                           divide_up(n, batch_size * floats_per_batch) *
+                             floats_per_batch;
+      }
+  }
+
   template <typename Function>
   void
   CellBatches::for_nodes(const Nodes       &nodes,
                          const unsigned int batch,
                          const Function    &function) const
   {
-    const bool         is_owned = batch < n_owned;
-    const unsigned int first    = is_owned ?
-                                    batch * batch_size :
-                                    n_owned_cells + (batch - n_owned) * batch_size;
-    const unsigned int last = (is_owned ? n_owned_cells : n_local_cells) - 1;
-    const std::size_t  start =
+    const auto [first, end] = cells_from(batch);
+    const std::size_t start =
       static_cast<std::size_t>(batch) * n_cell_nodes * batch_size;
     for (unsigned int lane = 0; lane < batch_size; ++lane)
       {
-        const CellNodes cell = nodes.cell_nodes(std::min(first + lane, last));
+        const CellNodes cell =
+          nodes.cell_nodes(std::min(first + lane, end - 1));
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
           function(start + std::size_t(i) * batch_size + lane, cell[i]);
       }
@@ -243,14 +265,21 @@ namespace corotet
   }
 
   std::pair<unsigned int, unsigned int>
+  CellBatches::cells_from(const unsigned int batch) const
+  {
+    auto section = sections.end() - 1;
+    while (section->first_batch > batch)
+      --section;
+    return {section->first_cell + (batch - section->first_batch) * batch_size,
+            section + 1 == sections.end() ? n_local_cells :
+                                            (section + 1)->first_cell};
+  }
+
+  std::pair<unsigned int, unsigned int>
   CellBatches::cells(const unsigned int batch) const
   {
-    const bool         is_owned = batch < n_owned;
-    const unsigned int end      = is_owned ? n_owned_cells : n_local_cells;
-    const unsigned int first    = is_owned ?
-                                    batch * batch_size :
-                                    n_owned_cells + (batch - n_owned) * batch_size;
-    // Owned batches may be there to make a multiple.
+    const auto [first, end] = cells_from(batch);
+    // Batches may be there to make a multiple.
     return {first, first < end ? std::min(batch_size, end - first) : 0};
   }
 

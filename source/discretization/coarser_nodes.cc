@@ -50,6 +50,7 @@ namespace corotet
     n_owned       = finer.n_owned_cells();
     n_local       = finer.n_local_cells();
     ghosted_cells = finer.cells_with_ghosts();
+    group_starts  = finer.first_cells_of_groups();
     number_nodes();
     find_parents();
     make_batches();

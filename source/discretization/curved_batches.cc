@@ -3,6 +3,8 @@
 
 #include <corotet/discretization/curved_batches.h>
 
+#include <deal.II/base/exceptions.h>
+
 namespace corotet
 {
   CurvedBatches::CurvedBatches(const Element                     element,
@@ -18,6 +20,9 @@ namespace corotet
     for (unsigned int cell = 0; cell < is_curved.size(); ++cell)
       if (is_curved[cell])
         maps->index[batches.place(cell).first / floats_per_batch] = 0;
+    for (unsigned int cell = 0; cell < is_curved.size(); ++cell)
+      AssertThrow(is_curved[cell] || !has(batches.place(cell).first),
+                  dealii::ExcInternalError());
     for (unsigned int &index : maps->index)
       if (index != none)
         index = maps->n_registers++;

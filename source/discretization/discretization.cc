@@ -69,9 +69,9 @@ namespace corotet
     inner.insert(inner.begin() + ghosted_cells.first,
                  ghosted.begin(),
                  ghosted.end());
+    inner.insert(inner.end(), ghosts.begin(), ghosts.end());
     if (mesh_pointer->geometry_degree() > 1 && degree() > 1)
       gather_curved(inner);
-    inner.insert(inner.end(), ghosts.begin(), ghosts.end());
     local_mesh_cells = std::move(inner);
   }
 
@@ -200,7 +200,11 @@ namespace corotet
             {
               const BoundaryFace face{c, f, boundaries[in_mesh][f]};
               if (c < n_owned)
-                surface.push_back(face);
+                {
+                  surface.push_back(face);
+                  if (face.boundary != unnamed_boundary)
+                    faces_of_boundaries[face.boundary].push_back(face);
+                }
               else if (face.boundary != unnamed_boundary)
                 // The others may be inside of the body, where the known part
                 // of the mesh ends.

@@ -21,27 +21,57 @@ namespace corotet
   namespace
   {
     // Cells that may be put into another order: few enough to be near each
-    // other, many enough for most batches to be of one kind.
+    // other, many enough for runs of one kind to be long.
     constexpr unsigned int window = 32 * n_lanes<float>;
+
+    // The cells of one kind that wait for a place, of which whole registers are
+    // moved to the end of @p order, or all.
+    void
+    move_registers(std::vector<unsigned int> &waiting,
+                   std::vector<unsigned int> &order,
+                   const bool                 all)
+    {
+      const auto n = static_cast<std::ptrdiff_t>(
+        all ? waiting.size() :
+              waiting.size() - waiting.size() % n_lanes<float>);
+      order.insert(order.end(), waiting.begin(), waiting.begin() + n);
+      waiting.erase(waiting.begin(), waiting.begin() + n);
+    }
   } // namespace
 
   void
-  Discretization::gather_curved(std::vector<unsigned int> &cells) const
+  Discretization::gather_curved(std::vector<unsigned int> &cells)
   {
-    const auto sort = [&](const unsigned int begin, const unsigned int end) {
+    std::vector<unsigned int> order, straight, curved;
+    order.reserve(cells.size());
+    const auto gather = [&](const unsigned int begin, const unsigned int end) {
+      group_starts.push_back(begin);
       // Curved cells at the end of a window, then at the start of the next.
-      bool first = false;
-      for (unsigned int c = begin; c < end; c += window, first = !first)
-        std::stable_partition(
-          cells.begin() + c,
-          cells.begin() + std::min(c + window, end),
-          [&](const unsigned int cell) {
-            return mesh_pointer->curved_nodes(cell).empty() != first;
-          });
+      bool curved_first = false;
+      for (unsigned int c = begin; c < end; c += window)
+        {
+          const unsigned int next = std::min(c + window, end);
+          for (unsigned int k = c; k < next; ++k)
+            (mesh_pointer->curved_nodes(cells[k]).empty() ? straight : curved)
+              .push_back(cells[k]);
+          move_registers(curved_first ? curved : straight, order, next == end);
+          if (next == end)
+            group_starts.push_back(order.size());
+          move_registers(curved_first ? straight : curved, order, next == end);
+          curved_first = !curved_first;
+        }
     };
-    sort(0, ghosted_cells.first);
-    sort(ghosted_cells.first, ghosted_cells.second);
-    sort(ghosted_cells.second, n_owned);
+    const auto [first, second] = ghosted_cells;
+    if (first < second)
+      {
+        gather(0, first);
+        gather(first, second);
+        gather(second, n_owned);
+      }
+    else
+      gather(0, n_owned);
+    gather(n_owned, cells.size());
+    cells = std::move(order);
   }
 
   void

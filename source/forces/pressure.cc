@@ -41,12 +41,12 @@ namespace corotet
   void
   Pressure::for_each_point(const Vector *u, const Function &function) const
   {
-    for (const BoundaryFace &face : discretization.boundary_faces())
-      if (face.boundary == load.boundary)
-        for_each_surface_point(
-          discretization, reference, face, u, [&](const SurfacePoint &point) {
-            function(face, point);
-          });
+    for (const BoundaryFace &face :
+         discretization.boundary_faces(load.boundary))
+      for_each_surface_point(
+        discretization, reference, face, u, [&](const SurfacePoint &point) {
+          function(face, point);
+        });
   }
 
   void

@@ -30,28 +30,26 @@ namespace corotet
   void
   Traction::integrate(Vector &f, const Field &traction) const
   {
-    for (const BoundaryFace &face : discretization.boundary_faces())
-      if (face.boundary == boundary)
-        {
-          const auto  nodes      = discretization.cell_nodes(face.cell);
-          const auto &face_nodes = reference.face_nodes[face.face];
-          const auto &values     = reference.face_rules[face.face].values;
-          for_each_surface_point(discretization,
-                                 reference,
-                                 face,
-                                 nullptr,
-                                 [&](const SurfacePoint &point) {
-                                   const double       area = point.area.norm();
-                                   const Tensor<1, 3> force =
-                                     traction(point.at_rest,
-                                              point.area / area) *
-                                     area;
-                                   for (const unsigned int i : face_nodes)
-                                     for (unsigned int a = 0; a < 3; ++a)
-                                       f.local_element(3 * nodes[i] + a) +=
-                                         force[a] * values[point.index][i];
-                                 });
-        }
+    for (const BoundaryFace &face : discretization.boundary_faces(boundary))
+      {
+        const auto  nodes      = discretization.cell_nodes(face.cell);
+        const auto &face_nodes = reference.face_nodes[face.face];
+        const auto &values     = reference.face_rules[face.face].values;
+        for_each_surface_point(discretization,
+                               reference,
+                               face,
+                               nullptr,
+                               [&](const SurfacePoint &point) {
+                                 const double       area = point.area.norm();
+                                 const Tensor<1, 3> force =
+                                   traction(point.at_rest, point.area / area) *
+                                   area;
+                                 for (const unsigned int i : face_nodes)
+                                   for (unsigned int a = 0; a < 3; ++a)
+                                     f.local_element(3 * nodes[i] + a) +=
+                                       force[a] * values[point.index][i];
+                               });
+      }
   }
 
   void

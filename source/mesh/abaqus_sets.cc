@@ -37,13 +37,21 @@ namespace corotet::abaqus
                       "{}",
                       last,
                       first));
+      std::vector<std::uint32_t> members;
+      // Files may have thousands of short ranges.
+      if (static_cast<std::uint64_t>(last - first) / increment < known.size())
+        {
+          for (std::int64_t number = first; number <= last; number += increment)
+            if (const auto one = known.find(number); one != known.end())
+              members.push_back(one->second);
+          return members;
+        }
       std::vector<std::pair<std::int64_t, std::uint32_t>> found;
       for (const auto &[number, index] : known)
         if (number >= first && number <= last &&
             (number - first) % increment == 0)
           found.emplace_back(number, index);
       std::sort(found.begin(), found.end());
-      std::vector<std::uint32_t> members;
       for (const auto &[number, index] : found)
         members.push_back(index);
       return members;

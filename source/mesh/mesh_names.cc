@@ -40,23 +40,34 @@ namespace corotet
                  const std::vector<std::size_t>    &members,
                  const std::vector<unsigned int *> &id_of_member)
   {
-    std::map<unsigned int, std::size_t> n_with, n_in_set;
-    unsigned int                        next = 0;
-    for (const unsigned int *id : id_of_member)
-      ++n_with[*id];
+    std::map<unsigned int, std::size_t> n_in_set;
     for (const std::size_t member : members)
       ++n_in_set[*id_of_member[member]];
-    for (const auto &[id, n] : n_with)
-      next = std::max(next, id + 1);
+    // Of all members, which are many, as are sets: those with an id that is in
+    // this one are counted.
+    std::vector<unsigned int> counted;
+    for (const auto &[id, n] : n_in_set)
+      counted.push_back(id);
+    std::vector<std::size_t> n_with(counted.size());
+    unsigned int             next = 0;
+    for (const unsigned int *id : id_of_member)
+      {
+        next = std::max(next, *id + 1);
+        const auto place =
+          std::lower_bound(counted.begin(), counted.end(), *id);
+        if (place != counted.end() && *place == *id)
+          ++n_with[place - counted.begin()];
+      }
     for (const auto &[id, own] : names)
       next = std::max(next, id + 1);
 
     const std::vector<unsigned int>      before = ids(name);
     std::set<unsigned int>               meant(before.begin(), before.end());
     std::map<unsigned int, unsigned int> part_of;
+    auto                                 n_of_all = n_with.begin();
     for (const auto &[id, n] : n_in_set)
       {
-        if (n == n_with[id] || meant.contains(id))
+        if (n == *n_of_all++ || meant.contains(id))
           {
             meant.insert(id);
             continue;

@@ -19,14 +19,24 @@ namespace corotet
   {
     using dealii::Tensor;
 
+    // Rows may have thousands of columns: looking for each name among those
+    // before it, as operator[] does, would take most of the time. Names are
+    // known to be different (OutputParameters).
+    using Row = nlohmann::ordered_json::object_t;
+
+    template <typename Value>
     void
-    add_vector(nlohmann::ordered_json &row,
-               const std::string      &name,
-               const Tensor<1, 3>     &value)
+    add(Row &row, const std::string &name, const Value &value)
     {
-      row[name + "_x"] = value[0];
-      row[name + "_y"] = value[1];
-      row[name + "_z"] = value[2];
+      row.emplace_back(name, value);
+    }
+
+    void
+    add_vector(Row &row, const std::string &name, const Tensor<1, 3> &value)
+    {
+      add(row, name + "_x", value[0]);
+      add(row, name + "_y", value[1]);
+      add(row, name + "_z", value[2]);
     }
   } // namespace
 
@@ -36,33 +46,33 @@ namespace corotet
               const std::vector<Tensor<1, 3>> &displacements)
   {
     AssertDimension(names.size(), displacements.size());
-    nlohmann::ordered_json row;
-    row["step"]              = record.step;
-    row["time"]              = record.time;
-    row["dt"]                = record.dt;
-    row["newton_iterations"] = record.newton_iterations;
-    row["linear_iterations"] = record.linear_iterations;
-    row["kinetic_energy"]    = record.kinetic_energy;
-    row["elastic_energy"]    = record.elastic_energy;
-    row["dissipated_energy"] = record.dissipated_energy;
-    row["external_work"]     = record.external_work;
-    row["energy_balance"]    = record.energy_balance;
+    Row row;
+    add(row, "step", record.step);
+    add(row, "time", record.time);
+    add(row, "dt", record.dt);
+    add(row, "newton_iterations", record.newton_iterations);
+    add(row, "linear_iterations", record.linear_iterations);
+    add(row, "kinetic_energy", record.kinetic_energy);
+    add(row, "elastic_energy", record.elastic_energy);
+    add(row, "dissipated_energy", record.dissipated_energy);
+    add(row, "external_work", record.external_work);
+    add(row, "energy_balance", record.energy_balance);
     add_vector(row, "momentum", record.momentum);
     add_vector(row, "angular_momentum", record.angular_momentum);
-    row["max_displacement"] = record.max_displacement;
-    row["min_det_F"]        = record.min_det_F;
-    row["inverted_cells"]   = record.inverted_cells;
-    row["wall_time"]        = record.wall_time;
+    add(row, "max_displacement", record.max_displacement);
+    add(row, "min_det_F", record.min_det_F);
+    add(row, "inverted_cells", record.inverted_cells);
+    add(row, "wall_time", record.wall_time);
     for (unsigned int p = 0; p < names.size(); ++p)
       add_vector(row, names[p], displacements[p]);
-    row["volume"] = record.volume;
+    add(row, "volume", record.volume);
     add_vector(row, "reaction", record.reaction);
-    row["degenerate_cells"] = record.degenerate_cells;
-    row["robust_rotations"] = record.robust_rotations;
-    row["clamped_cells"]    = record.clamped_cells;
-    row["parts"]            = record.parts;
+    add(row, "degenerate_cells", record.degenerate_cells);
+    add(row, "robust_rotations", record.robust_rotations);
+    add(row, "clamped_cells", record.clamped_cells);
+    add(row, "parts", record.parts);
     add_vector(row, "internal_moment", record.internal_moment);
-    row["rejected_steps"] = record.rejected_steps;
+    add(row, "rejected_steps", record.rejected_steps);
     return row;
   }
 
@@ -72,12 +82,15 @@ namespace corotet
                      const std::vector<dealii::SymmetricTensor<2, 3>> &stresses)
   {
     AssertDimension(names.size(), stresses.size());
+    Row &columns = row.get_ref<Row &>();
     for (unsigned int p = 0; p < names.size(); ++p)
       {
         const auto components = in_vtk_order(stresses[p]);
         for (unsigned int k = 0; k < components.size(); ++k)
-          row[names[p] + "_stress_" + vtk_components[k]] = components[k];
-        row[names[p] + "_von_mises"] = von_mises(stresses[p]);
+          add(columns,
+              names[p] + "_stress_" + vtk_components[k],
+              components[k]);
+        add(columns, names[p] + "_von_mises", von_mises(stresses[p]));
       }
   }
 

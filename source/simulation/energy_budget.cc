@@ -68,7 +68,7 @@ namespace corotet
     if (body.motion.is_prescribed()[i] == 0)
       return terms.external.local_element(i);
     return terms.internal.local_element(i) +
-           (force_terms.has_elastic() ? terms.elastic.local_element(i) : 0.);
+           (terms.elastic.size() > 0 ? terms.elastic.local_element(i) : 0.);
   }
 
   void
@@ -139,12 +139,14 @@ namespace corotet
     const auto du = [&](const unsigned int i) {
       return state.u.local_element(i) - last.displacement.local_element(i);
     };
+    // Which asks all terms.
+    const bool         has_damping = force_terms.has_damping();
     Tensor<1, 2>       sums;
     const unsigned int n = state.u.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
       sums[0] +=
         (c * external(i) + (1 - c) * last.external.local_element(i)) * du(i);
-    if (force_terms.has_damping())
+    if (has_damping)
       for (unsigned int i = 0; i < n; ++i)
         sums[1] += middle_damping(i) * du(i);
     // What is prescribed moves with its own velocity.
@@ -156,7 +158,7 @@ namespace corotet
         const double       dv =
           0.5 * dt * (state.v.local_element(i) + last.velocity[k]);
         sums[0] += (c * carried(i) + (1 - c) * last.carried[k]) * dv;
-        if (force_terms.has_damping())
+        if (has_damping)
           sums[1] += middle_damping(i) * (dv - du(i));
       }
     sums =

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
@@ -170,6 +171,28 @@ namespace corotet
     has_warned = true;
     log.warning(fmt::format(
       "steps of {:.6g} s: {:.3g} of them up to the end time", dt, n));
+  }
+
+  double
+  TimeLoop::time(const double part) const
+  {
+    const double start = parameters.start_time;
+    const double time  = start + part * (parameters.end_time - start);
+    const double latest =
+      std::max(std::abs(start), std::abs(parameters.end_time));
+    // Of as many digits, of which steps take none, a number is decimal if it
+    // is one but for the round-off of three operations.
+    constexpr int    n_digits  = 12;
+    constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+    // Powers of ten up to this one are exact.
+    constexpr int most_places = 22;
+    const double  places      = n_digits - 1 - std::floor(std::log10(latest));
+    if (!(places >= 0 && places <= most_places))
+      return time;
+    const double unit    = std::pow(10., places);
+    const double decimal = std::round(time * unit) / unit;
+    // Without the sign of a zero.
+    return std::abs(decimal - time) <= round_off * latest ? decimal + 0. : time;
   }
 
   double

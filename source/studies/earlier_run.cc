@@ -143,6 +143,12 @@ namespace corotet
                       const bool           has_checkpoints,
                       const MPI_Comm       comm)
   {
+    if (has_checkpoints)
+      throw InputError("Output/Directory",
+                       "--restart: none of the checkpoints in '" + directory +
+                         "' can be gone on from; allowed: the program that "
+                         "wrote them, another directory, or "
+                         "Output/Overwrite = true to begin anew");
     if (holds_any(directory,
                   {"summary.json", "modes.csv", "study.csv", "rows"},
                   comm))
@@ -153,12 +159,6 @@ namespace corotet
                          "', and no checkpoint to go on from; allowed: "
                          "another directory, or Output/Overwrite = true "
                          "to begin anew");
-    if (has_checkpoints)
-      throw InputError("Output/Directory",
-                       "--restart: none of the checkpoints in '" + directory +
-                         "' can be gone on from; allowed: the program that "
-                         "wrote them, another directory, or "
-                         "Output/Overwrite = true to begin anew");
     if (const auto other = other_run_in(directory, file, comm))
       throw InputError(other->entry, other->message);
   }

@@ -40,6 +40,23 @@ namespace
   }
 } // namespace
 
+// muParser alone takes "||y" for its start, "|".
+TEST(Expression, AndOrBesideNames)
+{
+  const dealii::Point<3> p(1, 2, 3);
+  for (const std::string text : {"x>5||y>1",
+                                 "x > 5 || y > 1",
+                                 "x>0&&y>1",
+                                 "(x>5)||y>1",
+                                 "pulse(t,0,1)||pulse(t,2,3)",
+                                 "x>0&&t<1||z>5",
+                                 "x>5|y>1",
+                                 "x>0&y>1"})
+    EXPECT_EQ(Expression(text, 1, "").value(p, 0.5), 1) << text;
+  EXPECT_EQ(Expression("x>5||y>2", 1, "").value(p, 0.5), 0);
+  EXPECT_EQ(Expression("x>0&&y>2", 1, "").value(p, 0.5), 0);
+}
+
 TEST(Expression, EvaluatesAllComponents)
 {
   const Expression       e("x * sin(y); if(t > 1, z^2, -z); 2e1 + pi", 3, "");

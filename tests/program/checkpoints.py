@@ -223,6 +223,19 @@ class Checkpoints(ProgramTest):
         self.assertEqual(status, 0)
         self.assertIn("begins anew", out)
 
+    def test_ended_run_with_damaged_checkpoints(self):
+        # It has checkpoints, which must not be denied.
+        run = Run(self.folder / "damaged", "static", 1)
+        status, _, errors = run.finish()
+        self.assertEqual((status, errors), (0, ""))
+        files = list((run.output / "checkpoint").glob("*.h5"))
+        self.assertTrue(files)
+        for file in files:
+            file.write_bytes(file.read_bytes()[:-100])
+        status, _, errors = run.finish("--restart")
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, "^corotet: error: .*Output/Directory: --restart: none of the checkpoints in 'run' can be gone on from; .*\n$")
+
     def test_no_checkpoint(self):
         run = Run(self.folder / "none", "static", 1)
         status, out, _ = run.finish("--restart")

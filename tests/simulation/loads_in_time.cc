@@ -128,3 +128,46 @@ TEST(LoadsInTime, LoadsByTableOrFormula)
         << load.entry;
     }
 }
+
+// Gravity of 1 m/s^2 from 0.1 to 0.3 s makes a free body 0.2 m/s fast: the step
+// that ends at 0.1 s sees it, and that which ends at 0.3 s does not, whatever
+// start and end time make of the times of steps.
+TEST(LoadsInTime, JumpsAreMetAtAnyEndTime)
+{
+  const std::string body = box_mesh("1, 0.5, 0.5", "1, 1, 1") +
+                           section("Discretization", {{"Degree", 1}});
+  for (const std::string type : {"Newmark", "BDF2", "backward Euler"})
+    for (const auto &[start, end] : {std::pair(0., 0.6),
+                                     std::pair(0., 0.7),
+                                     std::pair(0., 0.9),
+                                     std::pair(0., 1.),
+                                     std::pair(0.7, 1.4),
+                                     std::pair(-0.4, 0.3)})
+      for (const std::string pulse : {"pulse(t, {0}, {1})",
+                                      "if(t >= {0} && t < {1}, 1, 0)",
+                                      "ramp(t, {0}, {0}) - ramp(t, {1}, {1})"})
+        {
+          const std::string load =
+            fmt::format(fmt::runtime(pulse),
+                        fmt::format("{:.2g}", start + 0.1),
+                        fmt::format("{:.2g}", start + 0.3));
+          Parameters parameters(body + gravity(load + "; 0; 0") +
+                                section("Time integration",
+                                        {{"Type", type},
+                                         {"Start time", start},
+                                         {"End time", end},
+                                         {"Time step", 0.01}}));
+          Log        log(MPI_COMM_WORLD, true);
+          Simulation simulation(parameters, "", MPI_COMM_WORLD, log);
+          std::vector<std::unique_ptr<Observer>> observers;
+          observers.push_back(std::make_unique<End>());
+          simulation.run(observers);
+          const double mass = simulation.body().mass.total();
+          const auto  &record =
+            static_cast<const End &>(*observers.front()).record;
+          // What Newton's tolerance of 1e-10 leaves in each of twenty steps,
+          // and round-off.
+          EXPECT_NEAR(record.momentum[0] / mass, 0.2, 1e-10)
+            << type << ' ' << start << ' ' << end << ' ' << load;
+        }
+}

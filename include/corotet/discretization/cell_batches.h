@@ -24,8 +24,9 @@ namespace corotet
 
   /**
    * The local cells in batches of batch_size, and the plan of a sweep over
-   * them. Batches at the end are filled up: lanes without a cell have nodes of
-   * another one and must contribute zeros.
+   * them. Owned cells, ghost cells and each group of cells that kernels treat
+   * alike begin a register of floats. What is before it is filled up: lanes
+   * without a cell have nodes of another one and must contribute zeros.
    *
    * A sweep goes from chunk to chunk: batches whose nodes fit into the second
    * level of the caches together. Nodes have a number in each chunk that has
@@ -95,12 +96,15 @@ namespace corotet
     std::pair<unsigned int, unsigned int>
     place(const unsigned int cell) const
     {
-      const bool         is_owned = cell < n_owned_cells;
-      const unsigned int i        = is_owned ? cell : cell - n_owned_cells;
-      return {(is_owned ? 0 : n_owned) + i / batch_size, i % batch_size};
+      auto section = sections.end() - 1;
+      while (section->first_cell > cell)
+        --section;
+      const unsigned int i = cell - section->first_cell;
+      return {section->first_batch + i / batch_size, i % batch_size};
     }
 
-    /// First local cell of a batch, and how many cells it has.
+    /// First local cell of a batch, and how many cells it has, which may be
+    /// none.
     std::pair<unsigned int, unsigned int>
     cells(const unsigned int batch) const;
 
@@ -184,6 +188,21 @@ namespace corotet
     }
 
   private:
+    /// Consecutive cells in consecutive batches.
+    struct Section
+    {
+      unsigned int first_cell;
+      unsigned int first_batch;
+    };
+
+    void
+    make_sections(const std::vector<unsigned int> &first_cells);
+
+    /// First local cell of a batch, and the one after the last of its section,
+    /// which may come before.
+    std::pair<unsigned int, unsigned int>
+    cells_from(const unsigned int batch) const;
+
     /// Calls function(k, n) for the numbers k among node_numbers of a batch and
     /// the local nodes n that belong there.
     template <typename Function>
@@ -222,8 +241,9 @@ namespace corotet
     unsigned int               n_local_nodes;
     unsigned int               n_owned_cells;
     unsigned int               n_local_cells;
-    unsigned int               n_owned;
-    unsigned int               n_all;
+    unsigned int               n_owned = 0;
+    unsigned int               n_all   = 0;
+    std::vector<Section>       sections;
     std::vector<std::uint16_t> node_numbers;
     /// Of each batch: its chunk; those of ghost cells are counted on.
     std::vector<unsigned int>             chunk_of_batch;

@@ -17,8 +17,9 @@
 namespace corotet
 {
   /**
-   * The batches that hold curved cells, as kernels take them. Their cells are
-   * integrated over by quadrature, the straight ones among them, too.
+   * The batches of curved cells, as kernels take them: they are integrated over
+   * by quadrature. None holds straight cells: where quadrature is not exact,
+   * that would make a difference, and on other ranks, others would be there.
    *
    * With the Jacobian J(xi) of a cell's map x(xi), gradients are those by xi
    * times J^{-1} = (J^{-1} J_c) J_c^{-1}, where J_c is that of the centre.
@@ -38,7 +39,7 @@ namespace corotet
 
     /**
      * With @p element's own points, and the numbers of straight cells so far.
-     * @param is_curved By local cell.
+     * @param is_curved By local cell; the same in all of a register.
      */
     CurvedBatches(const Element                     element,
                   const CellBatches                &batches,
@@ -54,8 +55,8 @@ namespace corotet
         const dealii::Tensor<2, 3>                  &matrix,
         const double                                 weight);
 
-    /// Whether the register of cells that @p batch belongs to has curved ones.
-    /// A register is one of floats: floats_per_batch batches.
+    /// Whether the register of cells that @p batch belongs to is of curved
+    /// ones. A register is one of floats: floats_per_batch batches.
     bool
     has(const unsigned int batch) const
     {

@@ -12,6 +12,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -136,6 +137,15 @@ namespace corotet
       return surface;
     }
 
+    /// What belongs to a boundary with a number.
+    const std::vector<BoundaryFace> &
+    boundary_faces(const unsigned int boundary) const
+    {
+      static const std::vector<BoundaryFace> none;
+      const auto found = faces_of_boundaries.find(boundary);
+      return found == faces_of_boundaries.end() ? none : found->second;
+    }
+
     /// Those of ghost cells, where the boundary has a number in the mesh.
     const std::vector<BoundaryFace> &
     ghost_boundary_faces() const
@@ -185,9 +195,10 @@ namespace corotet
     /// All cells of the LocalMesh, in the order of Nodes.
     void
     order_cells(const LocalNodes &nodes);
-    /// Puts curved cells side by side where they are near each other.
+    /// Puts cells of one kind, curved or straight, side by side, so that none
+    /// shares a register with one of the other, where they are near each other.
     void
-    gather_curved(std::vector<unsigned int> &cells) const;
+    gather_curved(std::vector<unsigned int> &cells);
     /// Global numbers.
     std::vector<dealii::types::global_dof_index>
     number_nodes(const LocalNodes &nodes);
@@ -213,7 +224,9 @@ namespace corotet
     std::vector<CellGeometry> curved_geometries;
     std::vector<BoundaryFace> surface;
     std::vector<BoundaryFace> surface_of_ghosts;
-    Vector                    positions;
+    /// Of those with a number.
+    std::map<unsigned int, std::vector<BoundaryFace>> faces_of_boundaries;
+    Vector                                            positions;
     /// By local cell; empty if no cell of any rank is curved.
     std::vector<unsigned char> curved_cells;
 

@@ -187,6 +187,14 @@ namespace corotet
       return ghosted_cells;
     }
 
+    /// First cells of the groups that kernels treat alike, all as curved or all
+    /// as straight, ascending. Without curved cells there are no groups.
+    const std::vector<unsigned int> &
+    first_cells_of_groups() const
+    {
+      return group_starts;
+    }
+
     /// Those of local cell @p cell.
     CellNodes
     cell_nodes(const unsigned int cell) const;
@@ -275,6 +283,7 @@ namespace corotet
     unsigned int                          n_local       = 0;
     unsigned int                          first_shared  = 0;
     std::pair<unsigned int, unsigned int> ghosted_cells = {0, 0};
+    std::vector<unsigned int>             group_starts;
     /// Of all local cells, one after the other; empty once there are batches.
     std::vector<unsigned int> nodes_of_cells;
 

@@ -41,12 +41,10 @@ namespace corotet
     void
     for_each_batch(const Function &function) const
     {
-      const auto all = [&](const unsigned int begin, const unsigned int end) {
-        for (unsigned int first = begin; first < end; first += batch_size)
-          function(first, std::min(batch_size, end - first));
-      };
-      all(0, nodes.n_owned_cells());
-      all(nodes.n_owned_cells(), nodes.n_local_cells());
+      const CellBatches &batches = nodes.batches();
+      for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
+        if (const auto [first, n] = batches.cells(batch); n > 0)
+          function(first, n);
     }
 
     /// Calls @p function(i, j, K, m) for all pairs of nodes i <= j of the cells

@@ -160,13 +160,11 @@ namespace corotet
     warn_of_steps(const double n, const double dt);
 
     /// Time when that part of the run, in [0, 1], is done: not a sum of steps,
-    /// so no round-off accumulates.
+    /// so no round-off accumulates. Decimal numbers are met exactly, so that a
+    /// formula that changes at one of them does so in the same step whatever
+    /// the end time is.
     double
-    time(const double part) const
-    {
-      return parameters.start_time +
-             part * (parameters.end_time - parameters.start_time);
-    }
+    time(const double part) const;
     /// Of that part of the run, a step or one that was halved [s].
     double
     duration(const double part) const;
