@@ -32,7 +32,8 @@ namespace corotet
         return std::numeric_limits<double>::quiet_NaN();
       if (has_come(t, t1))
         return 1;
-      return t > t0 ? (t - t0) / (t1 - t0) : 0;
+      // What is no number stays none.
+      return t <= t0 ? 0 : (t - t0) / (t1 - t0);
     }
 
     double

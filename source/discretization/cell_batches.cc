@@ -57,7 +57,7 @@ namespace corotet
     , n_owned_cells(nodes.n_owned_cells())
     , n_local_cells(nodes.n_local_cells())
   {
-    make_sections(nodes.first_cells_of_groups());
+    make_sections(nodes.first_cells_of_registers());
     // Whole registers.
     const auto [first, end] = nodes.cells_with_ghosts();
     const unsigned int first_ghosted =

@@ -47,10 +47,10 @@ namespace corotet
     : Nodes(finer.element().coarser())
     , finer(finer)
   {
-    n_owned       = finer.n_owned_cells();
-    n_local       = finer.n_local_cells();
-    ghosted_cells = finer.cells_with_ghosts();
-    group_starts  = finer.first_cells_of_groups();
+    n_owned         = finer.n_owned_cells();
+    n_local         = finer.n_local_cells();
+    ghosted_cells   = finer.cells_with_ghosts();
+    register_starts = finer.first_cells_of_registers();
     number_nodes();
     find_parents();
     make_batches();

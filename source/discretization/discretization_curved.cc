@@ -45,7 +45,7 @@ namespace corotet
     std::vector<unsigned int> order, straight, curved;
     order.reserve(cells.size());
     const auto gather = [&](const unsigned int begin, const unsigned int end) {
-      group_starts.push_back(begin);
+      register_starts.push_back(begin);
       // Curved cells at the end of a window, then at the start of the next.
       bool curved_first = false;
       for (unsigned int c = begin; c < end; c += window)
@@ -56,7 +56,7 @@ namespace corotet
               .push_back(cells[k]);
           move_registers(curved_first ? curved : straight, order, next == end);
           if (next == end)
-            group_starts.push_back(order.size());
+            register_starts.push_back(order.size());
           move_registers(curved_first ? straight : curved, order, next == end);
           curved_first = !curved_first;
         }

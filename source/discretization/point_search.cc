@@ -177,9 +177,14 @@ namespace corotet
     std::array<Point<3>, 4> vertices;
     for (unsigned int v = 0; v < 4; ++v)
       vertices[v] = discretization->node_position(nodes[v]);
-    const double distance = tolerance * longest_edge(vertices);
+    const double longest  = longest_edge(vertices);
+    const double distance = tolerance * longest;
     if (!discretization->is_curved(cell))
       {
+        // Most cells: none of their points is farther from a vertex than the
+        // longest edge, but for the distance allowed.
+        if (x.distance_square(vertices[0]) > 4 * longest * longest)
+          return {};
         const Tensor<2, 3> G = discretization->geometry(cell).inverse_jacobian;
         const Point<3>     xi(G * (x - vertices[0]));
         if (!is_inside(xi, G, distance))

@@ -80,8 +80,8 @@ namespace corotet
       for (const unsigned int i : nodes)
         marks.local_element(3 * discretization.cell_nodes(cell)[i]) = 1;
     };
-    for (const BoundaryFace &face : discretization.boundary_faces())
-      if (contains(place.boundaries, face.boundary))
+    for (const unsigned int boundary : place.boundaries)
+      for (const BoundaryFace &face : discretization.boundary_faces(boundary))
         mark_nodes(face.cell, reference.face_nodes[face.face]);
     if (place.edges.empty() && place.corners.empty())
       return;

@@ -39,10 +39,12 @@ namespace corotet::abaqus
                       first));
       std::vector<std::uint32_t> members;
       // Files may have thousands of short ranges.
-      if (static_cast<std::uint64_t>(last - first) / increment < known.size())
+      const std::int64_t n_increments = (last - first) / increment;
+      if (static_cast<std::size_t>(n_increments) < known.size())
         {
-          for (std::int64_t number = first; number <= last; number += increment)
-            if (const auto one = known.find(number); one != known.end())
+          for (std::int64_t k = 0; k <= n_increments; ++k)
+            if (const auto one = known.find(first + k * increment);
+                one != known.end())
               members.push_back(one->second);
           return members;
         }

@@ -82,6 +82,8 @@ namespace corotet
                      const std::vector<dealii::SymmetricTensor<2, 3>> &stresses)
   {
     AssertDimension(names.size(), stresses.size());
+    if (row.is_null())
+      row = nlohmann::ordered_json::object();
     Row &columns = row.get_ref<Row &>();
     for (unsigned int p = 0; p < names.size(); ++p)
       {

@@ -73,7 +73,7 @@ namespace corotet
   {
     // Room for one at a time. The larger array comes first, for where the
     // blocks have been: a smaller one there would leave it no room.
-    prolongation = {};
+    std::vector<ModeBlock<float>>().swap(prolongation);
     std::vector<ModeBlock<double>> exact(prolongation_pattern.columns.size());
     smooth_motions(exact, A, rigid_motions(frames));
     fill_coarse(A, exact);

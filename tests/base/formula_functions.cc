@@ -77,6 +77,13 @@ TEST(FormulaFunctions, DegenerateIntervals)
       EXPECT_TRUE(std::isnan(at(name + "(t, 2, 1)", t))) << name;
 }
 
+// A load must not be zero where its argument is none.
+TEST(FormulaFunctions, NotANumberStaysNone)
+{
+  for (const std::string &name : functions_of_time)
+    EXPECT_TRUE(std::isnan(at(name + "(sqrt(0 - 1 - t), 0, 1)", 0))) << name;
+}
+
 // What formulas have had of deal.II's parser.
 TEST(FormulaFunctions, GeneralFunctions)
 {

@@ -4,12 +4,15 @@
 #include <corotet/base/memory.h>
 
 #include <gtest/gtest.h>
+#include <link.h>
 
 #include <cstddef>
 #include <fstream>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace corotet;
@@ -68,10 +71,31 @@ TEST(Memory, LastReadingKeepsSmallArrays)
 
 TEST(Memory, PagesOfLibrariesComeBack)
 {
+  // What can be given back, once it is there.
+  std::pair<double, unsigned int> found(0, 0);
+  dl_iterate_phdr(
+    [](dl_phdr_info *library, std::size_t, void *data) {
+      auto &[size, sum] = *static_cast<std::pair<double, unsigned int> *>(data);
+      for (const ElfW(Phdr) & header :
+           std::span(library->dlpi_phdr, library->dlpi_phnum))
+        if (header.p_type == PT_LOAD && header.p_flags == PF_R)
+          {
+            // NOLINTNEXTLINE(performance-no-int-to-ptr)
+            const auto *bytes = reinterpret_cast<const unsigned char *>(
+              library->dlpi_addr + header.p_vaddr);
+            for (std::size_t i = 0; i < header.p_memsz; i += 4096)
+              sum += bytes[i];
+            size += header.p_memsz;
+          }
+      return 0;
+    },
+    &found);
+  // Linkers of other machines put these tables beside the code.
+  if (found.first < 30e6)
+    GTEST_SKIP() << "few pages are there to be read only";
   const double before = resident("RssFile");
   release_library_pages();
-  // The names of deal.II's functions alone are more.
-  EXPECT_LT(resident("RssFile"), before - 20e6);
+  EXPECT_LT(resident("RssFile"), before - 0.5 * found.first);
   // Needs tables that have been given back.
   EXPECT_THROW(throw std::runtime_error("found"), std::runtime_error);
 }

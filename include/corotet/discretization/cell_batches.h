@@ -24,8 +24,8 @@ namespace corotet
 
   /**
    * The local cells in batches of batch_size, and the plan of a sweep over
-   * them. Owned cells, ghost cells and each group of cells that kernels treat
-   * alike begin a register of floats. What is before it is filled up: lanes
+   * them. Owned cells, ghost cells and Nodes::first_cells_of_registers() begin
+   * a register of floats. What is before it is filled up: lanes
    * without a cell have nodes of another one and must contribute zeros.
    *
    * A sweep goes from chunk to chunk: batches whose nodes fit into the second

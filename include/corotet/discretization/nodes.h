@@ -187,12 +187,14 @@ namespace corotet
       return ghosted_cells;
     }
 
-    /// First cells of the groups that kernels treat alike, all as curved or all
-    /// as straight, ascending. Without curved cells there are no groups.
+    /// Cells that begin a register, so that none has both curved and straight
+    /// ones: ascending, not all different, and the number of local cells may be
+    /// among them. Empty where the mesh has straight cells only, or the degree
+    /// is 1.
     const std::vector<unsigned int> &
-    first_cells_of_groups() const
+    first_cells_of_registers() const
     {
-      return group_starts;
+      return register_starts;
     }
 
     /// Those of local cell @p cell.
@@ -283,7 +285,7 @@ namespace corotet
     unsigned int                          n_local       = 0;
     unsigned int                          first_shared  = 0;
     std::pair<unsigned int, unsigned int> ghosted_cells = {0, 0};
-    std::vector<unsigned int>             group_starts;
+    std::vector<unsigned int>             register_starts;
     /// Of all local cells, one after the other; empty once there are batches.
     std::vector<unsigned int> nodes_of_cells;
 

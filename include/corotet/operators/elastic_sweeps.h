@@ -30,7 +30,7 @@ namespace corotet
       return of_curved_cell(only_curved_have_points ? 0 : n_points);
     }
 
-    /// Those of all owned batches.
+    /// Those of all batches.
     std::size_t
     of_batches(const ReferenceElement &reference,
                const CellBatches      &batches) const;

@@ -12,7 +12,6 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
