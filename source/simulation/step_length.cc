@@ -190,7 +190,7 @@ namespace corotet
     // Powers of ten up to this one are exact.
     constexpr int most_places = 22;
     const double  places      = n_digits - 1 - std::floor(std::log10(latest));
-    if (!(places >= 0 && places <= most_places))
+    if (places < 0 || places > most_places)
       return time;
     const double unit    = std::pow(10., places);
     const double decimal = std::round(time * unit) / unit;
