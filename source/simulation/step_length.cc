@@ -178,9 +178,6 @@ namespace corotet
   {
     const double start = parameters.start_time;
     const double time  = start + part * (parameters.end_time - start);
-    // Steps that follow an error may have to come closer to a time than that.
-    if (n_steps == 0)
-      return time;
     const double latest =
       std::max(std::abs(start), std::abs(parameters.end_time));
     // Of as many digits, of which steps take none, a number is decimal if it

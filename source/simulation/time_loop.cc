@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
@@ -269,11 +270,14 @@ namespace corotet
   {
     const double duration = parameters.end_time - parameters.start_time;
     keep_state();
+    // Of the steps that were rejected, the end of the shortest one.
+    double rejected = std::numeric_limits<double>::infinity();
     for (;;)
       {
         const double to = end_of_step(record.step);
         const double dt = (to - done) * duration;
-        if (!(to > done))
+        // Half of one unit of round-off may be rounded to that unit again.
+        if (!(to > done && to < rejected))
           throw ComputationError(
             fmt::format("found a step of {:.6g} s, which round-off of the time "
                         "swallows",
@@ -304,6 +308,7 @@ namespace corotet
               }
             announce_half(to, error);
           }
+        rejected = to;
         restore_state();
         warn_of_steps(record.step + (1 - done) * duration / adaptive->length(),
                       adaptive->length());

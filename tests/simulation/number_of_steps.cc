@@ -106,6 +106,25 @@ TEST(NumberOfSteps, AdaptiveSteps)
   EXPECT_NE(warnings(shorter), "");
 }
 
+// The same at other times: half a step of one unit of round-off may be rounded
+// to that step again, which must not go on for ever.
+TEST(NumberOfSteps, RejectedStepsBecomeShorter)
+{
+  for (unsigned int i = 1; i < 60; i += 3)
+    {
+      const std::string begin = fmt::format("{:.3f}", i / 61.);
+      CompleteRun       run(
+        cube({{"Type", "Newmark"},
+                    {"Time step", 1e-2},
+                    section("Adaptive step",
+                            {{"Enabled", true}, {"Smallest step", 1e-30}})}) +
+        gravity("0; 0; if(t > " + begin + " && t < 0.995, 1/0, -1)"));
+      EXPECT_NE(run.run().find("which round-off of the time swallows"),
+                std::string::npos)
+        << begin;
+    }
+}
+
 // An energy of which the squares overflow while the forces are good: the step
 // that makes it does not count, and time, state and record stay those of the
 // step before.

@@ -160,9 +160,9 @@ namespace corotet
     warn_of_steps(const double n, const double dt);
 
     /// Time when that part of the run, in [0, 1], is done: not a sum of steps,
-    /// so no round-off accumulates. Steps of equal length meet decimal numbers
-    /// exactly, so that a formula that changes at one of them does so in the
-    /// same step whatever the end time is.
+    /// so no round-off accumulates. Decimal numbers are met exactly, so that a
+    /// formula that changes at one of them does so in the same step whatever
+    /// the end time is.
     double
     time(const double part) const;
     /// Of that part of the run, a step or one that was halved [s].
