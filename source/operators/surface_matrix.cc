@@ -242,11 +242,16 @@ namespace corotet
     double           sum = 0;
     for (unsigned int k = 0; k < rows.size(); ++k)
       {
-        double square = 0;
+        // By components: a stiff spring along one axis says nothing of what
+        // moves along another.
         for (unsigned int a = 0; a < 3; ++a)
-          square +=
-            x.local_element(3 * rows[k] + a) * x.local_element(3 * rows[k] + a);
-        sum += blocks[k] * blocks[k] * square;
+          {
+            double size = 0;
+            for (unsigned int b = 0; b < 3; ++b)
+              size +=
+                std::abs(blocks[k][a][b] * x.local_element(3 * rows[k] + b));
+            sum += size * size;
+          }
       }
     return row * std::numeric_limits<T>::epsilon() *
            std::sqrt(dealii::Utilities::MPI::sum(sum, nodes.communicator()));

@@ -169,15 +169,17 @@ namespace corotet
     const RigidMotions    without_strain(disc, the_body.motion);
     const double          first_look = estimated_shift();
     lowest                           = solver.lowest_eigenvalue(first_look,
-                                      rigid_body_modes(disc, without_strain));
+                                      rigid_body_modes(disc, without_strain),
+                                      true);
     shift                            = 0.01 * lowest;
     // A solve with A makes such a motion larger than other modes by the ratio
     // of what they have of A: if that exceeds a million, these become the noise
     // of that one.
     if (without_strain.size() > rigid_motions.size())
       shift =
-        std::max(0.01 * solver.lowest_eigenvalue(
-                          first_look, rigid_body_modes(disc, rigid_motions)),
+        std::max(0.01 *
+                   solver.lowest_eigenvalue(
+                     first_look, rigid_body_modes(disc, rigid_motions), false),
                  1e-6 * lowest);
     if (parameters.modes.shift > 0)
       shift = parameters.modes.shift;
@@ -234,11 +236,8 @@ namespace corotet
     for (unsigned int i = 0; i < r.locally_owned_size(); ++i)
       r.local_element(i) =
         A.diagonal().local_element(i) * mode.shape.local_element(i);
-    // Nor does a solve leave less than what counts as round-off there.
     mode.round_off =
-      std::max(1000 * std::numeric_limits<double>::epsilon() * norm(r),
-               A.round_off(mode.shape)) /
-      unit;
+      1000 * std::numeric_limits<double>::epsilon() * norm(r) / unit;
 
     // Also from the nodes of supports, which phi moves through M.
     the_body.mass.apply(g, mode.shape);

@@ -134,7 +134,8 @@ namespace corotet
 
   double
   EigenvalueSolver::lowest_eigenvalue(const double        shift,
-                                      std::vector<Vector> motions)
+                                      std::vector<Vector> motions,
+                                      const bool          of_strain)
   {
     A.update(1., shift);
     const Basis basis = orthonormal(std::move(motions));
@@ -149,6 +150,8 @@ namespace corotet
         basis.remove_from(x);
       }
     apply(f, g, x);
+    if (of_strain)
+      A.elasticity().apply_tangent(f, ghosted);
     return (x * f) / (x * g);
   }
 

@@ -74,9 +74,14 @@ namespace corotet
     /// linearly independent @p motions, which have no ghost values and include
     /// the null space: the Rayleigh quotient after three steps of inverse
     /// iteration with @p shift, from a random vector. From above, mostly by
-    /// less than a factor of two if the shift is not above it.
+    /// less than a factor of two if the shift is not above it. With
+    /// @p of_strain the quotient has the energy of strain only: what is left of
+    /// a mode without such motions moves on elastic supports as no mode does,
+    /// which may take any energy.
     double
-    lowest_eigenvalue(const double shift, std::vector<Vector> motions);
+    lowest_eigenvalue(const double        shift,
+                      std::vector<Vector> motions,
+                      const bool          of_strain);
 
     /**
      * The @p n smallest, 1 to max_eigenvalues(), and the values of some that
