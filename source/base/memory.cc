@@ -8,8 +8,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <link.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -19,6 +21,7 @@
 #include <fstream>
 #include <new>
 #include <span>
+#include <vector>
 
 namespace corotet
 {
@@ -42,24 +45,6 @@ namespace corotet
 
   namespace
   {
-    bool
-    has_text_relocations(const dl_phdr_info &library)
-    {
-      const std::span headers(library.dlpi_phdr, library.dlpi_phnum);
-      for (const ElfW(Phdr) & header : headers)
-        if (header.p_type == PT_DYNAMIC)
-          // NOLINTNEXTLINE(performance-no-int-to-ptr)
-          for (const auto *entry = reinterpret_cast<const ElfW(Dyn) *>(
-                 library.dlpi_addr + header.p_vaddr);
-               entry->d_tag != DT_NULL;
-               ++entry)
-            if (entry->d_tag == DT_TEXTREL ||
-                (entry->d_tag == DT_FLAGS &&
-                 (entry->d_un.d_val & DF_TEXTREL) != 0))
-              return true;
-      return false;
-    }
-
     std::uintptr_t
     page_size()
     {
@@ -84,23 +69,52 @@ namespace corotet
         madvise(reinterpret_cast<void *>(begin), end - begin, MADV_DONTNEED);
     }
 
+    // Releases pages that are as the file has them: not those that have been
+    // written to, as by relocations and by breakpoints of a debugger.
+    void
+    release_unchanged_pages(const std::uintptr_t begin,
+                            const std::uintptr_t end,
+                            const int            pagemap)
+    {
+      // See Linux' documentation of pagemap: a word for each page.
+      constexpr std::uint64_t is_present = 1ull << 63, is_of_file = 1ull << 61;
+      std::vector<std::uint64_t> words((end - begin) / page_size());
+      const auto                 n_bytes =
+        static_cast<ssize_t>(words.size() * sizeof(words[0]));
+      if (pread(pagemap,
+                words.data(),
+                n_bytes,
+                begin / page_size() * sizeof(words[0])) != n_bytes)
+        return;
+      const auto is_unchanged = [](const std::uint64_t word) {
+        return (word & is_present) == 0 || (word & is_of_file) != 0;
+      };
+      for (auto first = words.begin(); first != words.end();)
+        {
+          first           = std::find_if(first, words.end(), is_unchanged);
+          const auto last = std::find_if_not(first, words.end(), is_unchanged);
+          release_pages(begin + page_size() * (first - words.begin()),
+                        begin + page_size() * (last - words.begin()));
+          first = last;
+        }
+    }
+
     // What dl_iterate_phdr() calls.
     int
-    release_library(dl_phdr_info *library,
-                    std::size_t /*size*/,
-                    void * /*data*/)
+    release_library(dl_phdr_info *library, std::size_t /*size*/, void *pagemap)
     {
-      // Its read-only pages have been written to.
-      if (has_text_relocations(*library))
-        return 0;
       const std::span headers(library->dlpi_phdr, library->dlpi_phnum);
       for (const ElfW(Phdr) & header : headers)
-        // Neither data nor code, where debuggers write their breakpoints.
-        if (header.p_type == PT_LOAD && header.p_flags == PF_R)
+        if (header.p_type == PT_LOAD && (header.p_flags & PF_W) == 0)
           {
-            const std::uintptr_t begin = library->dlpi_addr + header.p_vaddr;
-            const std::uintptr_t end   = begin + header.p_memsz;
-            release_pages(next_page(begin), end - end % page_size());
+            const std::uintptr_t begin =
+              next_page(library->dlpi_addr + header.p_vaddr);
+            const std::uintptr_t end =
+              library->dlpi_addr + header.p_vaddr + header.p_memsz;
+            if (end > begin + page_size())
+              release_unchanged_pages(begin,
+                                      end - end % page_size(),
+                                      *static_cast<const int *>(pagemap));
           }
       return 0;
     }
@@ -109,7 +123,21 @@ namespace corotet
   void
   release_library_pages()
   {
-    dl_iterate_phdr(release_library, nullptr);
+    // Unbuffered, as it is read in whole words only.
+    int pagemap = open("/proc/self/pagemap", O_RDONLY | O_CLOEXEC);
+    if (pagemap < 0)
+      return;
+    dl_iterate_phdr(release_library, &pagemap);
+    close(pagemap);
+  }
+
+  void
+  release_free_memory()
+  {
+    // Bytes for which it pays: what comes back must be zeroed by the system.
+    constexpr std::size_t much = 1 << 25;
+    if (mallinfo2().fordblks > much)
+      malloc_trim(0);
   }
 
   LastReading::LastReading(void *begin)

@@ -14,7 +14,6 @@ namespace corotet
     , saved(this->prescribed.size())
     , data{nodes.batches(), nullptr, nullptr, 0}
   {
-    nodes.initialize_vector(diagonal_of_A);
     if (const CurvedBatches *curved = nodes.batches().curved();
         curved != nullptr && std::is_same_v<T, float>)
       curved->make_floats();
@@ -57,6 +56,8 @@ namespace corotet
   CellwiseOperator<T>::compute_diagonal()
   {
     const FormData<T> &data = this->data;
+    if (diagonal_of_A.size() == 0)
+      nodes().initialize_vector(diagonal_of_A);
     diagonal_of_A.zero_out_ghost_values();
     cell_loop.run(
       diagonal_of_A,
@@ -133,13 +134,15 @@ namespace corotet
       }
     apply(src,
           [&](const unsigned int i, const auto y) { store_to(y, result + i); });
-    const unsigned int n_owned = dst.locally_owned_size();
+    const unsigned int n_owned      = dst.locally_owned_size();
+    const bool         has_diagonal = diagonal_of_A.size() > 0;
     for (unsigned int k = 0; k < prescribed.size(); ++k)
       {
         const unsigned int i = prescribed[k];
         source[i]            = saved[k];
         if (i < n_owned)
-          result[i] = diagonal_of_A.local_element(i) * saved[k];
+          result[i] =
+            has_diagonal ? diagonal_of_A.local_element(i) * saved[k] : T(0);
       }
   }
 

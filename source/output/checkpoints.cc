@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/stop_signals.h>
 #include <corotet/base/text.h>
@@ -308,6 +309,7 @@ namespace corotet
     // This state is saved.
     if (step == written_step)
       return;
+    release_free_memory();
     on_root(comm, [&] { fs::create_directories(directory); });
     // What the checkpoint counts on is there before it is.
     if (durable)

@@ -131,6 +131,15 @@ namespace corotet
   std::vector<Number>
   FileOrder::to_file(const Number *values, const std::size_t n_columns) const
   {
+    std::vector<Number> rows(n_rows * n_columns);
+    if (n_sent.size() == 1)
+      {
+        for (std::size_t k = 0; k < by_rank.size(); ++k)
+          std::copy_n(values + by_rank[k] * n_columns,
+                      n_columns,
+                      rows.begin() + row_of_received[k] * n_columns);
+        return rows;
+      }
     std::vector<Number> sent;
     sent.reserve(by_rank.size() * n_columns);
     for (const unsigned int i : by_rank)
@@ -139,7 +148,6 @@ namespace corotet
                   values + (i + 1) * n_columns);
     const std::vector<Number> received =
       exchange(std::move(sent), n_sent, n_received, n_columns);
-    std::vector<Number> rows(received.size());
     for (std::size_t k = 0; k < row_of_received.size(); ++k)
       std::copy_n(received.begin() + k * n_columns,
                   n_columns,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/memory.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/output/stress_tables.h>
 #include <corotet/output/vtkhdf_writer.h>
@@ -197,10 +198,11 @@ namespace corotet
   void
   VtkhdfWriter::write_state(const Snapshot &state)
   {
-    const MPI_Comm    comm    = state.discretization.communicator();
-    const CellResults results = state.cell_results();
+    const MPI_Comm comm = state.discretization.communicator();
     // What the linear solver keeps for the next time makes room for the rows.
     dealii::GrowingVectorMemory<Vector>::release_unused_memory();
+    release_free_memory();
+    const CellResults results = state.cell_results();
 
     Hdf5File file(series.result_file(state.record.step), comm);
     VtkhdfSeries::create_groups(file);
@@ -209,9 +211,9 @@ namespace corotet
       write_nodal(file, "PointData/velocity", state.velocity);
     else
       {
-        Vector zero;
-        state.discretization.initialize_vector(zero);
-        write_nodal(file, "PointData/velocity", zero);
+        const Hdf5Rows            rows = nodes->rows(3);
+        const std::vector<double> zeros(3 * rows.n_rows);
+        file.write("PointData/velocity", zeros.data(), rows);
       }
     cells->write(file,
                  "CellData/rotation_angle",

@@ -5,6 +5,8 @@
 #include <corotet/discretization/cell_proportions.h>
 #include <corotet/simulation/implicit_solver.h>
 
+#include <deal.II/base/scope_exit.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,6 +77,7 @@ namespace corotet
     NewtonReport report;
     try
       {
+        const dealii::ScopeExit give_back([this] { kept = {}; });
         newton.solve(*this, state.u, report);
       }
     catch (const ComputationError &)
@@ -315,21 +318,28 @@ namespace corotet
   void
   ImplicitSolver::keep()
   {
-    kept.u = stage_state->u;
+    const auto copy = [&](dealii::VectorMemory<Vector>::Pointer &to,
+                          const Vector                          &from) {
+      if (!to)
+        to = dealii::VectorMemory<Vector>::Pointer(memory);
+      to->reinit(from, true);
+      *to = from;
+    };
+    copy(kept.u, stage_state->u);
     if (stage.velocity_factor != 0)
-      kept.v = stage_state->v;
+      copy(kept.v, stage_state->v);
     if (stage.acceleration_factor != 0)
-      kept.a = stage_state->a;
+      copy(kept.a, stage_state->a);
   }
 
   void
   ImplicitSolver::restore()
   {
-    stage_state->u = kept.u;
+    stage_state->u = *kept.u;
     if (stage.velocity_factor != 0)
-      stage_state->v = kept.v;
+      stage_state->v = *kept.v;
     if (stage.acceleration_factor != 0)
-      stage_state->a = kept.a;
+      stage_state->a = *kept.a;
   }
 
   bool

@@ -41,8 +41,6 @@ namespace corotet
                            q * (1. / 120 + q * (-1. / 5040 + q / 362880))));
     }
 
-
-
     // Values in [-1, 1] without pattern, by the places of the nodes in the body
     // alone: the same on any number of ranks, and in any units. They are smooth
     // functions of the place, so that round-off of positions, which others than
@@ -97,7 +95,7 @@ namespace corotet
     , smoother(A, smoother_degree, smoothing_range)
     , coarser(nodes)
   {
-    for (FloatVector *vector : {&lumped_mass, &x, &b, &residual})
+    for (FloatVector *vector : {&x, &b, &residual})
       nodes.initialize_vector(*vector);
   }
 
@@ -178,7 +176,10 @@ namespace corotet
           .mass[batch % floats_per_batch * batch_size + lane] =
           A.mass().cell_masses()[batch].mass[lane] / mass_unit;
     if (A.mass().is_lumped())
-      copy_scaled(levels[0]->lumped_mass, A.mass().diagonal(), 1 / mass_unit);
+      {
+        A.discretization().initialize_vector(levels[0]->lumped_mass);
+        copy_scaled(levels[0]->lumped_mass, A.mass().diagonal(), 1 / mass_unit);
+      }
   }
 
   void

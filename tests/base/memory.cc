@@ -69,6 +69,23 @@ TEST(Memory, LastReadingKeepsSmallArrays)
             2. * values.size());
 }
 
+TEST(Memory, FreedArraysAreGivenBack)
+{
+  // Many small ones come from the heap on all systems; the last stays, so that
+  // the heap does not end before it.
+  const std::size_t                n_arrays = 1000, n_each = 12500;
+  std::vector<std::vector<double>> arrays(n_arrays);
+  for (std::vector<double> &values : arrays)
+    values.assign(n_each, 1.);
+  const double before = resident("RssAnon");
+  for (std::size_t i = 0; i + 1 < n_arrays; ++i)
+    std::vector<double>().swap(arrays[i]);
+  release_free_memory();
+  // But for parts of pages, and some for what others do.
+  EXPECT_LT(resident("RssAnon"), before - 8. * n_arrays * n_each + 1e7);
+  EXPECT_EQ(arrays.back(), std::vector<double>(n_each, 1.));
+}
+
 TEST(Memory, PagesOfLibrariesComeBack)
 {
   // What can be given back, once it is there.

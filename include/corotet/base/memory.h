@@ -22,12 +22,17 @@ namespace corotet
   void
   reset_peak_memory();
 
-  /// Gives back the pages of shared libraries that only the start has read:
-  /// tables of names and relocations, some 80 MB of deal.II and Trilinos, which
-  /// count as memory of each rank. They are read-only and come back from the
-  /// files when they are used.
+  /// Gives back the pages of the program and its libraries that only the start
+  /// has read, which count as memory of each rank: tables of names and
+  /// relocations, some 80 MB of deal.II and Trilinos, and code. Those that are
+  /// as the files have them, and come back from there when they are used.
   void
   release_library_pages();
+
+  /// Gives back what has been freed and is kept for the next time, if it is
+  /// much: where other large arrays than those before are to be made.
+  void
+  release_free_memory();
 
   /**
    * The last reading of an array on the heap, from its beginning to its end:

@@ -53,13 +53,14 @@ namespace corotet
     void
     compute_diagonal();
 
+    /// Empty before compute_diagonal().
     const VectorType &
     diagonal() const
     {
       return diagonal_of_A;
     }
 
-    /// dst = A src.
+    /// dst = A src; before compute_diagonal() zero at prescribed unknowns.
     void
     vmult(VectorType &dst, const VectorType &src) const;
 

@@ -12,6 +12,8 @@
 #include <corotet/solvers/linear_solver.h>
 #include <corotet/solvers/newton.h>
 
+#include <deal.II/lac/vector_memory.h>
+
 #include <limits>
 #include <memory>
 #include <set>
@@ -140,7 +142,14 @@ namespace corotet
     // The stage that is being solved.
     State *stage_state = nullptr;
     Stage  stage       = {};
-    State  kept;
+    /// The state of keep(), while Newton's method runs: in vectors that the
+    /// linear solver does not need meanwhile.
+    struct KeptState
+    {
+      dealii::VectorMemory<Vector>::Pointer u, v, a;
+    };
+    dealii::GrowingVectorMemory<Vector> memory;
+    KeptState                           kept;
     /// Size of the forces [N]: of the last residual, of the last stage that was
     /// solved, and what residuals of the stage are compared with at least.
     double force_scale    = 0;
