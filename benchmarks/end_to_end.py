@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""From a mesh file to results: linear statics of a cube of a million unknowns, degrees 1 to 3, on one rank and more, as whole processes.
+"""From a mesh file to results: linear statics of a cube of a million unknowns, degrees 1 to 3, and of nearly six million, degrees 2 and 3,
+on one rank and more, as whole processes.
 Run it inside of scripts/toolchain:
 
     benchmarks/end_to_end.py [--program PROGRAM] [--ranks 1 2] [--repetitions 2] [--quick] [--largest] [--document]
@@ -11,7 +12,8 @@ processor's time is that of all processes, gmsh's included, which reads the file
 has had, or gmsh's process, which rank 0 waits for, if that had more.
 
 The status is 1 if set-up on one rank takes more than 2 s for a million cells of degree 1, 4 s of degree 2 or 3; if at degree 2 or 3
-set-up and output take longer than the solution; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of
+set-up and output take longer than the solution; if one rank has more than 1,500 bytes for an unknown of degree 1, or on the larger bodies
+350 of degree 2 or 300 of degree 3; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of
 an eighth and judges nothing. --largest is ten million cells of degree 1, on the most ranks of --ranks. --document writes the table into
 doc/scaling.md, with --largest that one.
 """
@@ -33,8 +35,10 @@ from readers import MESHED_BOX, gmsh  # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "scaling.md"
-# Cuboids in each direction, each of six cells, for a million unknowns.
-CUBOIDS = {1: 68, 2: 34, 3: 23}
+# Degrees, and cuboids in each direction, each of six cells.
+BODIES = [(1, 68), (2, 34), (3, 23), (2, 62), (3, 41)]
+# Of such a body, for an unknown, on one rank.
+MOST_BYTES = {(1, 68): 1500, (2, 62): 350, (3, 41): 300}
 CUBOIDS_OF_LARGEST = 119
 MOST_SETUP = {1: 2, 2: 4, 3: 4}
 MOST_OVER_MEAN = 1.3
@@ -59,8 +63,8 @@ def run(program, folder, ranks):
     return wall, processor, summary, [int(path.read_text()) for path in folder.glob("rank.*")]
 
 
-def judge(degree, ranks, summary, memory):
-    """What is not as it should be."""
+def judge(degree, n, ranks, summary, memory):
+    """What is not as it should be. n: cuboids in each direction."""
     times, found = summary["wall_time"], []
     setup = times["setup"] - times["read"]
     each = 1e6 * setup / summary["cells"]
@@ -68,6 +72,9 @@ def judge(degree, ranks, summary, memory):
         found.append(f"degree {degree}: set-up takes {each:.2g} s for a million cells, not at most {MOST_SETUP[degree]}")
     if ranks == 1 and degree > 1 and setup + times["output"] > times["solve"]:
         found.append(f"degree {degree}: set-up and output take {setup + times['output']:.2g} s, the solution {times['solve']:.2g}")
+    most_bytes = MOST_BYTES.get((degree, n))
+    if ranks == 1 and most_bytes and sum(memory) > most_bytes * summary["dofs"]:
+        found.append(f"degree {degree}: {sum(memory) / summary['dofs']:.0f} bytes for an unknown, not at most {most_bytes}")
     if max(memory) * len(memory) > MOST_OVER_MEAN * sum(memory):
         found.append(f"degree {degree}, {ranks} ranks: one has {max(memory) * len(memory) / sum(memory):.2f} times the mean memory")
     return found
@@ -89,8 +96,8 @@ def measure(options, folder):
     heads = ["degree", "ranks", "cells", "unknowns", "iterations", "reading", "set-up", "for a million cells", "assembly", "solution",
              "output", "whole", "processor", "MB", "bytes for an unknown", "largest rank over mean"]
     lines, mistakes = ["| " + " | ".join(heads) + " |", "|" + "---:|" * len(heads)], []
-    bodies = {1: CUBOIDS_OF_LARGEST} if options.largest else CUBOIDS
-    for degree, n in bodies.items():
+    bodies = [(1, CUBOIDS_OF_LARGEST)] if options.largest else BODIES
+    for degree, n in bodies:
         gmsh(folder, MESHED_BOX.format(n=n // 2 if options.quick else n), folder / "body.msh", "-3", "-bin")
         (folder / "case.prm").write_text(bent_body(file("body.msh"), degree, "foot"), encoding="utf-8")
         for ranks in [max(options.ranks)] if options.largest else options.ranks:
@@ -98,7 +105,7 @@ def measure(options, folder):
             fastest = min(runs, key=lambda one: one[0])
             lines.append(row(degree, ranks, fastest))
             print(lines[-1], flush=True)
-            mistakes += judge(degree, ranks, *fastest[2:])
+            mistakes += judge(degree, n, ranks, *fastest[2:])
     return lines, [] if options.quick else mistakes
 
 

@@ -45,6 +45,9 @@ namespace corotet
     // Matrices of aggregates come divided.
     if (d == 3)
       the_unit = unit_of(A);
+    // With room for what takes its place, see below, which may be larger: pages
+    // that nothing is written to are no memory.
+    blocks.reserve(5 * offset(d) * points->graph().columns.size() / 4);
     copy_blocks(A);
     copy_diagonal(A);
     if (is_new)
@@ -59,7 +62,7 @@ namespace corotet
     if (has_aggregate_blocks)
       invert_aggregates(A);
     estimate_largest_eigenvalue();
-    // Gives its memory to the motions: a copy costs little.
+    // Gives its place to the motions: a copy costs little.
     blocks.clear();
     build_coarse(A, frames);
     copy_blocks(A, given_up);

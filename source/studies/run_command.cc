@@ -371,6 +371,10 @@ namespace corotet
         });
       }
     else
-      Command(command, file, parameters, comm).run();
+      {
+        Command(command, file, parameters, comm).run();
+        // The end of the process reads pages of all libraries.
+        release_free_memory();
+      }
   }
 } // namespace corotet
