@@ -15,11 +15,6 @@ namespace corotet
 
   namespace
   {
-    // A polynomial of degree 2 or 3 that is zero at the vertices is nowhere
-    // larger than this many times its largest value at the nodes: sums of the
-    // sizes of the other nodes' functions are at most 1.5 and 2.77.
-    constexpr double growth = 3;
-
     // A map is almost affine if its nodes are off by less, in barycentric
     // coordinates: then its Jacobian changes by less than half in the part, and
     // Newton's method converges from the middle.

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
+#include <corotet/discretization/nearby_cells.h>
 #include <corotet/discretization/point_search.h>
 #include <corotet/forces/point_forces.h>
 
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,24 +33,16 @@ namespace corotet
     // a point on the surface of a curved body is a little outside of its cells.
     bool
     is_at_owned_cell(const Discretization &discretization,
-                     const Point<3>       &x,
-                     const double          distance_to_node)
+                     const NearbyCells    &nearby,
+                     const Point<3>       &x)
     {
       // In heights of the cell.
       constexpr double  near = 0.2;
       const PointSearch search(discretization);
-      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+      for (const unsigned int c : nearby.cells(x, near))
         {
-          const auto      nodes   = discretization.cell_nodes(c);
-          const Point<3> &origin  = discretization.node_position(nodes[0]);
-          double          longest = 0;
-          for (unsigned int v = 1; v < 4; ++v)
-            longest =
-              std::max(longest,
-                       origin.distance(discretization.node_position(nodes[v])));
-          // Every point of a cell is so near to a node, and others far away.
-          if (distance_to_node > 2 * longest)
-            continue;
+          const Point<3> &origin =
+            discretization.node_position(discretization.cell_nodes(c)[0]);
           const Tensor<1, 3> xi =
             discretization.geometry(c).inverse_jacobian * (x - origin);
           if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >
@@ -64,16 +58,14 @@ namespace corotet
     // an invalid number on other ranks; and how many there are. Collective.
     std::pair<unsigned int, unsigned int>
     nearest_node(const Discretization &discretization,
+                 const NearbyCells    &nearby,
                  const Point<3>       &target,
                  const double          distance)
     {
       constexpr double          round_off = 1e-9;
       const MPI_Comm            comm      = discretization.communicator();
-      std::vector<unsigned int> nodes;
-      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-        if (discretization.node_position(n).distance(target) <=
-            (1 + round_off) * distance)
-          nodes.push_back(n);
+      std::vector<unsigned int> nodes =
+        nearby.nodes(target, (1 + round_off) * distance);
       const auto n_nearest =
         dealii::Utilities::MPI::sum<unsigned int>(nodes.size(), comm);
       for (unsigned int a = 0; a < 3; ++a)
@@ -95,19 +87,17 @@ namespace corotet
   } // namespace
 
   PointForce::PointForce(const Discretization &discretization,
+                         const NearbyCells    &nearby,
                          const Point<3>       &target,
                          const Expression     &value,
                          Log                  &log)
     : value(value)
   {
-    const MPI_Comm comm     = discretization.communicator();
-    double         distance = std::numeric_limits<double>::infinity();
-    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-      distance =
-        std::min(distance, discretization.node_position(n).distance(target));
-    const double minimum = dealii::Utilities::MPI::min(distance, comm);
+    const MPI_Comm comm = discretization.communicator();
+    const double   minimum =
+      dealii::Utilities::MPI::min(nearby.distance_to_nodes(target), comm);
     const auto [found, n_nearest] =
-      nearest_node(discretization, target, minimum);
+      nearest_node(discretization, nearby, target, minimum);
     const unsigned int none = dealii::numbers::invalid_unsigned_int;
     node                    = found == none ? 0 : found;
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
@@ -119,7 +109,7 @@ namespace corotet
                                           discretization.node_position(node) :
                                           Point<3>(),
                                         owner);
-    const bool is_at_body = is_at_owned_cell(discretization, target, minimum);
+    const bool is_at_body = is_at_owned_cell(discretization, nearby, target);
     if (dealii::Utilities::MPI::max(is_at_body ? 1 : 0, comm) == 0)
       throw InputError(
         point_forces_entry,
@@ -187,6 +177,7 @@ namespace corotet
   {
     const std::string entry   = point_forces_entry,
                       allowed = "'x y z: fx; fy; fz'";
+    std::optional<NearbyCells> nearby;
     for (const auto &[place, force] : named_values(forces, entry, allowed))
       {
         const auto target = point_of(place);
@@ -195,8 +186,11 @@ namespace corotet
                            fmt::format("found '{}'; allowed: {}",
                                        shortened(place + ": " + force),
                                        allowed));
+        if (!nearby)
+          nearby.emplace(context.discretization);
         terms.add(std::make_unique<PointForce>(
                     context.discretization,
+                    *nearby,
                     *target,
                     Expression(force, 3, entry, context.tables),
                     context.log),

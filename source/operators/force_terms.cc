@@ -82,11 +82,8 @@ namespace corotet
     if (is_constant_load(*term))
       {
         // It looks at no motion: any vector will do.
-        Vector f;
-        discretization.initialize_vector(f);
-        term->add_force(f, {0., constant_load, constant_load});
-        f.compress(dealii::VectorOperation::add);
-        constant_load += f;
+        term->add_force(constant_load, {0., constant_load, constant_load});
+        constant_load.compress(dealii::VectorOperation::add);
       }
     terms.push_back(std::move(term));
     names.push_back(name);

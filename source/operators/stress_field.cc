@@ -40,7 +40,7 @@ namespace corotet
     displacement = &u;
     if (dilatation != nullptr)
       pressure_corrections = dilatation->pressure_corrections(u, has_rotations);
-    has_points = has_recovery = has_error = false;
+    has_points = has_recovery = has_selected_recovery = has_error = false;
   }
 
   void
@@ -73,7 +73,8 @@ namespace corotet
   void
   StressField::set_up(std::unique_ptr<const StressPatches> &patches,
                       Vector                               &vector,
-                      const StressPatches::AtSurface        at_surface)
+                      const StressPatches::AtSurface        at_surface,
+                      const std::vector<unsigned int>      *cells)
   {
     if (patches)
       return;
@@ -82,10 +83,8 @@ namespace corotet
         discretization, point_stress.n_materials(), [&](const unsigned int c) {
           return point_stress.material_index(c);
         });
-    patches = std::make_unique<const StressPatches>(discretization,
-                                                    reference,
-                                                    *nodes,
-                                                    at_surface);
+    patches = std::make_unique<const StressPatches>(
+      discretization, reference, *nodes, at_surface, cells);
     nodes->initialize_vector(vector);
   }
 
@@ -95,8 +94,40 @@ namespace corotet
     if (has_recovery)
       return;
     set_up(patches, recovered_stress, StressPatches::AtSurface::two_layers);
-    patches->recover(at_points(), recovered_stress);
+    at_points();
+    patches->recover(points, recovered_stress);
     has_recovery = true;
+  }
+
+  void
+  StressField::recover(const std::vector<unsigned int> &cells)
+  {
+    if (has_recovery)
+      return;
+    const bool is_other = !selected_patches || cells != selected_cells;
+    if (dealii::Utilities::MPI::max(is_other ? 1 : 0,
+                                    discretization.communicator()) == 1)
+      {
+        selected_cells        = cells;
+        has_selected_recovery = false;
+        selected_patches.reset();
+        set_up(selected_patches,
+               recovered_stress,
+               StressPatches::AtSurface::two_layers,
+               &selected_cells);
+      }
+    if (has_selected_recovery)
+      return;
+    if (!has_points)
+      {
+        const auto       &rule     = reference.stiffness_rule;
+        const std::size_t n_points = rule.weights.size();
+        points.resize(discretization.n_local_cells() * n_points);
+        for (const unsigned int c : selected_patches->cells_read())
+          evaluate(c, rule, &points[c * n_points]);
+      }
+    selected_patches->recover(points, recovered_stress);
+    has_selected_recovery = true;
   }
 
   SymmetricTensor<2, 3>
@@ -114,7 +145,7 @@ namespace corotet
   StressField::recovered(const unsigned int            cell,
                          const std::span<const double> shape_values) const
   {
-    Assert(has_recovery, dealii::ExcNotInitialized());
+    Assert(has_recovery || has_selected_recovery, dealii::ExcNotInitialized());
     return value(recovered_stress, cell, shape_values);
   }
 
@@ -168,7 +199,8 @@ namespace corotet
     set_up(patches_of_estimate,
            stress_of_estimate,
            StressPatches::AtSurface::one_sided);
-    patches_of_estimate->recover(at_points(), stress_of_estimate);
+    at_points();
+    patches_of_estimate->recover(points, stress_of_estimate);
     // Exact for the square of the recovered stress, of degree 2p.
     const auto                        &rule = reference.load_rule;
     std::vector<SymmetricTensor<2, 3>> stresses(rule.weights.size());

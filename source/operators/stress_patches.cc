@@ -92,16 +92,21 @@ namespace corotet
     }
   } // namespace
 
-  StressPatches::StressPatches(const Discretization   &discretization,
-                               const ReferenceElement &reference,
-                               const MaterialNodes    &nodes,
-                               const AtSurface         at_surface)
+  StressPatches::StressPatches(const Discretization            &discretization,
+                               const ReferenceElement          &reference,
+                               const MaterialNodes             &nodes,
+                               const AtSurface                  at_surface,
+                               const std::vector<unsigned int> *cells)
     : discretization(discretization)
     , nodes(nodes)
     , samples(discretization, reference, nodes)
   {
+    if (cells != nullptr)
+      find_wanted(*cells);
     find_patches(reference, at_surface);
     find_targets();
+    if (cells != nullptr)
+      find_cells_read();
   }
 
   void
@@ -155,8 +160,9 @@ namespace corotet
                     samples.cells_around(vertex, material),
                     {},
                     {}};
-        if (patch.cells.empty())
-          continue; // Not a vertex.
+        // Empty if it is no vertex.
+        if (!wants_any(patch.cells))
+          continue;
         const bool is_interface =
           (n > 0 && nodes.copy(n - 1).node == vertex) ||
           (n + 1 < nodes.n_owned() && nodes.copy(n + 1).node == vertex);
@@ -339,12 +345,14 @@ namespace corotet
   }
 
   void
-  StressPatches::recover(const std::vector<SymmetricTensor<2, 3>> &at_points,
-                         Vector &recovered) const
+  StressPatches::recover(std::vector<SymmetricTensor<2, 3>> &at_points,
+                         Vector                             &recovered) const
   {
-    const auto stresses = samples.complete(at_points);
+    samples.complete(at_points);
     recovered.zero_out_ghost_values();
-    recovered = 0;
+    for (unsigned int n = 0; n < nodes.n_owned(); ++n)
+      if (wants(n))
+        std::fill_n(recovered.begin() + std::size_t(6) * n, 6, 0.);
     // The polynomials of a patch's fits.
     std::vector<Coefficients> coefficients;
     const auto polynomial = [&](const Patch &patch, const Point<3> &x) {
@@ -368,7 +376,7 @@ namespace corotet
                 right_side +=
                   weight(fit.scale * (x - fit.vertex), fit.decay) *
                   monomials(fit.degree, fit.scale * (x - fit.centre)) *
-                  (six_numbers(stresses[samples.first_point(c) + q++]) -
+                  (six_numbers(at_points[samples.first_point(c) + q++]) -
                    polynomial(patch, x))
                     .transpose();
             coefficients.emplace_back(n, 6);
@@ -377,11 +385,12 @@ namespace corotet
               right_side;
           }
         for (const Target &target : patch.targets)
-          Eigen::Map<SixNumbers>(recovered.begin() +
-                                 std::size_t(6) * target.node) +=
-            target.weight * polynomial(patch,
-                                       discretization.node_position(
-                                         nodes.copy(target.node).node));
+          if (wants(target.node))
+            Eigen::Map<SixNumbers>(recovered.begin() +
+                                   std::size_t(6) * target.node) +=
+              target.weight * polynomial(patch,
+                                         discretization.node_position(
+                                           nodes.copy(target.node).node));
       }
     recovered.compress(dealii::VectorOperation::add);
     recovered.update_ghost_values();

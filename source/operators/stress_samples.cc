@@ -178,31 +178,38 @@ namespace corotet
     std::sort(incidences.begin(), incidences.end());
   }
 
-  std::vector<SymmetricTensor<2, 3>>
-  StressSamples::complete(const std::vector<SymmetricTensor<2, 3>> &local) const
+  void
+  StressSamples::complete(std::vector<SymmetricTensor<2, 3>> &stresses) const
   {
     std::map<unsigned int, std::vector<double>> values;
     for (const auto &[rank, cells] : sent)
       for (const unsigned int c : cells)
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            const auto &stress = local[first_point(c) + q];
+            const auto &stress = stresses[first_point(c) + q];
             values[rank].insert(values[rank].end(),
                                 stress.begin_raw(),
                                 stress.end_raw());
           }
-    std::vector<SymmetricTensor<2, 3>> result(local);
-    result.resize(positions.size());
-    for (const auto &[rank, stresses] :
+    stresses.resize(positions.size());
+    for (const auto &[rank, numbers] :
          mpi::some_to_some(discretization.communicator(), values))
       {
-        const double *next = stresses.data();
+        const double *next = numbers.data();
         for (const unsigned int c : received.at(rank))
           for (unsigned int q = 0; q < n_points; ++q, next += 6)
             // Local cells keep what they have.
             if (c >= discretization.n_local_cells())
-              std::copy_n(next, 6, result[first_point(c) + q].begin_raw());
+              std::copy_n(next, 6, stresses[first_point(c) + q].begin_raw());
       }
+  }
+
+  std::vector<unsigned int>
+  StressSamples::cells_for_others() const
+  {
+    std::vector<unsigned int> result;
+    for (const auto &[rank, cells] : sent)
+      result.insert(result.end(), cells.begin(), cells.end());
     return result;
   }
 } // namespace corotet

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/discretization/nearby_cells.h>
 #include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 
@@ -36,14 +37,12 @@ namespace corotet
 
     // Of cells that have it, one that it is least outside of.
     Location
-    locate(const Point<3>       &x,
-           const PointSearch    &search,
-           const Discretization &discretization)
+    locate(const Point<3>    &x,
+           const PointSearch &search,
+           const NearbyCells &nearby)
     {
       Location best;
-      for (unsigned int cell = 0;
-           cell < discretization.n_owned_cells() && best.outside < 0;
-           ++cell)
+      for (const unsigned int cell : nearby.cells(x))
         if (const auto found = search.find(cell, x))
           {
             const Point<3> &xi = *found;
@@ -51,6 +50,8 @@ namespace corotet
               std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2], 0.});
             if (outside > best.outside)
               best = {cell, xi, outside};
+            if (outside == 0)
+              break;
           }
       return best;
     }
@@ -69,17 +70,6 @@ namespace corotet
                             upper[c]);
       return text;
     }
-
-    // To the nearest one [m]. Collective.
-    double
-    distance_to_nodes(const Point<3> &x, const Discretization &discretization)
-    {
-      double distance = std::numeric_limits<double>::max();
-      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-        distance =
-          std::min(distance, x.distance(discretization.node_position(n)));
-      return mpi::min(distance, discretization.communicator());
-    }
   } // namespace
 
   void
@@ -88,29 +78,34 @@ namespace corotet
                         const Point<3>       &x,
                         const Discretization &discretization)
   {
-    throw InputError(entry,
-                     fmt::format("probe '{}' at ({}, {}, {}) lies outside the "
-                                 "body, {:.3g} m from its nearest node; the "
-                                 "body has {} (m)",
-                                 shortened(name),
-                                 x[0],
-                                 x[1],
-                                 x[2],
-                                 distance_to_nodes(x, discretization),
-                                 extents(discretization)));
+    throw InputError(
+      entry,
+      fmt::format("probe '{}' at ({}, {}, {}) lies outside the "
+                  "body, {:.3g} m from its nearest node; the "
+                  "body has {} (m)",
+                  shortened(name),
+                  x[0],
+                  x[1],
+                  x[2],
+                  mpi::min(NearbyCells(discretization).distance_to_nodes(x),
+                           discretization.communicator()),
+                  extents(discretization)));
   }
 
   Probes::Probes(const std::vector<ProbePoint> &points,
                  const Discretization          &discretization)
     : comm(discretization.communicator())
   {
+    if (points.empty())
+      return;
     const unsigned int rank   = mpi::this_mpi_process(comm);
     const unsigned int nobody = mpi::n_mpi_processes(comm);
     const auto        &fe     = discretization.finite_element().base_element(0);
     const PointSearch  search(discretization);
+    const NearbyCells  nearby(discretization);
     for (const auto &[name, x] : points)
       {
-        const Location location = locate(x, search, discretization);
+        const Location location = locate(x, search, nearby);
         const double   outside  = mpi::max(location.outside, comm);
         if (outside == far_outside)
           throw_outside_of_body("Output/Probes", name, x, discretization);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/discretization/nearby_cells.h>
 #include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 #include <corotet/output/stress_probes.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <set>
 
 namespace corotet
 {
@@ -18,12 +21,15 @@ namespace corotet
     : comm(discretization.communicator())
     , raw(raw)
   {
+    if (points.empty())
+      return;
     const auto       &fe = discretization.finite_element().base_element(0);
     const PointSearch search(discretization);
+    const NearbyCells nearby(discretization);
     for (const auto &[name, x] : points)
       {
         const std::size_t n_before = located.size();
-        for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+        for (const unsigned int c : nearby.cells(x))
           {
             const auto xi = search.find(c, x);
             if (!xi)
@@ -39,13 +45,17 @@ namespace corotet
                                 discretization);
         probe_names.push_back(name);
       }
+    std::set<unsigned int> each;
+    for (const StressProbeInCell &probe : located)
+      each.insert(probe.cell);
+    cells.assign(each.begin(), each.end());
   }
 
   std::vector<SymmetricTensor<2, 3>>
   StressProbes::stresses(StressField &field) const
   {
     if (!raw)
-      field.recover();
+      field.recover(cells);
     // For each probe and material: six sums over cells, and their number.
     const std::size_t   n_materials = field.law().n_materials();
     std::vector<double> sums(7 * n_materials * probe_names.size(), 0.);

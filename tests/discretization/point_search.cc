@@ -5,12 +5,15 @@
 // again, in thin and strongly curved cells, too; points beyond the surface
 // belong to no cell.
 
+#include <corotet/discretization/nearby_cells.h>
 #include <corotet/discretization/point_search.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include "../curved_mesh.h"
@@ -28,6 +31,7 @@ namespace
     explicit Search(const Discretization &discretization)
       : disc(discretization)
       , search(discretization)
+      , nearby(discretization)
     {}
 
     // The map and its Jacobian.
@@ -47,13 +51,17 @@ namespace
       return {x, J};
     }
 
-    // Whether a cell of any rank has the point. Collective.
+    // Whether a cell of any rank has the point; all cells that have it are
+    // among those near it. Collective.
     bool
     is_in_body(const Point<3> &x) const
     {
-      unsigned int n = 0;
+      unsigned int n = 0, n_nearby = 0;
       for (unsigned int c = 0; c < disc.n_owned_cells(); ++c)
         n += search.find(c, x).has_value() ? 1 : 0;
+      for (const unsigned int c : nearby.cells(x))
+        n_nearby += search.find(c, x).has_value() ? 1 : 0;
+      EXPECT_EQ(n_nearby, n) << x;
       return dealii::Utilities::MPI::sum(n, disc.communicator()) > 0;
     }
 
@@ -76,9 +84,13 @@ namespace
       for (unsigned int c = 0; c < disc.n_owned_cells(); ++c)
         for (const Point<3> &xi : places)
           {
-            const auto found = search.find(c, map(c, xi).first);
+            const Point<3> x     = map(c, xi).first;
+            const auto     found = search.find(c, x);
             ASSERT_TRUE(found) << "cell " << c << ", " << xi;
             EXPECT_LT(found->distance(xi), 1e-10) << "cell " << c << ", " << xi;
+            const auto cells = nearby.cells(x);
+            EXPECT_TRUE(std::binary_search(cells.begin(), cells.end(), c))
+              << "cell " << c << ", " << xi;
           }
     }
 
@@ -128,6 +140,7 @@ namespace
 
     const Discretization &disc;
     const PointSearch     search;
+    const NearbyCells     nearby;
   };
 } // namespace
 
@@ -162,4 +175,53 @@ TEST(PointSearch, HalfCurvedBox)
       search.expect_found();
       search.expect_surface_is_sharp(0.5);
     }
+}
+
+// Of points in the body and around it, by comparison with all cells and nodes;
+// only few cells are looked at.
+TEST(NearbyCells, AreThoseOfAllCells)
+{
+  const MovingBody body(box("2, 1, 1", "20, 10, 10"), element_text(Element(2)));
+  const Discretization                  &disc = body.discretization;
+  const NearbyCells                      nearby(disc);
+  std::mt19937                           random(2);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double                           outside     = 0.2;
+  std::size_t                            n_looked_at = 0;
+  const unsigned int                     n_points    = 200;
+  for (unsigned int k = 0; k < n_points; ++k)
+    {
+      const Point<3> x(3 * unit(random) - 0.5,
+                       2 * unit(random) - 0.5,
+                       2 * unit(random) - 0.5);
+      double         distance = std::numeric_limits<double>::infinity();
+      for (unsigned int n = 0; n < disc.n_owned_nodes(); ++n)
+        distance = std::min(distance, disc.node_position(n).distance(x));
+      EXPECT_DOUBLE_EQ(nearby.distance_to_nodes(x), distance);
+
+      const double              reach = 1.5 * distance;
+      std::vector<unsigned int> nodes, cells;
+      for (unsigned int n = 0; n < disc.n_owned_nodes(); ++n)
+        if (disc.node_position(n).distance(x) <= reach)
+          nodes.push_back(n);
+      EXPECT_EQ(nearby.nodes(x, reach), nodes);
+
+      for (unsigned int c = 0; c < disc.n_owned_cells(); ++c)
+        {
+          const Tensor<1, 3> xi =
+            disc.geometry(c).inverse_jacobian *
+            (x - disc.node_position(disc.cell_nodes(c)[0]));
+          if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >=
+              -outside)
+            cells.push_back(c);
+        }
+      const auto found = nearby.cells(x, outside);
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      EXPECT_TRUE(
+        std::includes(found.begin(), found.end(), cells.begin(), cells.end()))
+        << x;
+      n_looked_at += nearby.cells(x).size();
+    }
+  // A point is in a few of the boxes of 64 cells.
+  EXPECT_LT(n_looked_at, 0.05 * n_points * disc.n_owned_cells());
 }

@@ -32,6 +32,11 @@ namespace corotet
     /// point on the surface.
     static constexpr double tolerance = 1e-8;
 
+    /// A polynomial of degree 2 or 3 that is zero at the vertices is nowhere
+    /// larger than this many times its largest value at the nodes: sums of the
+    /// sizes of the other nodes' functions are at most 1.5 and 2.77.
+    static constexpr double growth = 3;
+
     explicit PointSearch(const Discretization &discretization);
 
     /// Reference coordinates of the point at @p x [m] in local cell @p cell, if

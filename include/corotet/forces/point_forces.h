@@ -5,6 +5,7 @@
 #define corotet_forces_point_forces_h
 
 #include <corotet/base/expression.h>
+#include <corotet/discretization/nearby_cells.h>
 #include <corotet/forces/force_kind.h>
 
 #include <deal.II/base/point.h>
@@ -18,8 +19,9 @@ namespace corotet
   {
   public:
     /// @p value [N], three components, at the node nearest to a point of the
-    /// body at rest. Collective.
+    /// body at rest. @p nearby: of that discretization. Collective.
     PointForce(const Discretization   &discretization,
+               const NearbyCells      &nearby,
                const dealii::Point<3> &target,
                const Expression       &value,
                Log                    &log);

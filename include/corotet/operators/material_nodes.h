@@ -47,6 +47,13 @@ namespace corotet
       return partitioner->locally_owned_size() / 6;
     }
 
+    /// Ghosts included.
+    unsigned int
+    n_local() const
+    {
+      return copies.size();
+    }
+
     /// Numbers of these nodes through all ranks; local ones are the same.
     /// Collective.
     NodeNumbers

@@ -88,7 +88,7 @@ namespace corotet
 
     /// The recovered stress at point @p q of a rule (or any values of shape
     /// functions) in a local cell: sum_i N_i sigma*_i. To be called after
-    /// recover(). Not collective.
+    /// recover(), in cells where that has been done. Not collective.
     dealii::SymmetricTensor<2, 3>
     recovered(const unsigned int            cell,
               const std::span<const double> shape_values) const;
@@ -96,6 +96,11 @@ namespace corotet
     /// Recovers the stress, unless that is done.
     void
     recover();
+
+    /// Recovers it in some local @p cells, unless that is done: what that costs
+    /// goes with their number. The same cells again and again cost least.
+    void
+    recover(const std::vector<unsigned int> &cells);
 
     /// Recovered stress, and the strain that belongs to it [-], at the owned
     /// nodes. Where materials meet: the mean of theirs.
@@ -120,7 +125,8 @@ namespace corotet
     void
     set_up(std::unique_ptr<const StressPatches> &patches,
            Vector                               &vector,
-           const StressPatches::AtSurface        at_surface);
+           const StressPatches::AtSurface        at_surface,
+           const std::vector<unsigned int>      *cells = nullptr);
     /// The value in a cell of a function of @p nodes.
     dealii::SymmetricTensor<2, 3>
     value(const Vector                 &vector,
@@ -138,11 +144,16 @@ namespace corotet
     /// Made when they are first needed.
     std::unique_ptr<const MaterialNodes> nodes;
     std::unique_ptr<const StressPatches> patches, patches_of_estimate;
+    /// Cells of the last recovery that was not of all, and their patches.
+    std::vector<unsigned int>            selected_cells;
+    std::unique_ptr<const StressPatches> selected_patches;
 
     const Vector *displacement = nullptr;
     bool          has_points   = false;
     bool          has_recovery = false;
-    bool          has_error    = false;
+    /// In the selected cells.
+    bool has_selected_recovery = false;
+    bool has_error             = false;
 
     std::vector<dealii::SymmetricTensor<2, 3>> points;
     Vector      recovered_stress, stress_of_estimate;

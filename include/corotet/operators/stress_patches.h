@@ -55,20 +55,32 @@ namespace corotet
       one_sided
     };
 
-    /// Collective.
-    StressPatches(const Discretization   &discretization,
-                  const ReferenceElement &reference,
-                  const MaterialNodes    &nodes,
-                  const AtSurface         at_surface);
+    /// Collective. @p cells: local ones in whose nodes the stress is wanted,
+    /// other ones on each rank; null if it is wanted everywhere.
+    StressPatches(const Discretization            &discretization,
+                  const ReferenceElement          &reference,
+                  const MaterialNodes             &nodes,
+                  const AtSurface                  at_surface,
+                  const std::vector<unsigned int> *cells = nullptr);
 
     /**
      * @p recovered (of @p nodes, six numbers each as SymmetricTensor has them;
      * ghost entries up to date afterwards) from the stress at the points of
-     * the stiffness rule in all local cells, cell by cell. Collective.
+     * the stiffness rule in all local cells, cell by cell; where it is wanted,
+     * other entries stay. What other ranks have is added to @p at_points.
+     * Collective.
      */
     void
-    recover(const std::vector<dealii::SymmetricTensor<2, 3>> &at_points,
-            Vector                                           &recovered) const;
+    recover(std::vector<dealii::SymmetricTensor<2, 3>> &at_points,
+            Vector                                     &recovered) const;
+
+    /// Local cells whose stress recover() reads if it is wanted in some cells
+    /// only, ascending.
+    const std::vector<unsigned int> &
+    cells_read() const
+    {
+      return read;
+    }
 
   private:
     /// A node that the polynomial of a patch contributes to, and how much.
@@ -134,11 +146,29 @@ namespace corotet
              const std::vector<std::array<double, 4>> &barycentric) const;
     void
     find_targets();
+    /// Sets is_wanted, from the cells of each rank.
+    void
+    find_wanted(const std::vector<unsigned int> &cells);
+    /// Whether the stress at @p node of MaterialNodes is wanted on any rank.
+    bool
+    wants(const unsigned int node) const
+    {
+      return is_wanted.empty() || is_wanted[node] != 0;
+    }
+    /// Whether it is at any node of some cells.
+    bool
+    wants_any(const std::vector<unsigned int> &cells) const;
+    void
+    find_cells_read();
 
     const Discretization &discretization;
     const MaterialNodes  &nodes;
     StressSamples         samples;
-    std::vector<Patch>    patches;
+    /// By local node; empty if all are.
+    std::vector<unsigned char> is_wanted;
+    /// Those that contribute where stress is wanted.
+    std::vector<Patch>        patches;
+    std::vector<unsigned int> read;
   };
 } // namespace corotet
 

@@ -61,10 +61,15 @@ namespace corotet
       return corners_of_cells[cell];
     }
 
-    /// Stress at the points of all cells, cell by cell, from that of the local
-    /// cells, @p local. Collective.
-    std::vector<dealii::SymmetricTensor<2, 3>>
-    complete(const std::vector<dealii::SymmetricTensor<2, 3>> &local) const;
+    /// Adds the stress at the points of the cells that were fetched to that of
+    /// the local cells, cell by cell. Collective.
+    void
+    complete(std::vector<dealii::SymmetricTensor<2, 3>> &stresses) const;
+
+    /// Local cells whose stress other ranks get from complete(), some of them
+    /// several times.
+    std::vector<unsigned int>
+    cells_for_others() const;
 
   private:
     /// A cell of a material that has a vertex.

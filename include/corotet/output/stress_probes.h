@@ -54,6 +54,8 @@ namespace corotet
     bool                           raw;
     std::vector<std::string>       probe_names;
     std::vector<StressProbeInCell> located;
+    /// Cells of these, each once.
+    std::vector<unsigned int> cells;
   };
 } // namespace corotet
 
