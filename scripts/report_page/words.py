@@ -60,7 +60,8 @@ def body(run):
         file = pathlib.PurePath(entry(f"Mesh/{kind}/File").strip('"')).name
         text = f"<code>{escape(file)}</code>"
         if not is_zero(entry(f"Mesh/{kind}/Element size")):
-            text += f", elements of {value(entry(f'Mesh/{kind}/Element size'), 'm')}"
+            size = float(entry(f"Mesh/{kind}/Element size")) * float(entry("Mesh/Scale") or 1)
+            text += f", elements of {value(f'{size:.4g}', 'm')}"
         if entry(f"Mesh/{kind}/Geometry degree") not in ("1", ""):
             text += f", curved cells of degree {value(entry(f'Mesh/{kind}/Geometry degree'))}"
     if float(entry("Mesh/Scale") or 1) != 1:

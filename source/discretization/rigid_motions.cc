@@ -283,8 +283,14 @@ namespace corotet
     const unsigned int n     = 6 * cluster.size();
     auto               basis = null_space(equations, n);
     reduce_rows(basis, in_order(n), no_pivot);
-    for (const std::vector<double> &numbers : basis)
+    // What round-off leaves where a motion has nothing would be a force of the
+    // stiffest springs.
+    constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+    for (std::vector<double> &numbers : basis)
       {
+        for (double &number : numbers)
+          if (std::abs(number) < round_off)
+            number = 0;
         motions.emplace_back();
         for (unsigned int p = 0; p < cluster.size(); ++p)
           {

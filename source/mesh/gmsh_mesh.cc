@@ -185,7 +185,9 @@ namespace corotet
                 mesh.curved_nodes.push_back(nodes.position(mesh, tags[i + j]));
             }
         }
-      remove_straight_maps(mesh);
+      if (const std::string remark = remove_written_straight_maps(mesh);
+          !remark.empty())
+        mesh.remarks.push_back(remark);
       if (n_left_out > 0)
         mesh.remarks.push_back(
           fmt::format("{} tetrahedra belong to no physical volume, though "

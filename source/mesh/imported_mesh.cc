@@ -244,7 +244,9 @@ namespace corotet
             }
           mesh.cells.push_back(cell);
         }
-      remove_straight_maps(mesh);
+      if (const std::string remark = remove_written_straight_maps(mesh);
+          !remark.empty())
+        mesh.remarks.push_back(remark);
       return vertex_of_node;
     }
 

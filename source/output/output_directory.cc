@@ -206,6 +206,16 @@ namespace corotet
     });
   }
 
+  bool
+  is_filled(const std::string &directory, const MPI_Comm comm)
+  {
+    bool result = false;
+    on_root_with_directory(directory, comm, [&](const fs::path &path) {
+      result = fs::exists(path) && !has_no_files(path);
+    });
+    return from_root(comm, [&] { return result; });
+  }
+
   void
   check_directory_of_restart(const std::string &directory, const MPI_Comm comm)
   {

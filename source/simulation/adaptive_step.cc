@@ -118,6 +118,9 @@ namespace corotet
   AdaptiveStep::transfer(Archive &archive)
   {
     archive.transfer("length", dt);
+    // Limits may have changed.
+    if (archive.is_reading())
+      set_length(dt);
     archive.transfer("largest_size", largest_size);
     archive.transfer("rejected", rejected);
     archive.transfer("too_inaccurate", too_inaccurate);

@@ -66,8 +66,13 @@ namespace corotet
       {
         begin_equal_steps(0);
       }
-    if (integrator->stability() == nullptr)
-      return;
+    if (integrator->stability() != nullptr)
+      check_stable_step();
+  }
+
+  void
+  TimeLoop::check_stable_step()
+  {
     try
       {
         follow_stable_step();

@@ -70,6 +70,11 @@ namespace corotet
         n_steps     = 0;
         step_length = planned;
       }
+    else
+      return;
+    // That of the body as it is now.
+    if (integrator->stability() != nullptr)
+      check_stable_step();
   }
 
   void

@@ -118,7 +118,8 @@ namespace corotet
         if (command.restart)
           // What is there stays, if there is a checkpoint.
           check_directory_of_restart(directory, comm);
-        else
+        // --validate shows mistakes in the case first.
+        else if (!command.validate)
           check_output_directory(directory, parameters.output.overwrite, comm);
       }
 
@@ -295,6 +296,18 @@ namespace corotet
         });
       }
 
+      // Results there are for a run to refuse; anything else is wrong in any
+      // case.
+      void
+      validate_directory()
+      {
+        check_output_directory(directory, true, comm);
+        if (!parameters.output.overwrite && is_filled(directory, comm))
+          log.warning("the output directory '" + directory +
+                      "' holds results: a run takes another one, or needs "
+                      "Output/Overwrite = true or --restart");
+      }
+
       // Computes, and checks the table that comes out.
       void
       record(const std::string           &table,
@@ -303,6 +316,8 @@ namespace corotet
       {
         if (command.validate)
           {
+            if (!command.restart)
+              validate_directory();
             log.line(command.parameter_file + ": valid");
             on_root(comm, check_standard_output);
             return;

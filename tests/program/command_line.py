@@ -103,6 +103,16 @@ class CommandLine(ProgramTest):
             self.assertIn(f"{case}: valid", run.stdout)
         self.assertEqual(list(self.folder.iterdir()), [], "--validate must not leave anything behind")
 
+    def test_validate_where_results_are(self):
+        """They are no mistake of the case, and hide none."""
+        (self.folder / "case.prm").write_text(parameter_text({**BEAM, "Type": "modes", "Modes/Number": "1"}), encoding="utf-8")
+        self.run_program("case.prm", "--output", "results")
+        run = self.run_program("case.prm", "--output", "results", "--validate")
+        self.assertIn("warning: the output directory 'results' holds results: a run takes another one, or needs Output/Overwrite = true or --restart", run.stdout)
+        self.assertIn("case.prm: valid", run.stdout)
+        run = self.run_program("case.prm", "--output", "results", "--validate", "--set", "Boundary conditions/Fixed = nowhere", status=1)
+        self.assertIn("no such boundary: found 'nowhere'", run.stderr)
+
     def test_warning_of_large_results(self):
         # Rows of 12 characters for each of 20 columns, at least.
         for steps, size in ((1e3, None), (1e9, "240"), (2e9, "480")):

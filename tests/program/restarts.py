@@ -55,6 +55,35 @@ class Restarts(ProgramTest):
                 self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3")
                 self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.3, delta=1e-12)
 
+    def test_other_limits_of_adaptive_steps(self):
+        """Steps have grown by far until the restart; then they are no longer than is now allowed."""
+        entries = {**SHORT, "Boundary conditions/Fixed": "x-min", "Loads/Gravity": "0; 0; -0.01", "Damping/Mass coefficient": "40",
+                   "Time integration/Type": "Newmark", "Time integration/End time": "20", "Time integration/Adaptive step/Enabled": "true"}
+        self.run_entries(entries)
+        last = float(read_history(self.folder / "run")[-2]["dt"])
+        limit = 0.9 * last
+        self.run_entries(entries, "--restart", "--set", "Time integration/End time = 24",
+                         "--set", f"Time integration/Adaptive step/Largest step = {limit!r}")
+        later = [float(row["dt"]) for row in read_history(self.folder / "run") if float(row["time"]) > 20 + 1e-9]
+        self.assertGreater(len(later), 4 / limit - 1)
+        self.assertLessEqual(max(later), limit * (1 + 1e-12))
+
+    def test_explicit_run_of_a_deformed_body_with_another_step(self):
+        """A bar that has been crushed to less than half of its length: its stable step is far below that at rest, and counts."""
+        entries = {**SHORT, "Mesh/box/Size": "1, 0.4, 0.4", "Discretization/Mass": "row sum", "Material/Type": "neo-Hookean", "Material/Young's modulus": "1e6",
+                   "Boundary conditions/Fixed": "x-min", "Boundary conditions/Displacement": "x-max: -0.6 * smooth_step(t, 0, 0.5); 0; 0",
+                   "Damping/Mass coefficient": "5", "Time integration/Type": "central difference", "Time integration/End time": "0.55",
+                   "Time integration/Time step": "5e-4", "Loads/Gravity": "0; 0; 0", "Checkpoint/Steps between checkpoints": "500"}
+        self.run_entries(entries)
+        longer = ("--restart", "--set", "Time integration/End time = 0.57")
+        before = contents(self.folder / "run")
+        run = self.run_entries(entries, *longer, "--set", "Time integration/Time step = 3e-3", status=1)
+        self.check_refused(before, run, "Time integration/Time step: found a step of 0\\.0028[^ ]* s at t = 0.55, which is unstable; allowed: up to the stable "
+                           "step, 0.00[^ ]* s now that the body has deformed")
+        self.run_entries(entries, *longer, "--set", "Time integration/Time step = 0")
+        for row in read_history(self.folder / "run"):
+            self.assertGreaterEqual(float(row["kinetic_energy"]), 0)
+
     def test_finished_run_with_another_step(self):
         """There is nothing left to do, whatever the step would be."""
         self.run_entries(SHORT)
@@ -100,7 +129,7 @@ class Restarts(ProgramTest):
 
     def run_killed(self, entries, *arguments):
         """Leaves what a run leaves that was killed before its first checkpoint. Returns the fingerprints."""
-        self.run_entries({**entries, "Checkpoint/Steps between checkpoints": "0"}, *arguments)
+        self.run_entries({**entries, "Checkpoint/Steps between checkpoints": "500"}, *arguments)
         (self.folder / "run" / "summary.json").unlink()
         return contents(self.folder / "run")
 

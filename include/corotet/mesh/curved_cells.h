@@ -10,6 +10,8 @@
 #include <deal.II/base/table.h>
 #include <deal.II/fe/fe.h>
 
+#include <string>
+
 namespace corotet
 {
   /// FE_SimplexP(@p degree), degrees 1, 2, 3. Each is made once, and lives as
@@ -76,6 +78,12 @@ namespace corotet
   /// Forgets the maps of cells that are straight but for round-off.
   void
   remove_straight_maps(MeshCells &mesh);
+
+  /// The same for cells whose coordinates are those of a file, which may have
+  /// few digits of them. Returns a remark if these have made cells straight, or
+  /// nothing.
+  std::string
+  remove_written_straight_maps(MeshCells &mesh);
 
   /**
    * Smallest determinant of the Jacobians of curved cells over its mean in the

@@ -35,6 +35,10 @@ namespace corotet
                          const bool         overwrite,
                          const MPI_Comm     comm);
 
+  /// Whether anything but the mark of a run is in it. Collective.
+  bool
+  is_filled(const std::string &directory, const MPI_Comm comm);
+
   /// What a run that is restarted needs: a place, and results of corotet if
   /// there is anything. Throws InputError or MachineError. Collective.
   void

@@ -147,6 +147,9 @@ namespace corotet
     /// Throws ComputationError.
     void
     follow_stable_step();
+    /// The same, with an InputError.
+    void
+    check_stable_step();
     /// Whether that is to be done again after step @p step.
     bool
     is_stable_step_due(const unsigned int step) const

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include "written_digits.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace corotet
+{
+  namespace
+  {
+    // Fewer digits are those of round numbers, which are exact, and what more
+    // of them leave is as small as other round-off.
+    constexpr int least_digits = 5, most_digits = 12;
+  } // namespace
+
+  WrittenDigits::WrittenDigits(const std::vector<dealii::Point<3>> &nodes)
+  {
+    int most = 0;
+    decimals = std::numeric_limits<int>::min();
+    for (const dealii::Point<3> &x : nodes)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          if (x[a] == 0 || !std::isfinite(x[a]))
+            continue;
+          // "1.2345e-06".
+          std::array<char, 32> text;
+          const char *const    end = std::to_chars(text.begin(),
+                                                text.end(),
+                                                std::abs(x[a]),
+                                                std::chars_format::scientific)
+                                    .ptr;
+          const std::string_view number(text.begin(), end);
+          const std::size_t      e = number.find('e');
+          const int n_digits       = e == 1 ? 1 : static_cast<int>(e) - 1;
+          if (n_digits > most_digits)
+            return;
+          // Without the sign of positive exponents, which is no number's.
+          int         exponent = 0;
+          const char *first    = text.begin() + e + 1;
+          std::from_chars(first + (*first == '+' ? 1 : 0), end, exponent);
+          most     = std::max(most, n_digits);
+          decimals = std::max(decimals, n_digits - 1 - exponent);
+        }
+    if (most >= least_digits)
+      significant = most;
+  }
+
+  double
+  WrittenDigits::last_digit(const double size) const
+  {
+    if (significant == 0 || !(size > 0))
+      return 0;
+    const int exponent = static_cast<int>(std::floor(std::log10(size)));
+    return std::pow(10., std::max(-decimals, exponent - significant + 1));
+  }
+} // namespace corotet
