@@ -9,9 +9,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <limits>
 #include <numeric>
+#include <string_view>
+#include <utility>
 
 namespace corotet
 {
@@ -109,6 +112,26 @@ namespace corotet
                        text.size());
   }
 
+  namespace
+  {
+    // Characters that are not seen, or look like a space or a hyphen: pages and
+    // documents that text is copied from have them.
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 13>
+      look_alikes{{{"\xc2\xa0", "U+00A0"},
+                   {"\xc2\xad", "U+00AD"},
+                   {"\xe2\x80\x87", "U+2007"},
+                   {"\xe2\x80\x8b", "U+200B"},
+                   {"\xe2\x80\x8c", "U+200C"},
+                   {"\xe2\x80\x8d", "U+200D"},
+                   {"\xe2\x80\x8e", "U+200E"},
+                   {"\xe2\x80\x90", "U+2010"},
+                   {"\xe2\x80\x91", "U+2011"},
+                   {"\xe2\x80\xaf", "U+202F"},
+                   {"\xe2\x81\xa0", "U+2060"},
+                   {"\xe2\x88\x92", "U+2212"},
+                   {"\xef\xbb\xbf", "U+FEFF"}}};
+  } // namespace
+
   std::string
   printable(const std::string &message, const bool keep_lines)
   {
@@ -120,6 +143,21 @@ namespace corotet
         const auto next = static_cast<unsigned char>(
           i + 1 < message.size() ? message[i + 1] : 0);
         const bool is_kept = keep_lines && (byte == '\n' || byte == '\t');
+        const auto look_alike =
+          byte < 0x80 ?
+            look_alikes.end() :
+            std::find_if(
+              look_alikes.begin(),
+              look_alikes.end(),
+              [&](const auto &one) {
+                return message.compare(i, one.first.size(), one.first) == 0;
+              });
+        if (look_alike != look_alikes.end())
+          {
+            result += fmt::format("<{}>", look_alike->second);
+            i += look_alike->first.size() - 1;
+            continue;
+          }
         // Those above 0x7f, by which a terminal is controlled, too, have two
         // bytes in UTF-8.
         const bool is_high = byte == 0xc2 && next >= 0x80 && next < 0xa0;

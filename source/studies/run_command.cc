@@ -118,9 +118,10 @@ namespace corotet
         if (command.restart)
           // What is there stays, if there is a checkpoint.
           check_directory_of_restart(directory, comm);
-        // --validate shows mistakes in the case first.
-        else if (!command.validate)
-          check_output_directory(directory, parameters.output.overwrite, comm);
+        else
+          // Results are for --validate to speak of in the end.
+          check_output_directory(
+            directory, parameters.output.overwrite || command.validate, comm);
       }
 
       void
@@ -296,12 +297,9 @@ namespace corotet
         });
       }
 
-      // Results there are for a run to refuse; anything else is wrong in any
-      // case.
       void
-      validate_directory()
+      warn_of_results()
       {
-        check_output_directory(directory, true, comm);
         if (!parameters.output.overwrite && is_filled(directory, comm))
           log.warning("the output directory '" + directory +
                       "' holds results: a run takes another one, or needs "
@@ -317,7 +315,7 @@ namespace corotet
         if (command.validate)
           {
             if (!command.restart)
-              validate_directory();
+              warn_of_results();
             log.line(command.parameter_file + ": valid");
             on_root(comm, check_standard_output);
             return;

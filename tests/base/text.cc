@@ -59,7 +59,10 @@ TEST(Text, ShortenedAndPrintable)
   EXPECT_EQ(printable("a\033[2Jb\n\tc\r", true), "a\\x1b[2Jb\n\tc\\x0d");
   // Delete, and one of the control characters behind it; a space that does
   // not break has the same first byte, and stays.
-  EXPECT_EQ(printable("\x7f\u009b\u00a0\u00e9"), "\\x7f\\x9b\u00a0\u00e9");
+  EXPECT_EQ(printable("\x7f\u009b\u00a0\u00e9"), "\\x7f\\x9b<U+00A0>\u00e9");
+  // A zero-width space, a hyphen and a minus sign; a dash is seen as one.
+  EXPECT_EQ(printable("x\u200by\u2010\u2212\u2014\ufeff"),
+            "x<U+200B>y<U+2010><U+2212>\u2014<U+FEFF>");
   EXPECT_EQ(printable(std::string(5000, 'a')), std::string(4000, 'a') + "...");
 }
 

@@ -129,7 +129,7 @@ class Restarts(ProgramTest):
 
     def run_killed(self, entries, *arguments):
         """Leaves what a run leaves that was killed before its first checkpoint. Returns the fingerprints."""
-        self.run_entries({**entries, "Checkpoint/Steps between checkpoints": "500"}, *arguments)
+        self.run_entries({**entries, "Checkpoint/Steps between checkpoints": "0"}, *arguments)
         (self.folder / "run" / "summary.json").unlink()
         return contents(self.folder / "run")
 

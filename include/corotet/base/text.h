@@ -41,7 +41,8 @@ namespace corotet
   shortened(const std::string &text, const std::size_t most = 80);
 
   /// A message for a terminal: control characters as \\xNN, those that end
-  /// lines and tabs, too, unless @p keep_lines; and no more than a few thousand
+  /// lines and tabs, too, unless @p keep_lines; others that are not seen or
+  /// look like a space or a hyphen as <U+NNNN>; and no more than a few thousand
   /// characters.
   std::string
   printable(const std::string &message, const bool keep_lines = false);
