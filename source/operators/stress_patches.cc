@@ -319,6 +319,9 @@ namespace corotet
     for (Patch &patch : patches)
       {
         patch.targets = nodes_of(patch, barycentric);
+        // Others may lack the patches that they need.
+        std::erase_if(patch.targets,
+                      [&](const auto &target) { return !wants(target.node); });
         for (const Target &target : patch.targets)
           for (unsigned int rank = 0; rank < 3; ++rank)
             sums.local_element(6 * target.node + rank) +=
@@ -385,12 +388,11 @@ namespace corotet
               right_side;
           }
         for (const Target &target : patch.targets)
-          if (wants(target.node))
-            Eigen::Map<SixNumbers>(recovered.begin() +
-                                   std::size_t(6) * target.node) +=
-              target.weight * polynomial(patch,
-                                         discretization.node_position(
-                                           nodes.copy(target.node).node));
+          Eigen::Map<SixNumbers>(recovered.begin() +
+                                 std::size_t(6) * target.node) +=
+            target.weight * polynomial(patch,
+                                       discretization.node_position(
+                                         nodes.copy(target.node).node));
       }
     recovered.compress(dealii::VectorOperation::add);
     recovered.update_ghost_values();
