@@ -6,6 +6,9 @@
 
 #include <corotet/base/simd.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace corotet
 {
   namespace benchmarks
@@ -128,25 +131,36 @@ namespace corotet::benchmarks
     return Counted::n_operations;
   }
 
+  /// Operations of the change to Bernstein's basis and of its transpose, of one
+  /// component, counted while they run.
+  template <int p>
+  double
+  basis_change_flops()
+  {
+    const CountedVector one{{1, 1, 1, 1, 1, 1, 1, 1}};
+    CountedVector       u[bernstein::size<p>], v[bernstein::size<p>];
+    std::fill(std::begin(u), std::end(u), one);
+    std::fill(std::begin(v), std::end(v), one);
+    Counted::n_operations = 0;
+    BasisChange<p, Counted>::to_bernstein(u);
+    BasisChange<p, Counted>::to_lagrange_transposed(v);
+    return Counted::n_operations;
+  }
+
   /**
    * Operations of the tangent by quadrature for one cell. Once, the form of
-   * derivatives and its transpose: the change to Bernstein's basis (each two
-   * for the entries of a component that are not those of the identity) and
+   * derivatives and its transpose: the change to Bernstein's basis and
    * differences. At each point the gradient by reference coordinates and its
    * transpose (each two for 9 n products, with n polynomials of degree p - 1),
    * the changes of coordinates (45 each), 10 for the weights, and the stress
    * (45 for R^T grad u, 3 for the trace, 21 for sigma, 45 for R sigma).
    */
   template <int p>
-  constexpr double
+  double
   quadrature_flops(const int n_points)
   {
-    constexpr int n         = bernstein::size<p - 1>;
-    int           n_entries = 0;
-    for (int i = 4; i < bernstein::size<p>; ++i)
-      for (const double entry : bernstein::from_lagrange<p>[i])
-        n_entries += entry != 0 ? 1 : 0;
-    return 2 * (3 * 2. * n_entries) + 3 * 9 * n +
+    constexpr int n = bernstein::size<p - 1>;
+    return 3 * basis_change_flops<p>() + 3 * 9 * n +
            n_points * (36. * n + 2 * 45 + 10 + 45 + 3 + 21 + 45);
   }
 } // namespace corotet::benchmarks

@@ -18,6 +18,11 @@ namespace corotet::tetrahedron
                                       {1, 0, 3},
                                       {0, 2, 3},
                                       {2, 1, 3}};
+  /// Edges of the faces.
+  inline constexpr int edges_of_faces[4][3] = {{0, 1, 2},
+                                               {0, 3, 4},
+                                               {2, 3, 5},
+                                               {1, 4, 5}};
 } // namespace corotet::tetrahedron
 
 #endif

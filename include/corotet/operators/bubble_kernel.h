@@ -121,7 +121,7 @@ namespace corotet
         f[1] += s[5] * g[v][0] + s[1] * g[v][1] + s[3] * g[v][2];
         f[2] += s[4] * g[v][0] + s[3] * g[v][1] + s[2] * g[v][2];
       });
-      static_for<6>([&](auto s) {
+      repeat<3, 6>([&](const auto s) {
         V x[Cubic::n_gradients];
         static_for<Cubic::n_gradients>([&](auto i) { x[i] = sigma[i][s]; });
         Cubic::template apply_mass<2, 1>(x);
@@ -161,7 +161,7 @@ namespace corotet
                     typename Cubic::NodalValues &c,
                     V (&b)[3])
     {
-      static_for<3>([&](auto a) {
+      repeat<3, 3>([&](const auto a) {
         V vertices{}, middles{}, centres{};
         static_for<4>([&](auto v) {
           c[v][a] = u[v][a];
@@ -175,7 +175,7 @@ namespace corotet
         });
         static_for<4>([&](auto f) {
           constexpr auto &v = tetrahedron::faces[f];
-          constexpr auto &e = bubbles::face_edges[f];
+          constexpr auto &e = tetrahedron::edges_of_faces[f];
           c[16 + f][a] =
             T(4.5) * u[10 + f][a] +
             T(1. / 6) * (u[v[0]][a] + u[v[1]][a] + u[v[2]][a]) -
@@ -193,7 +193,7 @@ namespace corotet
                       const V (&f)[3],
                       NodalValues &u)
     {
-      static_for<3>([&](auto a) {
+      repeat<3, 3>([&](const auto a) {
         static_for<4>([&](auto v) { u[v][a] = c[v][a] - T(1. / 64) * f[a]; });
         static_for<6>([&](auto e) {
           u[tetrahedron::edges[e][1]][a] -= T(1. / 3) * c[4 + 2 * e][a];
@@ -206,7 +206,7 @@ namespace corotet
           const V middle = T(4. / 3) * c[16 + k][a];
           static_for<3>([&](auto i) {
             u[tetrahedron::faces[k][i]][a] += vertex;
-            u[4 + bubbles::face_edges[k][i]][a] -= middle;
+            u[4 + tetrahedron::edges_of_faces[k][i]][a] -= middle;
           });
           u[10 + k][a] = T(4.5) * c[16 + k][a] - T(27. / 64) * f[a];
         });

@@ -170,22 +170,6 @@ namespace corotet::bubbles
           }
     return result;
   }();
-
-  /// Edges of the faces.
-  inline constexpr auto face_edges = [] {
-    std::array<std::array<int, 3>, 4> result{};
-    for (int f = 0; f < 4; ++f)
-      for (int k = 0, e = 0; e < 6; ++e)
-        {
-          int n_shared = 0;
-          for (const int v : tetrahedron::faces[f])
-            n_shared +=
-              v == tetrahedron::edges[e][0] || v == tetrahedron::edges[e][1];
-          if (n_shared == 2)
-            result[f][k++] = e;
-        }
-    return result;
-  }();
 } // namespace corotet::bubbles
 
 #endif

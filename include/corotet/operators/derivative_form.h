@@ -4,8 +4,8 @@
 #ifndef corotet_operators_derivative_form_h
 #define corotet_operators_derivative_form_h
 
+#include <corotet/operators/basis_change.h>
 #include <corotet/operators/cell_rule.h>
-#include <corotet/operators/factored_kernel.h>
 #include <corotet/operators/orbit_form.h>
 
 namespace corotet
@@ -61,8 +61,8 @@ namespace corotet
     }();
     static_assert(n == bernstein::size<degree>);
 
-    using V    = Simd<double>;
-    using Cell = FactoredKernel<degree, double>;
+    using V      = Simd<double>;
+    using Change = BasisChange<degree, double>;
 
   public:
     static constexpr int n_polynomials = bernstein::size<degree - 1>;
@@ -77,15 +77,14 @@ namespace corotet
     static COROTET_ALWAYS_INLINE void
     from_nodes(const NodalValues &u, Coefficients &c)
     {
-      NodalValues b;
-      static_for<3 * n>(
-        [&](auto ia) { b[ia / 3][ia % 3] = u[ia / 3][ia % 3]; });
-      Cell::to_bernstein(b);
-      static_for<n_polynomials>([&](auto i) {
-        constexpr auto &next = bernstein::raised<degree - 1>[i];
-        static_for<9>([&](auto ak) {
-          constexpr int a = ak / 3, k = ak % 3;
-          c[i][ak] = b[next[k + 1]][a] - b[next[0]][a];
+      repeat<degree, 3>([&](const auto a) {
+        V b[n];
+        static_for<n>([&](auto i) { b[i] = u[i][a]; });
+        Change::to_bernstein(b);
+        static_for<n_polynomials>([&](auto i) {
+          constexpr auto &next = bernstein::raised<degree - 1>[i];
+          static_for<3>(
+            [&](auto k) { c[i][3 * a + k] = b[next[k + 1]] - b[next[0]]; });
         });
       });
     }
@@ -94,18 +93,18 @@ namespace corotet
     static COROTET_ALWAYS_INLINE void
     add_to_nodes(const Coefficients &c, NodalValues &f)
     {
-      NodalValues b{};
-      static_for<n_polynomials>([&](auto i) {
-        constexpr auto &next = bernstein::raised<degree - 1>[i];
-        static_for<9>([&](auto ak) {
-          constexpr int a = ak / 3, k = ak % 3;
-          b[next[k + 1]][a] += c[i][ak];
-          b[next[0]][a] -= c[i][ak];
+      repeat<degree, 3>([&](const auto a) {
+        V b[n] = {};
+        static_for<n_polynomials>([&](auto i) {
+          constexpr auto &next = bernstein::raised<degree - 1>[i];
+          static_for<3>([&](auto k) {
+            b[next[k + 1]] += c[i][3 * a + k];
+            b[next[0]] -= c[i][3 * a + k];
+          });
         });
+        Change::to_lagrange_transposed(b);
+        static_for<n>([&](auto i) { f[i][a] += b[i]; });
       });
-      Cell::to_lagrange_transposed(b);
-      static_for<3 * n>(
-        [&](auto ia) { f[ia / 3][ia % 3] += b[ia / 3][ia % 3]; });
     }
 
     /// Derivatives at all points, [point][3 component + k].

@@ -5,7 +5,7 @@
 #define corotet_operators_factored_kernel_h
 
 #include <corotet/base/simd.h>
-#include <corotet/discretization/bernstein.h>
+#include <corotet/operators/basis_change.h>
 
 namespace corotet
 {
@@ -100,7 +100,7 @@ namespace corotet
       to_bernstein(u);
       if constexpr (with_mass)
         {
-          static_for<3>([&](auto a) {
+          repeat<p, 3>([&](const auto a) {
             V c[n_nodes];
             static_for<n_nodes>([&](auto i) { c[i] = u[i][a]; });
             apply_mass<p, 1>(c);
@@ -114,7 +114,7 @@ namespace corotet
         {
           Strain sigma[n_gradients];
           compute_stress<with_offset>(*cell, offset, u, sigma);
-          static_for<6>([&](auto s) {
+          repeat<p, 6>([&](const auto s) {
             V c[n_gradients];
             static_for<n_gradients>([&](auto b) { c[b] = sigma[b][s]; });
             apply_mass<p - 1, 1>(c);
@@ -152,18 +152,12 @@ namespace corotet
     to_bernstein(NodalValues &u)
     {
       if constexpr (p > 1)
-        static_for<3>([&](auto a) {
+        repeat<p, 3>([&](const auto a) {
           V c[n_nodes];
           static_for<n_nodes>([&](auto i) { c[i] = u[i][a]; });
-          static_for<n_nodes - 4>([&](auto k) {
-            V sum{};
-            static_for<n_nodes>([&](auto j) {
-              constexpr double entry = bernstein::from_lagrange<p>[k + 4][j];
-              if constexpr (entry != 0)
-                sum += T(entry) * c[j];
-            });
-            u[k + 4][a] = sum;
-          });
+          BasisChange<p, T>::to_bernstein(c);
+          // Those at the vertices are the values there.
+          static_for<n_nodes - 4>([&](auto i) { u[i + 4][a] = c[i + 4]; });
         });
     }
 
@@ -172,20 +166,11 @@ namespace corotet
     to_lagrange_transposed(NodalValues &v)
     {
       if constexpr (p > 1)
-        static_for<3>([&](auto a) {
+        repeat<p, 3>([&](const auto a) {
           V c[n_nodes];
           static_for<n_nodes>([&](auto i) { c[i] = v[i][a]; });
-          static_for<n_nodes>([&](auto j) {
-            V sum{};
-            static_for<n_nodes>([&](auto i) {
-              constexpr double entry = bernstein::from_lagrange<p>[i][j];
-              if constexpr (entry == 1)
-                sum += c[i];
-              else if constexpr (entry != 0)
-                sum += T(entry) * c[i];
-            });
-            v[j][a] = sum;
-          });
+          BasisChange<p, T>::to_lagrange_transposed(c);
+          static_for<n_nodes>([&](auto i) { v[i][a] = c[i]; });
         });
     }
 
@@ -241,9 +226,9 @@ namespace corotet
       static_for<9>(
         [&](auto i) { g[i] = load_aligned<n_lanes<T>>(cell.gradients[i]); });
       const V ratio = load_aligned<n_lanes<T>>(cell.lame_ratio);
-      static_for<n_gradients>([&](auto b) {
-        constexpr auto &next = bernstein::raised<p - 1>[b];
-        V               e[6];
+      repeat<p, n_gradients>([&](const auto b) {
+        const auto &next = bernstein::raised<p - 1>[b];
+        V           e[6];
         if constexpr (with_offset)
           static_for<6>([&](auto s) { e[s] = (*offset)[s]; });
         else

@@ -78,7 +78,7 @@ namespace corotet
       if constexpr (!keeps_B)
         Base::to_bernstein(u);
       Base::to_bernstein(v);
-      static_for<3>([&](auto a) {
+      repeat<p, 3>([&](const auto a) {
         if constexpr (with_mass)
           {
             V c[n_nodes];
@@ -92,10 +92,10 @@ namespace corotet
       V w[3];
       change_of_rotation(cells, v, w);
       V P[n_gradients][3][3];
-      static_for<n_gradients>([&](auto b) {
-        stress_derivative<b>(cells, frozen_factor, w, u, v, P[b]);
+      repeat<p, n_gradients>([&](const auto b) {
+        stress_derivative(cells, frozen_factor, b, w, u, v, P[b]);
       });
-      static_for<9>([&](auto ab) {
+      repeat<p, 9>([&](const auto ab) {
         V c[n_gradients];
         static_for<n_gradients>([&](auto b) { c[b] = P[b][ab / 3][ab % 3]; });
         Base::template apply_mass<p - 1, 1>(c);
@@ -110,11 +110,13 @@ namespace corotet
     using Base::n_gradients;
 
     /// H += coefficient b of grad u.
-    template <int b>
     static COROTET_ALWAYS_INLINE void
-    add_gradient(const Cells &cells, const NodalValues &c, V (&H)[3][3])
+    add_gradient(const Cells       &cells,
+                 const int          b,
+                 const NodalValues &c,
+                 V (&H)[3][3])
     {
-      constexpr auto &next = bernstein::raised<p - 1>[b];
+      const auto &next = bernstein::raised<p - 1>[b];
       static_for<3>([&](auto k) {
         static_for<3>([&](auto a) {
           const V difference = c[next[k + 1]][a] - c[next[0]][a];
@@ -151,10 +153,10 @@ namespace corotet
     }
 
     /// Coefficient b of dP R^T in units of mu.
-    template <int b>
     static COROTET_ALWAYS_INLINE void
     stress_derivative(const Cells &cells,
                       const double frozen_factor,
+                      const int    b,
                       const V (&w)[3],
                       const NodalValues &u,
                       const NodalValues &v,
@@ -164,8 +166,8 @@ namespace corotet
       static_for<9>(
         [&](auto ad) { B[ad / 3][ad % 3] = cells.B[ad / 3][ad % 3]; });
       if constexpr (!keeps_B)
-        add_gradient<b>(cells, u, B);
-      add_gradient<b>(cells, v, H);
+        add_gradient(cells, b, u, B);
+      add_gradient(cells, b, v, H);
       skew_times(w, B, WB);
       static_for<9>([&](auto ad) {
         constexpr int a = ad / 3, d = ad % 3;
