@@ -129,6 +129,7 @@ namespace corotet::benchmarks
       QuadratureCells()
         : reference(p)
         , constants(this->n)
+        , at_rest(this->n)
         , rotations(this->n)
       {
         for (unsigned int cell = 0; cell < this->n; ++cell)
@@ -136,9 +137,8 @@ namespace corotet::benchmarks
             {
               for (unsigned int i = 0; i < 9; ++i)
                 {
-                  constants[cell].inverse_jacobian[i][lane] =
-                    std::cos(i + lane);
-                  rotations[cell].rotation[i][lane] = i % 4 == 0;
+                  at_rest[cell].inverse_jacobian[i][lane] = std::cos(i + lane);
+                  rotations[cell].rotation[i][lane]       = i % 4 == 0;
                 }
               constants[cell].volume[lane] = 1;
               constants[cell].scale[lane]  = 1;
@@ -165,7 +165,8 @@ namespace corotet::benchmarks
             const V mu     = scale * scale / volume;
             const V lambda = 1.5 * mu;
             typename Kernel::Geometry g;
-            Kernel::load(constants[cell], g);
+            static_for<9>(
+              [&](auto i) { g[i] = lanes(at_rest[cell].inverse_jacobian[i]); });
             Kernel::integrate(reference.stiffness_rule,
                               g,
                               volume,
@@ -183,9 +184,10 @@ namespace corotet::benchmarks
           }
       }
 
-      const ReferenceElement               reference;
-      dealii::AlignedVector<CellConstants> constants;
-      dealii::AlignedVector<Rotations>     rotations;
+      const ReferenceElement                    reference;
+      dealii::AlignedVector<CellConstants>      constants;
+      dealii::AlignedVector<CellGeometryAtRest> at_rest;
+      dealii::AlignedVector<Rotations>          rotations;
     };
 
     template <typename CellsType>

@@ -10,7 +10,7 @@ namespace corotet
     // F = I + grad u at the centres of the cells.
     template <typename Kernel>
     COROTET_ALWAYS_INLINE void
-    deformation_gradient(const CellConstants                &constants,
+    deformation_gradient(const CellGeometryAtRest           &at_rest,
                          const typename Kernel::NodalValues &u,
                          Simd<double> (&F)[3][3])
     {
@@ -20,8 +20,7 @@ namespace corotet
         static_for<3>([&](auto a) {
           Simd<double> sum = broadcast(a == b ? 1. : 0.);
           static_for<3>([&](auto k) {
-            sum += by_xi[a][k] * load_aligned<batch_size>(
-                                   constants.inverse_jacobian[3 * k + b]);
+            sum += by_xi[a][k] * lanes(at_rest.inverse_jacobian[3 * k + b]);
           });
           F[a][b] = sum;
         });
@@ -31,15 +30,16 @@ namespace corotet
     // Rotates the gradients of the cells.
     COROTET_ALWAYS_INLINE void
     store_rotated(const Simd<double> (&R)[3][3],
-                  const CellConstants      &constants,
-                  CellCoefficients<double> &coefficients)
+                  const ElasticData &data,
+                  const unsigned int batch)
     {
-      const Simd<double> scale = load_aligned<batch_size>(constants.scale);
+      const Simd<double>        scale   = lanes(data.constants[batch].scale);
+      const CellGeometryAtRest &at_rest = data.at_rest[batch];
+      CellCoefficients<double> &coefficients = data.new_coefficients[batch];
       static_for<3>([&](auto k) {
         Simd<double> g[3];
         static_for<3>([&](auto b) {
-          g[b] = scale * load_aligned<batch_size>(
-                           constants.inverse_jacobian[3 * k + b]);
+          g[b] = scale * lanes(at_rest.inverse_jacobian[3 * k + b]);
         });
         static_for<3>([&](auto a) {
           store_aligned(R[a][0] * g[0] + R[a][1] * g[1] + R[a][2] * g[2],
@@ -78,7 +78,7 @@ namespace corotet
       const CellConstants &cells = data.constants[batch];
       const auto [lambda, mu]    = lame(data, batch);
       typename Quadrature::Geometry g;
-      Quadrature::load(cells, g);
+      load_at_rest(data, batch, g);
       static_for<3 * Kernel::n_nodes>(
         [&](auto ia) { f[ia / 3][ia % 3] = Simd<double>{}; });
       const CurvedRule rule{data.batches.curved()->shapes(),
@@ -112,6 +112,8 @@ namespace corotet
       {
         fetch_object(data.constants + batch);
         fetch_object(data.coefficients + batch);
+        if (data.has_rotations())
+          fetch_object(data.at_rest + batch);
       }
 
       /// The rotations of a batch, from the displacement or as they are.
@@ -123,12 +125,11 @@ namespace corotet
       {
         if constexpr (rotate)
           {
-            const CellConstants &constants = data.constants[batch];
-            Tensor2Lanes         F;
-            deformation_gradient<CellKernel>(constants, u, F);
+            Tensor2Lanes F;
+            deformation_gradient<CellKernel>(data.at_rest[batch], u, F);
             const PolarLanes found = polar_decomposition(F, R);
-            data.counts.add(found, constants);
-            store_rotated(R, constants, data.new_coefficients[batch]);
+            data.counts.add(found, data.constants[batch]);
+            store_rotated(R, data, batch);
           }
         else
           rotations_of(data, batch, R);

@@ -25,19 +25,12 @@ namespace corotet
     , reference(reference)
     , material_law(law)
     , sweeps(law->sweeps(discretization.element()))
+    , materials(materials)
     , cell_loop(discretization)
     , constants(discretization.batches().n_batches())
-    , cell_coefficients(discretization.batches().n_batches())
+    , at_rest(law->is_linear() ? 0 : constants.size())
+    , cell_coefficients(constants.size())
   {
-    std::map<unsigned int, unsigned int> index;
-    for (const auto &[region, material] : materials)
-      {
-        index[region] = cell_materials.size();
-        cell_materials.push_back(material);
-      }
-    material_of_cell.resize(discretization.n_local_cells());
-    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
-      material_of_cell[c] = index.at(discretization.region(c));
     AssertThrow(whose_dilatation == Dilatation::cells ||
                   (discretization.degree() == 1 &&
                    allows_vertex_dilatation(*law)),
@@ -45,9 +38,8 @@ namespace corotet
                   "The dilatation of vertices is for elements of degree 1 with "
                   "linear or corotational laws."));
     if (whose_dilatation == Dilatation::vertices)
-      dilatation = std::make_unique<VertexDilatation>(discretization,
-                                                      cell_materials,
-                                                      material_of_cell);
+      dilatation =
+        std::make_unique<VertexDilatation>(discretization, materials);
     set_up_cells();
   }
 
@@ -68,8 +60,9 @@ namespace corotet
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int a = 0; a < 3; ++a)
             {
-              cells.inverse_jacobian[3 * k + a][lane] =
-                geometry.inverse_jacobian[k][a];
+              if (!at_rest.empty())
+                at_rest[batch].inverse_jacobian[3 * k + a][lane] =
+                  geometry.inverse_jacobian[k][a];
               cell_coefficients[batch].gradients[3 * k + a][lane] =
                 cells.scale[lane] * geometry.inverse_jacobian[k][a];
             }
@@ -83,7 +76,7 @@ namespace corotet
             reference,
             constants.data(),
             cell_coefficients.data(),
-            !material_law->is_linear(),
+            material_law->is_linear() ? nullptr : at_rest.data(),
             sweeps.law};
   }
 

@@ -110,7 +110,7 @@ namespace corotet
                      own.reference,
                      own.constants,
                      own.coefficients,
-                     own.has_rotations,
+                     own.at_rest,
                      own.law};
     data.linearization                 = linearization.data();
     data.frozen_factor                 = frozen_factor;

@@ -45,7 +45,7 @@ namespace corotet
   VertexDilatation::update_rows(const ElasticData &data)
   {
     // Without rotations they never change.
-    if (are_entries_known && !data.has_rotations)
+    if (are_entries_known && !data.has_rotations())
       return;
     are_entries_known = true;
     make_rows();

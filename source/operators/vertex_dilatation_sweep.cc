@@ -35,22 +35,21 @@ namespace corotet
   } // namespace
 
   VertexDilatation::VertexDilatation(
-    const Discretization                 &discretization,
-    const std::vector<IsotropicMaterial> &all_materials,
-    const std::vector<unsigned int>      &material_of_cell)
+    const Discretization                            &discretization,
+    const std::map<unsigned int, IsotropicMaterial> &of_regions)
     : discretization(discretization)
-    , material_of_cell(material_of_cell)
     , cell_loop(discretization)
   {
-    std::vector<unsigned int> index;
-    for (const IsotropicMaterial &material : all_materials)
-      index.push_back(index_of(material, materials));
-    for (unsigned int &material : this->material_of_cell)
-      material = index[material];
+    std::map<unsigned int, unsigned int> index;
+    for (const auto &[region, material] : of_regions)
+      index[region] = index_of(material, materials);
+    material_of_cell.reserve(discretization.n_local_cells());
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+      material_of_cell.push_back(index.at(discretization.region(c)));
     copies                    = std::make_unique<MaterialNodes>(discretization,
                                              materials.size(),
                                              [this](const unsigned int c) {
-                                               return this->material_of_cell[c];
+                                               return material_of_cell[c];
                                              });
     const NodeNumbers numbers = copies->numbers();
     exchange = GhostExchange(discretization.communicator(), numbers);
@@ -124,7 +123,7 @@ namespace corotet
         load_rotated(data, batch, g);
         rotated_gradient(g, u, H);
         Simd<double> dilatation = H[0][0] + H[1][1] + H[2][2];
-        if (of_displacement && data.has_rotations)
+        if (of_displacement && data.has_rotations())
           {
             Tensor2Lanes R;
             rotations_of(data, batch, R);

@@ -199,7 +199,7 @@ namespace corotet
     const IsotropicMaterial &
     material(const unsigned int cell) const
     {
-      return cell_materials[material_of_cell[cell]];
+      return materials.at(discretization.region(cell));
     }
 
     dealii::Tensor<2, 3>
@@ -282,13 +282,15 @@ namespace corotet
     const ReferenceElement            &reference;
     std::shared_ptr<const MaterialLaw> material_law;
     ElasticSweeps                      sweeps;
-    std::vector<IsotropicMaterial>     cell_materials;
-    std::vector<unsigned int>          material_of_cell;
-    CellLoop<double>                   cell_loop;
+    /// By region.
+    std::map<unsigned int, IsotropicMaterial> materials;
+    CellLoop<double>                          cell_loop;
 
     // In the batches of the discretization. Gradients among the coefficients
-    // are rotated: that is how rotations are stored.
+    // are rotated: that is how rotations are stored. Without rotations they are
+    // those at rest, and at_rest is empty.
     dealii::AlignedVector<CellConstants>            constants;
+    dealii::AlignedVector<CellGeometryAtRest>       at_rest;
     dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
 
     /// Of the last linearize(); see TangentSweeps.

@@ -129,7 +129,7 @@ namespace corotet
     COROTET_ALWAYS_INLINE void
     load_geometry()
     {
-      Kernel::load(constants, g);
+      load_at_rest(data, batch, g);
     }
 
     /// That, and the displacement less that of the first node.
@@ -319,6 +319,10 @@ namespace corotet
     fetch(const ElasticData &data, const unsigned int batch)
     {
       fetch_object(data.constants + batch);
+      if (data.has_rotations())
+        fetch_object(data.at_rest + batch);
+      else
+        fetch_object(data.coefficients + batch);
     }
 
     template <typename IsCurved>

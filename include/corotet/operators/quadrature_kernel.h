@@ -9,6 +9,7 @@
 #include <corotet/operators/cell_rule.h>
 #include <corotet/operators/derivative_form.h>
 #include <corotet/operators/gather.h>
+#include <corotet/operators/rotated_frame.h>
 #include <corotet/operators/sweep.h>
 
 namespace corotet
@@ -33,15 +34,6 @@ namespace corotet
     /// [3 (k - 1) + component].
     using Geometry = V[9];
 
-    /// The geometry at rest.
-    static COROTET_ALWAYS_INLINE void
-    load(const CellConstants &constants, Geometry &g)
-    {
-      static_for<9>([&](auto i) {
-        g[i] = load_aligned<batch_size>(constants.inverse_jacobian[i]);
-      });
-    }
-
     /// The geometry at rest and @p displacement, less that of the first node.
     static COROTET_ALWAYS_INLINE void
     load(const ElasticData &data,
@@ -51,7 +43,7 @@ namespace corotet
          NodalValues       &u)
     {
       gather_differences<n_nodes>(data.batches, batch, displacement, u);
-      load(data.constants[batch], g);
+      load_at_rest(data, batch, g);
     }
 
     /// grad u at point @p q of @p rule: row a is the gradient of component a.

@@ -30,6 +30,19 @@ namespace corotet
     });
   }
 
+  /// The gradients of the reference coordinates at rest.
+  COROTET_ALWAYS_INLINE void
+  load_at_rest(const ElasticData &data,
+               const unsigned int batch,
+               Simd<double> (&g)[9])
+  {
+    if (data.has_rotations())
+      static_for<9>(
+        [&](auto i) { g[i] = lanes(data.at_rest[batch].inverse_jacobian[i]); });
+    else
+      load_rotated(data, batch, g);
+  }
+
   /// B <- R^T + B: F R^T from grad u R^T.
   COROTET_ALWAYS_INLINE void
   add_transposed(const Simd<double> (&R)[3][3], Simd<double> (&B)[3][3])

@@ -21,16 +21,20 @@
  */
 namespace corotet
 {
-  /// Geometry at rest and material of the cells of a batch. Zeros in lanes
-  /// without a cell.
+  /// Size and material of the cells of a batch. Zeros in lanes without a cell.
   struct alignas(sizeof(Simd<double>)) CellConstants
   {
-    /// Gradients of the reference coordinates, [3 (k - 1) + component] [1/m].
-    double inverse_jacobian[9][batch_size];
     /// sqrt(mu volume).
     double scale[batch_size];
     /// In m^3.
     double volume[batch_size];
+  };
+
+  /// Geometry at rest of the cells of a batch. Zeros in lanes without a cell.
+  struct alignas(sizeof(Simd<double>)) CellGeometryAtRest
+  {
+    /// Gradients of the reference coordinates, [3 (k - 1) + component] [1/m].
+    double inverse_jacobian[9][batch_size];
   };
 
   /// A number of each cell of a batch.
@@ -134,8 +138,9 @@ namespace corotet
     const ReferenceElement         &reference;
     const CellConstants            *constants;
     const CellCoefficients<double> *coefficients;
-    /// Whether the cells have rotations; otherwise R = I.
-    bool has_rotations;
+    /// Null if the cells have no rotations, R = I: then the coefficients have
+    /// their gradients at rest.
+    const CellGeometryAtRest *at_rest;
     /// The law, for sweeps that know its class.
     const void *law = nullptr;
 
@@ -157,6 +162,12 @@ namespace corotet
     /// Null if the tangent has no mass term.
     const CellMasses<double> *masses      = nullptr;
     double                    mass_factor = 0;
+
+    bool
+    has_rotations() const
+    {
+      return at_rest != nullptr;
+    }
   };
 
   /// Lamé's parameters of a batch [Pa], zeros in lanes without a cell.
@@ -182,16 +193,15 @@ namespace corotet
                Simd<double> (&R)[3][3])
   {
     using V = Simd<double>;
-    if (!data.has_rotations)
+    if (!data.has_rotations())
       {
         static_for<9>(
           [&](auto i) { R[i / 3][i % 3] = broadcast(i % 4 == 0 ? 1. : 0.); });
         return;
       }
-    const CellConstants &constants = data.constants[batch];
-    V                    G[3][3], C[3][3];
+    V G[3][3], C[3][3];
     static_for<9>([&](auto i) {
-      G[i / 3][i % 3] = load_aligned<batch_size>(constants.inverse_jacobian[i]);
+      G[i / 3][i % 3] = lanes(data.at_rest[batch].inverse_jacobian[i]);
     });
     // dx / dxi_k is row k of the cofactors of G over det G.
     static_for<9>([&](auto i) {
@@ -201,7 +211,7 @@ namespace corotet
       C[k][a] = G[k1][a1] * G[k2][a2] - G[k1][a2] * G[k2][a1];
     });
     const V det   = G[0][0] * C[0][0] + G[0][1] * C[0][1] + G[0][2] * C[0][2];
-    const V scale = load_aligned<batch_size>(constants.scale) * det;
+    const V scale = lanes(data.constants[batch].scale) * det;
     // Lanes without a cell have zeros throughout.
     const V factor = 1. / (scale > 0. ? scale : broadcast(1.));
     static_for<9>([&](auto i) {

@@ -14,6 +14,7 @@
 
 #include <deal.II/base/aligned_vector.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -52,11 +53,10 @@ namespace corotet
   class VertexDilatation
   {
   public:
-    /// @p material_of_cell: of each local cell, among @p materials, which are
-    /// the same on all ranks.
-    VertexDilatation(const Discretization                 &discretization,
-                     const std::vector<IsotropicMaterial> &materials,
-                     const std::vector<unsigned int>      &material_of_cell);
+    /// @p of_regions: materials by region, the same on all ranks.
+    VertexDilatation(
+      const Discretization                            &discretization,
+      const std::map<unsigned int, IsotropicMaterial> &of_regions);
 
     /// f += the force [N] of the displacement @p u.
     void
