@@ -175,16 +175,16 @@ namespace corotet
   unsigned int
   LinearSolver::largest_number(const bool is_new, const bool is_tangent) const
   {
-    if (!is_tangent)
-      return parameters.max_iterations;
-    // Far from a solution exact tangents may be next to singular: Newton's
-    // method has others. Whether the preconditioner is outdated shows earlier.
     constexpr double many = 1000, least = 100;
-    const double     most = std::max(many / preconditioner->cost(), least);
-    return std::min<double>(parameters.max_iterations,
-                            is_new ?
-                              most :
-                              std::min(most, least + 2. * first_iterations));
+    double           most = parameters.max_iterations;
+    // Far from a solution exact tangents may be next to singular: Newton's
+    // method has others.
+    if (is_tangent)
+      most = std::min(most, std::max(many / preconditioner->cost(), least));
+    // Whether the preconditioner is outdated shows earlier.
+    if (!is_new)
+      most = std::min(most, least + 2. * first_iterations);
+    return most;
   }
 
   unsigned int
@@ -196,10 +196,12 @@ namespace corotet
                                 const Vector            &displacement,
                                 const double             wanted)
   {
-    unsigned int done      = 0;
-    done_before_change     = 0;
-    unsigned int most      = largest_number(is_new, J != nullptr);
-    const auto   change_it = [&](const double expected) {
+    unsigned int done  = 0;
+    done_before_change = 0;
+    unsigned int most =
+      largest_number(is_new || (J == nullptr && A.version() == built_version),
+                     J != nullptr);
+    const auto change_it = [&](const double expected) {
       if (!preconditioner->change(A, J, displacement, done, expected))
         return;
       done_before_change = done;

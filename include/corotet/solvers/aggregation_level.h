@@ -254,14 +254,12 @@ namespace corotet
                         const BlockMatrix                    &A,
                         const std::vector<ModeBlock<double>> &motions,
                         std::vector<int>                     &place) const;
-    /// @p result: an entry for each of the prolongation's pattern.
+    /// Makes the prolongation.
     void
-    smooth_motions(std::vector<ModeBlock<double>>       &result,
-                   const BlockMatrix                    &A,
-                   const std::vector<ModeBlock<double>> &motions) const;
+    smooth_motions(const BlockMatrix                    &A,
+                   const std::vector<ModeBlock<double>> &motions);
     void
-    fill_coarse(const BlockMatrix                    &A,
-                const std::vector<ModeBlock<double>> &exact);
+    fill_coarse(const BlockMatrix &A);
     std::vector<int>
     coarse_numbers() const;
     void
@@ -320,7 +318,9 @@ namespace corotet
     std::vector<float>       inverse_aggregates;
     std::vector<std::size_t> starts_of_inverses;
     double                   largest_eigenvalue = 0;
-    /// Rows of owned points.
+    /// Rows of owned points. The coarse matrix is the product with just these
+    /// numbers: a rigid motion that has been rounded has energy of the square
+    /// of round-off only.
     std::vector<ModeBlock<float>> prolongation;
 
     /// The first two with entries of ghosts.
