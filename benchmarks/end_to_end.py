@@ -12,9 +12,8 @@ processor's time is that of all processes, gmsh's included, which reads the file
 has had, or gmsh's process, which rank 0 waits for, if that had more.
 
 The status is 1 if set-up on one rank takes more than 2 s for a million cells of degree 1, 4 s of degree 2 or 3; if at degree 2 or 3
-set-up and output take longer than the solution; if one rank has more than 1,500 bytes for an unknown of degree 1, or on the larger bodies
-350 of degree 2 or 300 of degree 3; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of
-an eighth and judges nothing. --largest is ten million cells of degree 1, on the most ranks of --ranks. --document writes the table into
+set-up and output take longer than the solution; if one rank has more than 1,500 bytes for an unknown of degree 1, 350 of degree 2, or 300
+of degree 3; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of an eighth and judges nothing. --largest is ten million cells of degree 1, on the most ranks of --ranks. --document writes the table into
 doc/scaling.md, with --largest that one.
 """
 
@@ -37,8 +36,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "scaling.md"
 # Degrees, and cuboids in each direction, each of six cells.
 BODIES = [(1, 68), (2, 34), (3, 23), (2, 62), (3, 41)]
-# Of such a body, for an unknown, on one rank.
-MOST_BYTES = {(1, 68): 1500, (2, 62): 350, (3, 41): 300}
+# By degree, for an unknown, on one rank.
+MOST_BYTES = {1: 1500, 2: 350, 3: 300}
 CUBOIDS_OF_LARGEST = 119
 MOST_SETUP = {1: 2, 2: 4, 3: 4}
 MOST_OVER_MEAN = 1.3
@@ -63,8 +62,8 @@ def run(program, folder, ranks):
     return wall, processor, summary, [int(path.read_text()) for path in folder.glob("rank.*")]
 
 
-def judge(degree, n, ranks, summary, memory):
-    """What is not as it should be. n: cuboids in each direction."""
+def judge(degree, ranks, summary, memory):
+    """What is not as it should be."""
     times, found = summary["wall_time"], []
     setup = times["setup"] - times["read"]
     each = 1e6 * setup / summary["cells"]
@@ -72,8 +71,8 @@ def judge(degree, n, ranks, summary, memory):
         found.append(f"degree {degree}: set-up takes {each:.2g} s for a million cells, not at most {MOST_SETUP[degree]}")
     if ranks == 1 and degree > 1 and setup + times["output"] > times["solve"]:
         found.append(f"degree {degree}: set-up and output take {setup + times['output']:.2g} s, the solution {times['solve']:.2g}")
-    most_bytes = MOST_BYTES.get((degree, n))
-    if ranks == 1 and most_bytes and sum(memory) > most_bytes * summary["dofs"]:
+    most_bytes = MOST_BYTES[degree]
+    if ranks == 1 and sum(memory) > most_bytes * summary["dofs"]:
         found.append(f"degree {degree}: {sum(memory) / summary['dofs']:.0f} bytes for an unknown, not at most {most_bytes}")
     if max(memory) * len(memory) > MOST_OVER_MEAN * sum(memory):
         found.append(f"degree {degree}, {ranks} ranks: one has {max(memory) * len(memory) / sum(memory):.2f} times the mean memory")
@@ -105,7 +104,7 @@ def measure(options, folder):
             fastest = min(runs, key=lambda one: one[0])
             lines.append(row(degree, ranks, fastest))
             print(lines[-1], flush=True)
-            mistakes += judge(degree, n, ranks, *fastest[2:])
+            mistakes += judge(degree, ranks, *fastest[2:])
     return lines, [] if options.quick else mistakes
 
 

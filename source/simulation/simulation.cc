@@ -265,6 +265,9 @@ namespace corotet
       {
         summary.errors                      = errors();
         summary.largest_rotation_difference = rotation_difference();
+        if (status == "done" && last_record.max_displacement == 0)
+          log.warning("the displacement is zero everywhere: no load, no motion "
+                      "of supports and no initial condition moves the body");
       }
     summary.wall_times      = wall_times;
     summary.total_wall_time = seconds();

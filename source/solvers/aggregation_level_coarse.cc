@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exchange.h>
+#include <corotet/base/memory.h>
 #include <corotet/solvers/aggregation_level.h>
 
 #include <algorithm>
@@ -70,11 +71,20 @@ namespace corotet
   AggregationLevel<d>::build_coarse(const BlockMatrix                &A,
                                     const std::vector<PointFrame<d>> &frames)
   {
-    // With rows of ghosts until the coarse matrix is made.
-    prolongation.resize(prolongation_pattern.columns.size());
-    smooth_motions(A, rigid_motions(frames));
-    fill_coarse(A);
-    prolongation.resize(prolongation_pattern.starts[n_points]);
+    // Room for one at a time. The larger array comes first, for where the
+    // blocks have been: a smaller one there would leave it no room.
+    std::vector<ModeBlock<float>>().swap(prolongation);
+    std::vector<ModeBlock<double>> exact(prolongation_pattern.columns.size());
+    smooth_motions(exact, A, rigid_motions(frames));
+    fill_coarse(A, exact);
+    const std::size_t n_entries = prolongation_pattern.starts[n_points];
+    prolongation.reserve(n_entries);
+    LastReading reading(exact.data());
+    for (std::size_t k = 0; k < n_entries; ++k)
+      {
+        reading.passed(&exact[k]);
+        prolongation.emplace_back(exact[k].rows());
+      }
   }
 
   /// Of known aggregates in the coarse matrix, in the same order; -1 where it
@@ -101,7 +111,8 @@ namespace corotet
   /// P^T A P / unit. Motions that an aggregate lacks get a 1 on the diagonal.
   template <int d>
   void
-  AggregationLevel<d>::fill_coarse(const BlockMatrix &A)
+  AggregationLevel<d>::fill_coarse(const BlockMatrix                    &A,
+                                   const std::vector<ModeBlock<double>> &exact)
   {
     problem.matrix = std::make_unique<BlockMatrix>(coarse_matrix_pattern);
     const NodeGraph &graph  = points->graph();
@@ -134,13 +145,13 @@ namespace corotet
               add_product(row_blocks[place[prolongation_pattern.columns[l]]],
                           rows,
                           d * (k - graph.starts[i]),
-                          prolongation[l].rows());
+                          exact[l].rows());
           }
         for (int l = prolongation_pattern.starts[i];
              l < prolongation_pattern.starts[i + 1];
              ++l)
           {
-            auto p = prolongation[l].rows();
+            auto p = exact[l].rows();
             for (Modes &row : p)
               row /= the_unit;
             const int I = prolongation_columns[l];

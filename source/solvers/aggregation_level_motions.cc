@@ -173,8 +173,9 @@ namespace corotet
   template <int d>
   void
   AggregationLevel<d>::smooth_motions(
+    std::vector<ModeBlock<double>>       &result,
     const BlockMatrix                    &A,
-    const std::vector<ModeBlock<double>> &motions)
+    const std::vector<ModeBlock<double>> &motions) const
   {
     const double                      omega = 4. / 3 / largest_eigenvalue;
     std::vector<std::array<Modes, d>> products;
@@ -204,10 +205,10 @@ namespace corotet
                 for (int a = 0; a < d; ++a)
                   rows[a] -= omega * inverse[d * n * (d * j + b) + d * i + a] *
                              products[n_columns * j + k][b];
-            prolongation[entry] = ModeBlock<float>(rows);
+            result[entry] = ModeBlock<double>(rows);
           }
     });
-    prolongation_ghosts.update(prolongation.data());
+    prolongation_ghosts.update(result.data());
   }
 
   // One member at a time, as others are in files of their own.
@@ -217,10 +218,12 @@ namespace corotet
   AggregationLevel<6>::rigid_motions(const std::vector<PointFrame<6>> &);
   template void
   AggregationLevel<3>::smooth_motions(
+    std::vector<AggregationLevel<3>::ModeBlock<double>> &,
     const BlockMatrix &,
-    const std::vector<AggregationLevel<3>::ModeBlock<double>> &);
+    const std::vector<AggregationLevel<3>::ModeBlock<double>> &) const;
   template void
   AggregationLevel<6>::smooth_motions(
+    std::vector<AggregationLevel<6>::ModeBlock<double>> &,
     const BlockMatrix &,
-    const std::vector<AggregationLevel<6>::ModeBlock<double>> &);
+    const std::vector<AggregationLevel<6>::ModeBlock<double>> &) const;
 } // namespace corotet

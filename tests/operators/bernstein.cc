@@ -7,12 +7,16 @@
 #include <corotet/discretization/bernstein.h>
 #include <corotet/discretization/reference_element.h>
 #include <corotet/discretization/with_degree.h>
+#include <corotet/operators/basis_change.h>
 
 #include <deal.II/fe/fe_simplex_p.h>
 
 #include <gtest/gtest.h>
 
+#include "lanes.h"
+
 using namespace corotet;
+using namespace corotet::tests;
 using dealii::Point;
 
 namespace
@@ -60,6 +64,32 @@ TEST_P(BernsteinTest, ChangeOfBasis)
               bernstein::value(bernstein::multi_indices<p>[a], barycentric(xi));
           EXPECT_NEAR(value, fe.shape_value(i, xi), 1e-14) << i;
         }
+  });
+}
+
+// What kernels do for the change of basis, with unit vectors, is the matrix and
+// its transpose, but for round-off of numbers below ten.
+TEST_P(BernsteinTest, ChangeOfBasisOfKernels)
+{
+  with_degree(GetParam(), [&](const auto degree) {
+    constexpr int p = decltype(degree)::value;
+    constexpr int n = bernstein::size<p>;
+    for (int i = 0; i < n; ++i)
+      {
+        Simd<double> u[n] = {}, v[n] = {};
+        u[i] = v[i] = broadcast(1.);
+        BasisChange<p, double>::to_bernstein(u);
+        BasisChange<p, double>::to_lagrange_transposed(v);
+        for (int j = 0; j < n; ++j)
+          {
+            expect_same(u[j],
+                        broadcast(bernstein::from_lagrange<p>[j][i]),
+                        1e-14);
+            expect_same(v[j],
+                        broadcast(bernstein::from_lagrange<p>[i][j]),
+                        1e-14);
+          }
+      }
   });
 }
 

@@ -52,6 +52,16 @@ class Statics(ProgramTest):
             out = self.run_cube({"Boundary conditions/Fixed": "z-min"}, "--set", f"Initial conditions/Velocity = {velocity}").stdout
             self.assertEqual(out.count("warning: Initial conditions/Velocity: has no effect in statics, where nothing moves"), warned)
 
+    def test_nothing_acts(self):
+        """The log says so, in statics and in dynamics."""
+        warning = "warning: the displacement is zero everywhere"
+        for kind in ("static", "generalized-alpha"):
+            for gravity, warned in (("0; 0; 0", 1), ("0; 0; -1e-6", 0)):
+                with self.subTest(kind, gravity=gravity):
+                    out = self.run_cube({"Boundary conditions/Fixed": "z-min", "Time integration/Type": kind,
+                                         "Loads/Gravity": gravity}).stdout
+                    self.assertEqual(out.count(warning), warned)
+
     def test_fixed_on_all_sides(self):
         """Few unknowns are left, of one cuboid none at vertices: the middle moves down, by less than a body that is held at two ends does."""
         fixed = {"Boundary conditions/Fixed": "x-min, x-max, y-min, y-max, z-min, z-max", "Mesh/box/Cells": "1, 1, 1"}

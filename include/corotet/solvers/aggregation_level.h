@@ -254,12 +254,14 @@ namespace corotet
                         const BlockMatrix                    &A,
                         const std::vector<ModeBlock<double>> &motions,
                         std::vector<int>                     &place) const;
-    /// Makes the prolongation.
+    /// @p result: an entry for each of the prolongation's pattern.
     void
-    smooth_motions(const BlockMatrix                    &A,
-                   const std::vector<ModeBlock<double>> &motions);
+    smooth_motions(std::vector<ModeBlock<double>>       &result,
+                   const BlockMatrix                    &A,
+                   const std::vector<ModeBlock<double>> &motions) const;
     void
-    fill_coarse(const BlockMatrix &A);
+    fill_coarse(const BlockMatrix                    &A,
+                const std::vector<ModeBlock<double>> &exact);
     std::vector<int>
     coarse_numbers() const;
     void
@@ -318,9 +320,7 @@ namespace corotet
     std::vector<float>       inverse_aggregates;
     std::vector<std::size_t> starts_of_inverses;
     double                   largest_eigenvalue = 0;
-    /// Rows of owned points. The coarse matrix is the product with just these
-    /// numbers: a rigid motion that has been rounded has energy of the square
-    /// of round-off only.
+    /// Rows of owned points.
     std::vector<ModeBlock<float>> prolongation;
 
     /// The first two with entries of ghosts.
