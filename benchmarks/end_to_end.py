@@ -13,8 +13,9 @@ has had, or gmsh's process, which rank 0 waits for, if that had more.
 
 The status is 1 if set-up on one rank takes more than 2 s for a million cells of degree 1, 4 s of degree 2 or 3; if at degree 2 or 3
 set-up and output take longer than the solution; if one rank has more than 1,500 bytes for an unknown of degree 1, 350 of degree 2, or 300
-of degree 3; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of an eighth and judges nothing. --largest is ten million cells of degree 1, on the most ranks of --ranks. --document writes the table into
-doc/scaling.md, with --largest that one.
+of degree 3; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of an eighth and judges nothing.
+--largest is ten million cells of degree 1, on the most ranks of --ranks. --document writes the table into doc/scaling.md, with --largest
+that one.
 """
 
 import argparse

@@ -198,6 +198,7 @@ namespace corotet
   {
     unsigned int done  = 0;
     done_before_change = 0;
+    // For the operator that the preconditioner was made of it is as a new one.
     unsigned int most =
       largest_number(is_new || (J == nullptr && A.version() == built_version),
                      J != nullptr);
