@@ -140,7 +140,9 @@ namespace corotet
                  const TangentOperator   *J,
                  const Vector            &x,
                  const Vector            &b) const;
-    /// Iterations after which a solve has failed.
+    /// Iterations after which a solve has failed: fewer if the preconditioner
+    /// was made of another operator, unless it @p is_new, and for an exact
+    /// tangent.
     unsigned int
     largest_number(const bool is_new, const bool is_tangent) const;
     /// These go on from x to a residual of @p wanted and return the number of
