@@ -110,17 +110,19 @@ namespace corotet
     // The owner of a node has a cell with it, which is a ghost to all that have
     // cells with the node: at first the owned cells get the numbers of their
     // nodes, and then they are known to who has them as ghosts.
-    const GhostCells              ghosts(mesh);
-    std::vector<global_dof_index> of_cells(nodes.of_cells.size());
+    const GhostCells ghosts(mesh);
     for (unsigned int round = 0; round < 2; ++round)
-      {
-        for (std::size_t k = 0; k < of_cells.size(); ++k)
-          of_cells[k] = numbers[nodes.of_cells[k]];
-        ghosts.update(of_cells, n_cell_nodes);
-        for (std::size_t k = 0; k < of_cells.size(); ++k)
-          if (of_cells[k] != invalid_dof_index)
-            numbers[nodes.of_cells[k]] = of_cells[k];
-      }
+      ghosts.send<global_dof_index>(
+        n_cell_nodes,
+        [&](const unsigned int c, global_dof_index *const sent) {
+          for (unsigned int i = 0; i < n_cell_nodes; ++i)
+            sent[i] = numbers[nodes.node(c, i)];
+        },
+        [&](const unsigned int c, const global_dof_index *const received) {
+          for (unsigned int i = 0; i < n_cell_nodes; ++i)
+            if (received[i] != invalid_dof_index)
+              numbers[nodes.node(c, i)] = received[i];
+        });
     return numbers;
   }
 

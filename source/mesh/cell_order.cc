@@ -44,14 +44,14 @@ namespace corotet
 
 
 
-    // Of the cells' centres on all ranks: the lowest coordinates, and the
-    // length of the longest side.
+    // Of points of all ranks: the lowest coordinates, and the length of the
+    // longest side.
     std::pair<dealii::Point<3>, double>
-    box_of(const std::vector<dealii::Point<3>> &centres, const MPI_Comm comm)
+    box_of(const std::vector<dealii::Point<3>> &points, const MPI_Comm comm)
     {
       // Highest coordinates, and lowest ones with the other sign.
       std::vector<double> bounds(6, -std::numeric_limits<double>::infinity());
-      for (const dealii::Point<3> &x : centres)
+      for (const dealii::Point<3> &x : points)
         for (unsigned int d = 0; d < 3; ++d)
           {
             bounds[d]     = std::max(bounds[d], x[d]);
@@ -66,6 +66,26 @@ namespace corotet
           extent    = std::max(extent, bounds[d] - lowest[d]);
         }
       return {lowest, extent};
+    }
+
+
+
+    // Of points of all ranks, on a curve through them all.
+    std::vector<std::uint64_t>
+    places_on_curve(const std::vector<dealii::Point<3>> &points,
+                    const MPI_Comm                       comm)
+    {
+      const auto [lowest, extent] = box_of(points, comm);
+
+      // The same unit of length in all directions: stretching a slender body
+      // to a cube would make far cells neighbours on the curve.
+      const double unit = extent > 0 ? ((1 << hilbert_bits) - 1) / extent : 0;
+      std::vector<std::array<std::uint32_t, 3>> coordinates(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (unsigned int d = 0; d < 3; ++d)
+          coordinates[i][d] =
+            static_cast<std::uint32_t>(unit * (points[i][d] - lowest[d]));
+      return places_on_hilbert_curve(coordinates);
     }
 
 
@@ -107,18 +127,8 @@ namespace corotet
       for (unsigned int c = 0; c < centres.size(); ++c)
         for (const unsigned int v : part.cells[c].vertices)
           centres[c] += part.vertices[v] / 4.;
-      const auto [lowest, extent] = box_of(centres, comm);
-
-      // The same unit of length in all directions: stretching a slender body
-      // to a cube would make far cells neighbours on the curve.
-      const double unit = extent > 0 ? ((1 << hilbert_bits) - 1) / extent : 0;
-      std::vector<std::array<std::uint32_t, 3>> coordinates(centres.size());
-      for (unsigned int c = 0; c < centres.size(); ++c)
-        for (unsigned int d = 0; d < 3; ++d)
-          coordinates[c][d] =
-            static_cast<std::uint32_t>(unit * (centres[c][d] - lowest[d]));
       const std::vector<std::uint64_t> on_curve =
-        places_on_hilbert_curve(coordinates);
+        places_on_curve(centres, comm);
 
       std::vector<PlacedCell> cells;
       cells.reserve(centres.size());
@@ -274,23 +284,48 @@ namespace corotet
 
 
 
-    // For each rank, the cells that belong to it and their places on the curve.
-    Messages
-    cells_by_owner(const MeshPart                &part,
-                   const std::vector<PlacedCell> &cells,
-                   const MPI_Comm                 comm)
+    // Of the sorted cells of this rank, those from the first on and before the
+    // last that belong to the rank.
+    struct Piece
     {
-      const unsigned int            n_ranks = MPI::n_mpi_processes(comm);
+      std::size_t begin, end;
+    };
+
+
+
+    std::vector<Piece>
+    pieces_by_owner(const MeshPart                &part,
+                    const std::vector<PlacedCell> &cells,
+                    const MPI_Comm                 comm)
+    {
       const Sequence                sequence(cells, part, comm);
-      const std::vector<CurvePlace> cuts = beginnings(sequence, n_ranks);
-      PartCutter                    cutter(part);
-      Messages                      messages;
-      std::size_t                   begin = 0;
-      for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      const std::vector<CurvePlace> cuts =
+        beginnings(sequence, MPI::n_mpi_processes(comm));
+      std::vector<Piece> pieces{{0, cells.size()}};
+      for (const CurvePlace &cut : cuts)
         {
-          const std::size_t end =
-            rank + 1 < n_ranks ? sequence.position(cuts[rank]) : cells.size();
-          if (begin == end)
+          pieces.back().end = sequence.position(cut);
+          pieces.push_back({pieces.back().end, cells.size()});
+        }
+      return pieces;
+    }
+
+
+
+    // For each other rank, the cells that belong to it and their places on the
+    // curve.
+    Messages
+    cells_for_others(const MeshPart                &part,
+                     const std::vector<PlacedCell> &cells,
+                     const std::vector<Piece>      &pieces,
+                     const unsigned int             my_rank)
+    {
+      Messages   messages;
+      PartCutter cutter(part);
+      for (unsigned int rank = 0; rank < pieces.size(); ++rank)
+        {
+          const auto [begin, end] = pieces[rank];
+          if (rank == my_rank || begin == end)
             continue;
           std::vector<unsigned int>  moved;
           std::vector<std::uint64_t> on_curve;
@@ -301,37 +336,25 @@ namespace corotet
             }
           messages[rank] = packed(cutter.cut(moved));
           append_array(messages[rank], on_curve);
-          begin = end;
         }
       return messages;
     }
 
 
 
-    // Those that this rank has got, sorted.
-    MeshPart
-    sorted_part(const Messages &messages, const unsigned int geometry_degree)
+    // Merges sorted sequences that stand one behind the other, each but the
+    // first from a place of @p begins on.
+    void
+    merge_sequences(std::vector<PlacedCell>     &cells,
+                    std::vector<std::size_t>     begins,
+                    const std::vector<MeshPart> &parts)
     {
-      std::vector<MeshPart>    parts;
-      std::vector<PlacedCell>  cells;
-      std::vector<std::size_t> begins;
-      for (const auto &[rank, message] : messages)
-        {
-          std::size_t                position = 0;
-          std::vector<std::uint64_t> on_curve;
-          parts.push_back(unpacked(message, position));
-          read_array(message, position, on_curve);
-          begins.push_back(cells.size());
-          for (unsigned int c = 0; c < on_curve.size(); ++c)
-            cells.push_back(
-              {on_curve[c], c, static_cast<unsigned int>(parts.size() - 1)});
-        }
-      begins.push_back(cells.size());
-      const auto place = [&](const PlacedCell &placed) {
-        return CurvePlace{placed.on_curve,
-                          parts[placed.part].numbers[placed.cell]};
+      const auto is_before = [&](const PlacedCell &a, const PlacedCell &b) {
+        return CurvePlace{a.on_curve, parts[a.part].numbers[a.cell]} <
+               CurvePlace{b.on_curve, parts[b.part].numbers[b.cell]};
       };
-      // Those of each rank are sorted.
+      begins.insert(begins.begin(), 0);
+      begins.push_back(cells.size());
       while (begins.size() > 2)
         {
           std::vector<std::size_t> merged_begins;
@@ -342,30 +365,89 @@ namespace corotet
                 std::inplace_merge(cells.begin() + begins[i],
                                    cells.begin() + begins[i + 1],
                                    cells.begin() + begins[i + 2],
-                                   [&](const PlacedCell &a,
-                                       const PlacedCell &b) {
-                                     return place(a) < place(b);
-                                   });
+                                   is_before);
             }
           merged_begins.push_back(cells.size());
           begins = std::move(merged_begins);
         }
+    }
+
+
+
+    // Some sorted cells of a part and those that other ranks have sent, sorted.
+    MeshPart
+    sorted_part(MeshPart                &&part,
+                std::vector<PlacedCell> &&cells,
+                Messages                &&messages)
+    {
+      const unsigned int       degree = part.geometry_degree;
+      std::vector<MeshPart>    parts;
+      std::vector<std::size_t> begins;
+      parts.push_back(std::move(part));
+      for (auto &[rank, message] : messages)
+        {
+          std::size_t                position = 0;
+          std::vector<std::uint64_t> on_curve;
+          parts.push_back(unpacked(message, position));
+          read_array(message, position, on_curve);
+          message = {};
+          begins.push_back(cells.size());
+          for (unsigned int c = 0; c < on_curve.size(); ++c)
+            cells.push_back(
+              {on_curve[c], c, static_cast<unsigned int>(parts.size() - 1)});
+        }
+      merge_sequences(cells, begins, parts);
       std::vector<std::pair<unsigned int, unsigned int>> order;
       order.reserve(cells.size());
       for (const PlacedCell &placed : cells)
         order.emplace_back(placed.part, placed.cell);
+      cells                  = {};
       MeshPart result        = merged(parts, order);
-      result.geometry_degree = geometry_degree;
+      result.geometry_degree = degree;
       return result;
     }
   } // namespace
 
 
 
+  std::vector<std::vector<unsigned int>>
+  pieces_of_curve(const MeshPart &part, const unsigned int n_pieces)
+  {
+    // Some thousand cells for each piece tell where the others are.
+    constexpr std::size_t            n_samples = 4096;
+    const std::vector<std::uint64_t> on_curve =
+      places_on_curve(part.vertices, MPI_COMM_SELF);
+    const std::size_t step =
+      std::max<std::size_t>(1, part.cells.size() / (n_samples * n_pieces));
+    std::vector<std::uint64_t> samples;
+    for (std::size_t c = 0; c < part.cells.size(); c += step)
+      samples.insert(samples.end(),
+                     work_of(part.cells[c]),
+                     on_curve[part.cells[c].vertices[0]]);
+    std::sort(samples.begin(), samples.end());
+    std::vector<std::uint64_t> cuts;
+    for (unsigned int i = 1; i < n_pieces; ++i)
+      cuts.push_back(samples[samples.size() * i / n_pieces]);
+
+    std::vector<unsigned int> piece_of_vertex;
+    piece_of_vertex.reserve(on_curve.size());
+    for (const std::uint64_t place : on_curve)
+      piece_of_vertex.push_back(
+        std::upper_bound(cuts.begin(), cuts.end(), place) - cuts.begin());
+    std::vector<std::vector<unsigned int>> pieces(n_pieces);
+    for (auto &piece : pieces)
+      piece.reserve(1.05 * part.cells.size() / n_pieces);
+    for (unsigned int c = 0; c < part.cells.size(); ++c)
+      pieces[piece_of_vertex[part.cells[c].vertices[0]]].push_back(c);
+    return pieces;
+  }
+
+
+
   void
   sort_along_curve(MeshPart &part, const MPI_Comm comm)
   {
-    const std::vector<PlacedCell> cells = sorted_cells(part, comm);
+    std::vector<PlacedCell> cells = sorted_cells(part, comm);
     if (MPI::n_mpi_processes(comm) == 1)
       {
         std::vector<unsigned int> order;
@@ -376,11 +458,16 @@ namespace corotet
       }
     else
       {
-        Messages           messages = cells_by_owner(part, cells, comm);
-        const unsigned int degree   = part.geometry_degree;
-        part                        = {};
+        const unsigned int       my_rank = MPI::this_mpi_process(comm);
+        const std::vector<Piece> pieces  = pieces_by_owner(part, cells, comm);
+        Messages                 received =
+          exchange_messages(cells_for_others(part, cells, pieces, my_rank),
+                            comm);
+        const auto [begin, end] = pieces[my_rank];
+        cells.resize(end);
+        cells.erase(cells.begin(), cells.begin() + begin);
         part =
-          sorted_part(exchange_messages(std::move(messages), comm), degree);
+          sorted_part(std::move(part), std::move(cells), std::move(received));
       }
 
     const auto [first, n] =

@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 
 namespace corotet
 {
@@ -30,7 +32,8 @@ namespace corotet
     // Cells without a positive volume: how many, and the first of them.
     struct WrongVolumes
     {
-      std::size_t                     n_cells = 0;
+      std::size_t                     n_cells    = 0;
+      unsigned int                    first_cell = 0;
       std::array<dealii::Point<3>, 4> first;
       double                          first_volume = 0;
     };
@@ -41,9 +44,9 @@ namespace corotet
     find_wrong_volumes(const MeshCells &mesh)
     {
       WrongVolumes wrong;
-      for (const MeshCells::Cell &cell : mesh.cells)
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         {
-          const auto   p      = cell_vertices(mesh, cell);
+          const auto   p      = cell_vertices(mesh, mesh.cells[c]);
           const double volume = signed_volume(p);
           const double edge_2 = square_of_longest_edge(p);
           const bool   is_flat =
@@ -52,6 +55,7 @@ namespace corotet
             continue;
           if (wrong.n_cells++ == 0)
             {
+              wrong.first_cell   = c;
               wrong.first        = p;
               wrong.first_volume = is_flat ? 0 : volume;
             }
@@ -61,19 +65,25 @@ namespace corotet
 
 
 
+    // @p number: of a cell in the mesh of all ranks.
     void
-    check_volumes(const MeshCells   &mesh,
-                  const std::string &origin,
-                  const MPI_Comm     comm)
+    check_volumes(const MeshCells                                  &mesh,
+                  const std::function<std::uint64_t(unsigned int)> &number,
+                  const std::string                                &origin,
+                  const MPI_Comm                                    comm)
     {
-      const WrongVolumes wrong = find_wrong_volumes(mesh);
-      using dealii::Utilities::MPI::sum;
-      const std::size_t n_wrong = sum(wrong.n_cells, comm);
-      const std::size_t n_cells = sum(mesh.cells.size(), comm);
+      const WrongVolumes wrong  = find_wrong_volumes(mesh);
+      namespace MPI             = dealii::Utilities::MPI;
+      const std::size_t n_wrong = MPI::sum(wrong.n_cells, comm);
       if (n_wrong == 0)
         return;
+      const std::size_t   n_cells      = MPI::sum(mesh.cells.size(), comm);
+      const std::uint64_t first        = wrong.n_cells == 0 ?
+                                           std::numeric_limits<std::uint64_t>::max() :
+                                           number(wrong.first_cell);
+      const std::uint64_t first_of_all = MPI::min(first, comm);
       on_all_ranks(comm, [&] {
-        if (wrong.n_cells == 0)
+        if (first > first_of_all)
           return;
         const auto &p = wrong.first;
         refuse_mesh(
@@ -198,11 +208,27 @@ namespace corotet
   void
   check_cells(const MeshCells   &mesh,
               const std::string &origin,
-              const unsigned int element_degree,
-              const MPI_Comm     comm)
+              const unsigned int element_degree)
   {
-    check_volumes(mesh, origin, comm);
-    check_curved_cells(mesh, origin, element_degree, comm);
+    check_volumes(
+      mesh, [](const unsigned int c) { return c; }, origin, MPI_COMM_SELF);
+    check_curved_cells(mesh, origin, element_degree, MPI_COMM_SELF);
+  }
+
+
+
+  void
+  check_cells_on_ranks(const MeshPart    &part,
+                       const std::string &origin,
+                       const unsigned int element_degree,
+                       const MPI_Comm     comm)
+  {
+    check_volumes(
+      part,
+      [&](const unsigned int c) { return part.numbers[c]; },
+      origin,
+      comm);
+    check_curved_cells(part, origin, element_degree, comm);
   }
 
 
@@ -212,7 +238,7 @@ namespace corotet
   {
     const std::string &origin = mesh.origin;
     check_vertices(mesh);
-    check_cells(mesh, origin, element_degree, MPI_COMM_SELF);
+    check_cells(mesh, origin, element_degree);
     constexpr unsigned int none     = dealii::numbers::invalid_unsigned_int;
     const auto             is_owned = [](const unsigned int) { return true; };
     check_surface(cell_surface(mesh,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <numeric>
@@ -81,6 +82,7 @@ namespace corotet
     }
 
 
+
     // Finds equal faces at one vertex: a hash table for as many as there are.
     class FaceTable
     {
@@ -130,62 +132,112 @@ namespace corotet
       std::size_t       mask  = 0;
       std::uint64_t     round = 0;
     };
+
+
+
+    // Fills in the neighbors of faces that have none. Where a face is another
+    // cell's in a way that is not allowed, calls
+    // refuse(its vertices, one cell, another), and if that returns, leaves
+    // all faces with the same lowest vertex without neighbors.
+    template <typename Refuse>
+    void
+    match_faces(const MeshCells   &mesh,
+                const unsigned int none,
+                CellNeighbors     &neighbors,
+                const Refuse      &refuse)
+    {
+      // Calls action(lowest vertex, face, is_even) for faces without neighbor.
+      const auto for_each_open_face = [&](const auto &action) {
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (std::find(neighbors[c].begin(), neighbors[c].end(), none) !=
+              neighbors[c].end())
+            for_each_face(mesh.cells[c].vertices,
+                          c,
+                          [&](const unsigned int lowest,
+                              const CellFace    &face,
+                              const bool         even) {
+                            if (neighbors[c][face.number % 4] == none)
+                              action(lowest, face, even);
+                          });
+      };
+      // Faces are put down at their lowest vertices, where they are few.
+      std::vector<std::size_t> begin(mesh.vertices.size() + 1, 0);
+      for_each_open_face([&](const unsigned int lowest,
+                             const CellFace &,
+                             const bool) { ++begin[lowest + 1]; });
+      std::partial_sum(begin.begin(), begin.end(), begin.begin());
+      std::vector<CellFace>    faces(begin.back());
+      std::vector<bool>        is_even(begin.back());
+      std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+      for_each_open_face(
+        [&](const unsigned int lowest, const CellFace &face, const bool even) {
+          is_even[next[lowest]] = even;
+          faces[next[lowest]++] = face;
+        });
+
+      const auto cell_behind = [&](const CellFace &face) -> unsigned int & {
+        return neighbors[face.number / 4][face.number % 4];
+      };
+      FaceTable table;
+      for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+        {
+          bool is_wrong = false;
+          table.start(begin[v + 1] - begin[v]);
+          for (std::size_t i = begin[v]; i < begin[v + 1]; ++i)
+            {
+              const std::size_t j = table.find_or_add(faces, i);
+              if (j == i)
+                continue;
+              const unsigned int c = faces[i].number / 4,
+                                 d = faces[j].number / 4;
+              if (cell_behind(faces[j]) != none || is_even[i] == is_even[j])
+                {
+                  refuse({{v, faces[i].middle, faces[i].highest}}, c, d);
+                  is_wrong = true;
+                }
+              cell_behind(faces[i]) = d;
+              cell_behind(faces[j]) = c;
+            }
+          if (is_wrong)
+            for (std::size_t i = begin[v]; i < begin[v + 1]; ++i)
+              cell_behind(faces[i]) = none;
+        }
+    }
   } // namespace
 
 
 
-  std::vector<std::array<unsigned int, 4>>
+  CellNeighbors
   find_neighbors(const MeshCells                                 &mesh,
                  const unsigned int                               none,
                  const std::string                               &origin,
-                 const std::function<bool(const unsigned int c)> &is_owned)
+                 const std::function<bool(const unsigned int c)> &is_owned,
+                 CellNeighbors                                    known)
   {
-    // Faces are put down at their lowest vertices, where they are few.
-    std::vector<std::size_t> begin(mesh.vertices.size() + 1, 0);
-    for (const MeshCells::Cell &cell : mesh.cells)
-      for_each_face(cell.vertices,
-                    0,
-                    [&](const unsigned int lowest,
-                        const CellFace &,
-                        const bool) { ++begin[lowest + 1]; });
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<CellFace>    faces(begin.back());
-    std::vector<bool>        is_even(begin.back());
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      for_each_face(mesh.cells[c].vertices,
-                    c,
-                    [&](const unsigned int lowest,
-                        const CellFace    &face,
-                        const bool         even) {
-                      is_even[next[lowest]] = even;
-                      faces[next[lowest]++] = face;
-                    });
+    known.resize(mesh.cells.size(), {{none, none, none, none}});
+    match_faces(mesh,
+                none,
+                known,
+                [&](const Triangle    &triangle,
+                    const unsigned int a,
+                    const unsigned int b) {
+                  if (is_owned(a) || is_owned(b))
+                    refuse_overlap(mesh, triangle, origin);
+                });
+    return known;
+  }
 
-    std::vector<std::array<unsigned int, 4>> neighbors(
-      mesh.cells.size(), {{none, none, none, none}});
-    const auto cell_behind = [&](const CellFace &face) -> unsigned int & {
-      return neighbors[face.number / 4][face.number % 4];
-    };
-    FaceTable table;
-    for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
-      {
-        table.start(begin[v + 1] - begin[v]);
-        for (std::size_t i = begin[v]; i < begin[v + 1]; ++i)
-          {
-            const std::size_t j = table.find_or_add(faces, i);
-            if (j == i)
-              continue;
-            const unsigned int c = faces[i].number / 4, d = faces[j].number / 4;
-            if ((cell_behind(faces[j]) != none || is_even[i] == is_even[j]) &&
-                (is_owned(c) || is_owned(d)))
-              refuse_overlap(mesh,
-                             {{v, faces[i].middle, faces[i].highest}},
-                             origin);
-            cell_behind(faces[i]) = d;
-            cell_behind(faces[j]) = c;
-          }
-      }
+
+
+  CellNeighbors
+  undisputed_neighbors(const MeshCells &mesh, const unsigned int none)
+  {
+    CellNeighbors neighbors(mesh.cells.size(), {{none, none, none, none}});
+    match_faces(mesh,
+                none,
+                neighbors,
+                [](const Triangle &, const unsigned int, const unsigned int) {
+                });
     return neighbors;
   }
 } // namespace corotet

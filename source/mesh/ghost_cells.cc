@@ -4,27 +4,43 @@
 #include <corotet/mesh/ghost_cells.h>
 
 #include <map>
-
-#include "shared_vertices.h"
+#include <utility>
 
 namespace corotet
 {
   GhostCells::GhostCells(const LocalMesh &mesh)
     : comm(mesh.communicator)
   {
-    const SharedVertices shared(mesh.cells, mesh.owners, mesh.vertices.size());
     std::map<unsigned int, Neighbor> by_rank;
+    // Vertices of ghosts, and the ranks that own cells with them.
+    std::vector<bool> has_ghosts(mesh.vertices.size());
+    std::vector<std::pair<unsigned int, unsigned int>> ranks;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (!mesh.is_owned(c))
-        by_rank[mesh.owners[c]].ghosts.push_back(c);
-      else
-        shared.for_each_rank_at(mesh.cells[c], [&](const unsigned int rank) {
-          if (rank == mesh.rank)
-            return;
-          std::vector<unsigned int> &owned = by_rank[rank].owned;
-          if (owned.empty() || owned.back() != c)
-            owned.push_back(c);
-        });
+        {
+          by_rank[mesh.owners[c]].ghosts.push_back(c);
+          for (const unsigned int v : mesh.cells[c].vertices)
+            {
+              has_ghosts[v] = true;
+              ranks.emplace_back(v, mesh.owners[c]);
+            }
+        }
+    std::sort(ranks.begin(), ranks.end());
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.is_owned(c))
+        for (const unsigned int v : mesh.cells[c].vertices)
+          if (has_ghosts[v])
+            for (auto pair = std::lower_bound(ranks.begin(),
+                                              ranks.end(),
+                                              std::pair(v, 0u));
+                 pair != ranks.end() && pair->first == v;
+                 ++pair)
+              {
+                std::vector<unsigned int> &owned = by_rank[pair->second].owned;
+                if (owned.empty() || owned.back() != c)
+                  owned.push_back(c);
+              }
     for (auto &[rank, neighbor] : by_rank)
       {
         neighbor.rank = rank;

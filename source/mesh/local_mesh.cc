@@ -94,36 +94,44 @@ namespace corotet
 
 
     // Numbers the vertices as LocalMesh says, and returns those that other
-    // ranks have, too, by ranks.
+    // ranks have, too, by ranks. @p neighbors: among the part's own cells.
     std::vector<SharedVertex>
-    number_vertices(MeshPart &part, const MPI_Comm comm)
+    number_vertices(MeshPart            &part,
+                    const CellNeighbors &neighbors,
+                    const MPI_Comm       comm)
     {
+      // Cells of other ranks are behind faces without a neighbor.
+      std::vector<bool> is_open(part.vertices.size(), false);
+      for (unsigned int c = 0; c < part.cells.size(); ++c)
+        for (unsigned int f = 0; f < 4; ++f)
+          if (neighbors[c][f] == LocalMesh::no_cell)
+            for (const unsigned int k : corners_of_faces[f])
+              is_open[part.cells[c].vertices[k]] = true;
+
       std::vector<std::uint64_t> places  = first_places(part);
       const unsigned int         n_ranks = MPI::n_mpi_processes(comm);
       const unsigned int         my_rank = MPI::this_mpi_process(comm);
-      std::vector<SharedVertex>  shared;
-      if (n_ranks > 1)
-        {
-          std::map<unsigned int, std::vector<ListedVertex>> told;
-          for (unsigned int v = 0; v < places.size(); ++v)
-            {
-              const std::uint64_t number = part.vertex_numbers[v];
-              told[number % n_ranks].push_back({number, places[v], v, my_rank});
-            }
-          for (const auto &[keeper, vertices] :
-               exchange_arrays(answers(exchange_arrays(told, comm)), comm))
-            for (const ListedVertex &listed : vertices)
-              {
-                places[listed.vertex] = listed.place;
-                shared.push_back({listed.vertex, listed.rank});
-              }
-          std::sort(shared.begin(),
-                    shared.end(),
-                    [](const SharedVertex &a, const SharedVertex &b) {
-                      return std::pair(a.rank, a.vertex) <
-                             std::pair(b.rank, b.vertex);
-                    });
-        }
+      std::map<unsigned int, std::vector<ListedVertex>> told;
+      for (unsigned int v = 0; v < places.size(); ++v)
+        if (is_open[v])
+          {
+            const std::uint64_t number = part.vertex_numbers[v];
+            told[number % n_ranks].push_back({number, places[v], v, my_rank});
+          }
+      std::vector<SharedVertex> shared;
+      for (const auto &[keeper, vertices] :
+           exchange_arrays(answers(exchange_arrays(told, comm)), comm))
+        for (const ListedVertex &listed : vertices)
+          {
+            places[listed.vertex] = listed.place;
+            shared.push_back({listed.vertex, listed.rank});
+          }
+      std::sort(shared.begin(),
+                shared.end(),
+                [](const SharedVertex &a, const SharedVertex &b) {
+                  return std::pair(a.rank, a.vertex) <
+                         std::pair(b.rank, b.vertex);
+                });
       part.vertex_numbers = std::move(places);
       return shared;
     }
@@ -171,6 +179,64 @@ namespace corotet
         }
       return messages;
     }
+
+
+
+    // Makes a mesh of the cells of this rank and those of others beside them,
+    // where neighbors among its own cells are known.
+    void
+    add_cells_beside(LocalMesh &mesh, MeshPart &&part)
+    {
+      const CellNeighbors among_own =
+        undisputed_neighbors(part, LocalMesh::no_cell);
+      const std::vector<SharedVertex> shared =
+        number_vertices(part, among_own, mesh.communicator);
+      Messages received =
+        exchange_messages(cells_for_others(part, shared), mesh.communicator);
+      received.try_emplace(mesh.rank);
+      const unsigned int        degree = part.geometry_degree;
+      std::vector<MeshPart>     parts;
+      std::vector<unsigned int> owners;
+      std::vector<std::pair<unsigned int, unsigned int>> order;
+      for (auto &[rank, message] : received)
+        {
+          std::size_t position = 0;
+          parts.push_back(rank == mesh.rank ? std::move(part) :
+                                              unpacked(message, position));
+          message = {};
+          owners.push_back(rank);
+          for (unsigned int c = 0; c < parts.back().cells.size(); ++c)
+            order.emplace_back(parts.size() - 1, c);
+        }
+      const auto number = [&](const auto &place) {
+        return parts[place.first].numbers[place.second];
+      };
+      const auto is_before = [&](const auto &a, const auto &b) {
+        return number(a) < number(b);
+      };
+      // Pieces of the curve are.
+      if (!std::is_sorted(order.begin(), order.end(), is_before))
+        std::sort(order.begin(), order.end(), is_before);
+
+      std::vector<unsigned int> own_cells(among_own.size());
+      mesh.owners.reserve(order.size());
+      for (const auto &[p, c] : order)
+        {
+          if (owners[p] == mesh.rank)
+            own_cells[c] = mesh.owners.size();
+          mesh.owners.push_back(owners[p]);
+        }
+      constexpr unsigned int none = LocalMesh::no_cell;
+      mesh.neighbors.assign(order.size(), {{none, none, none, none}});
+      for (unsigned int c = 0; c < own_cells.size(); ++c)
+        for (unsigned int f = 0; f < 4; ++f)
+          if (among_own[c][f] != none)
+            mesh.neighbors[own_cells[c]][f] = own_cells[among_own[c][f]];
+
+      static_cast<MeshPart &>(mesh) = merged(parts, order);
+      mesh.geometry_degree          = degree;
+      sort_vertices(mesh);
+    }
   } // namespace
 
 
@@ -184,54 +250,22 @@ namespace corotet
     mesh.communicator   = comm;
     mesh.rank           = MPI::this_mpi_process(comm);
     mesh.n_global_cells = MPI::sum(std::uint64_t(part.cells.size()), comm);
-    const std::vector<SharedVertex> shared = number_vertices(part, comm);
     if (MPI::n_mpi_processes(comm) == 1)
       {
+        part.vertex_numbers = first_places(part);
         mesh.owners.assign(part.cells.size(), 0);
         static_cast<MeshPart &>(mesh) = std::move(part);
       }
     else
-      {
-        Messages received =
-          exchange_messages(cells_for_others(part, shared), comm);
-        received.try_emplace(mesh.rank);
-        const unsigned int        degree = part.geometry_degree;
-        std::vector<MeshPart>     parts;
-        std::vector<unsigned int> owners;
-        std::vector<std::pair<unsigned int, unsigned int>> order;
-        for (auto &[rank, message] : received)
-          {
-            std::size_t position = 0;
-            parts.push_back(rank == mesh.rank ? std::move(part) :
-                                                unpacked(message, position));
-            message = {};
-            owners.push_back(rank);
-            for (unsigned int c = 0; c < parts.back().cells.size(); ++c)
-              order.emplace_back(parts.size() - 1, c);
-          }
-        const auto number = [&](const auto &place) {
-          return parts[place.first].numbers[place.second];
-        };
-        const auto is_before = [&](const auto &a, const auto &b) {
-          return number(a) < number(b);
-        };
-        // Pieces of the curve are.
-        if (!std::is_sorted(order.begin(), order.end(), is_before))
-          std::sort(order.begin(), order.end(), is_before);
-        mesh.owners.reserve(order.size());
-        for (const auto &[p, c] : order)
-          mesh.owners.push_back(owners[p]);
-        static_cast<MeshPart &>(mesh) = merged(parts, order);
-        mesh.geometry_degree          = degree;
-        sort_vertices(mesh);
-      }
+      add_cells_beside(mesh, std::move(part));
 
     on_all_ranks(comm, [&] {
-      mesh.neighbors =
-        find_neighbors(mesh,
-                       LocalMesh::no_cell,
-                       origin,
-                       [&](const unsigned int c) { return mesh.is_owned(c); });
+      mesh.neighbors = find_neighbors(
+        mesh,
+        LocalMesh::no_cell,
+        origin,
+        [&](const unsigned int c) { return mesh.is_owned(c); },
+        std::move(mesh.neighbors));
     });
     return mesh;
   }

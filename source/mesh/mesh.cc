@@ -139,7 +139,7 @@ namespace corotet
       check_mesh(mesh, element_degree);
       refine_uniformly(mesh, n_refinements);
       // Vertices have moved to where the curves have them.
-      check_cells(mesh, mesh.origin, element_degree, MPI_COMM_SELF);
+      check_cells(mesh, mesh.origin, element_degree);
       multiply(mesh, scale);
       MeshStatistics(mesh, mesh.origin, element_degree, MPI_COMM_SELF)
         .log_lines(number_of_vertices(mesh), log);
@@ -316,7 +316,7 @@ namespace corotet
 
     ScopedTimer timer(seconds_partition);
     MeshPart   &part = mesh.part;
-    check_cells(part, mesh.origin, element_degree, comm);
+    check_cells_on_ranks(part, mesh.origin, element_degree, comm);
     sort_along_curve(part, comm);
     const auto spread_out = [&] {
       MeshStatistics statistics(part, mesh.origin, element_degree, comm);
@@ -332,7 +332,7 @@ namespace corotet
         local_mesh = {};
         refine_uniformly(part, n_refinements, comm);
         // Vertices have moved to where the curves have them.
-        check_cells(part, mesh.origin, element_degree, comm);
+        check_cells_on_ranks(part, mesh.origin, element_degree, comm);
         sort_along_curve(part, comm);
         statistics = spread_out();
       }

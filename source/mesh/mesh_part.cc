@@ -4,6 +4,7 @@
 #include <corotet/base/exchange.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/number_table.h>
+#include <corotet/mesh/cell_order.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh_part.h>
 
@@ -190,7 +191,8 @@ namespace corotet
       {
         for (unsigned int p = 0; p < parts.size(); ++p)
           for (const auto &[c, number, id] : parts[p].*list)
-            (result.*list).push_back({new_cells[p][c], number, id});
+            if (new_cells[p][c] != not_there)
+              (result.*list).push_back({new_cells[p][c], number, id});
         sort_by_cells(result.*list);
       }
     return result;
@@ -227,7 +229,12 @@ namespace corotet
   std::vector<std::byte>
   packed(const MeshPart &part)
   {
+    std::size_t n_bytes = sizeof(part.geometry_degree) + sizeof(std::size_t);
+    for_each_array(part, [&](const auto &array) {
+      n_bytes += sizeof(std::size_t) + array.size() * sizeof(array[0]);
+    });
     std::vector<std::byte> message;
+    message.reserve(n_bytes);
     append_array(message, std::vector<unsigned int>{part.geometry_degree});
     for_each_array(part,
                    [&](const auto &array) { append_array(message, array); });
@@ -308,16 +315,15 @@ namespace corotet
     if (n_ranks == 1)
       return std::move(whole);
 
-    const MeshPart              mesh = std::move(whole);
-    std::unique_ptr<PartCutter> cutter;
-    const auto                  piece = [&](const unsigned int rank) {
-      if (!cutter)
-        cutter = std::make_unique<PartCutter>(mesh);
-      const std::size_t         n     = mesh.cells.size();
-      const std::size_t         begin = n * rank / n_ranks;
-      std::vector<unsigned int> cells(n * (rank + 1) / n_ranks - begin);
-      std::iota(cells.begin(), cells.end(), begin);
-      return cutter->cut(cells);
+    const MeshPart                         mesh = std::move(whole);
+    std::unique_ptr<PartCutter>            cutter;
+    std::vector<std::vector<unsigned int>> pieces;
+    on_root(comm, [&] {
+      cutter = std::make_unique<PartCutter>(mesh);
+      pieces = pieces_of_curve(mesh, n_ranks);
+    });
+    const auto piece = [&](const unsigned int rank) {
+      return cutter->cut(std::exchange(pieces[rank], {}));
     };
     MeshPart result;
     for (unsigned int rank = 1; rank < n_ranks; ++rank)

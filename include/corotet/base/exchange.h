@@ -33,13 +33,13 @@ namespace corotet
   {
     static_assert(std::is_trivially_destructible_v<T>);
     const std::size_t n_bytes = sizeof(T) * array.size();
-    const std::size_t begin   = message.size();
-    message.resize(begin + sizeof(n_bytes) + n_bytes);
-    std::memcpy(message.data() + begin, &n_bytes, sizeof(n_bytes));
+    const auto        append  = [&](const void *data, const std::size_t n) {
+      const auto *bytes = static_cast<const std::byte *>(data);
+      message.insert(message.end(), bytes, bytes + n);
+    };
+    append(&n_bytes, sizeof(n_bytes));
     if (n_bytes > 0)
-      std::memcpy(message.data() + begin + sizeof(n_bytes),
-                  array.data(),
-                  n_bytes);
+      append(array.data(), n_bytes);
   }
 
   /// Reads it from @p position on, which becomes what follows it.

@@ -29,6 +29,14 @@ namespace corotet
    */
   void
   sort_along_curve(MeshPart &part, const MPI_Comm comm);
+
+  /**
+   * The cells of a mesh in pieces as sort_along_curve() would make them, but
+   * for some near the ends of a piece: from the places of vertices, and a
+   * sample of cells, in a tenth of the time. In the order of the mesh.
+   */
+  std::vector<std::vector<unsigned int>>
+  pieces_of_curve(const MeshPart &part, const unsigned int n_pieces);
 } // namespace corotet
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef corotet_mesh_check_mesh_h
 #define corotet_mesh_check_mesh_h
 
-#include <corotet/mesh/serial_mesh.h>
+#include <corotet/mesh/local_mesh.h>
 
 #include <mpi.h>
 
@@ -36,12 +36,18 @@ namespace corotet
   void
   check_vertices(const SerialMesh &mesh);
 
-  /// The part of check_mesh() that looks at volumes and folds. Collective.
+  /// The part of check_mesh() that looks at volumes and folds.
   void
   check_cells(const MeshCells   &mesh,
               const std::string &origin,
-              const unsigned int element_degree,
-              const MPI_Comm     comm);
+              const unsigned int element_degree);
+
+  /// The same of a mesh that is spread over the ranks. Collective.
+  void
+  check_cells_on_ranks(const MeshPart    &part,
+                       const std::string &origin,
+                       const unsigned int element_degree,
+                       const MPI_Comm     comm);
 
   /// How many cells may be refined so often.
   double

@@ -13,18 +13,28 @@
 
 namespace corotet
 {
+  /// Of each face of each cell, as corners_of_faces numbers them, the cell
+  /// behind it.
+  using CellNeighbors = std::vector<std::array<unsigned int, 4>>;
+
   /**
-   * The cell behind each face of each cell, as corners_of_faces numbers them,
-   * or @p none where no other cell has this face. Throws an InputError if a
-   * triangle belongs to more than two cells, or to two on the same side of it;
-   * unless @p is_owned says of all of them that they are others' (another rank
-   * finds it then).
+   * The neighbors of cells, @p none where no other cell has the face. Throws an
+   * InputError if a triangle belongs to more than two cells, or to two on the
+   * same side of it; unless @p is_owned says of all of them that they are
+   * others' (another rank finds it then). Faces with a neighbor in @p known,
+   * those of undisputed_neighbors(), are not looked at again.
    */
-  std::vector<std::array<unsigned int, 4>>
+  CellNeighbors
   find_neighbors(const MeshCells                                 &mesh,
                  const unsigned int                               none,
                  const std::string                               &origin,
-                 const std::function<bool(const unsigned int c)> &is_owned);
+                 const std::function<bool(const unsigned int c)> &is_owned,
+                 CellNeighbors                                    known = {});
+
+  /// The same of a part of a mesh, where a wrong face has @p none: so
+  /// find_neighbors() looks at it, which knows more of its cells.
+  CellNeighbors
+  undisputed_neighbors(const MeshCells &mesh, const unsigned int none);
 } // namespace corotet
 
 #endif

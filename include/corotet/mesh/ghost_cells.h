@@ -30,18 +30,31 @@ namespace corotet
     void
     update(std::vector<T> &values, const unsigned int n = 1) const
     {
+      send<T>(
+        n,
+        [&](const unsigned int c, T *const sent) {
+          std::copy_n(values.begin() + std::size_t(c) * n, n, sent);
+        },
+        [&](const unsigned int c, const T *const received) {
+          std::copy_n(received, n, values.begin() + std::size_t(c) * n);
+        });
+    }
+
+    /// The same of what is not kept by cells: calls get(c, sent) for an owned
+    /// cell, to fill in @p n values, and put(c, received) for a ghost.
+    template <typename T, typename Get, typename Put>
+    void
+    send(const unsigned int n, const Get &get, const Put &put) const
+    {
       static_assert(std::is_trivially_copyable_v<T>);
       std::vector<std::vector<T>> sent, received;
       std::vector<MPI_Request>    requests;
       for (const Neighbor &neighbor : neighbors)
         {
-          std::vector<T> &to   = sent.emplace_back();
-          std::vector<T> &from = received.emplace_back();
-          for (const unsigned int c : neighbor.owned)
-            to.insert(to.end(),
-                      values.begin() + std::size_t(c) * n,
-                      values.begin() + (std::size_t(c) + 1) * n);
-          from.resize(neighbor.ghosts.size() * n);
+          std::vector<T> &to = sent.emplace_back(neighbor.owned.size() * n);
+          for (std::size_t i = 0; i < neighbor.owned.size(); ++i)
+            get(neighbor.owned[i], to.data() + i * n);
+          received.emplace_back(neighbor.ghosts.size() * n);
         }
       for (unsigned int i = 0; i < neighbors.size(); ++i)
         {
@@ -64,9 +77,7 @@ namespace corotet
       MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
       for (unsigned int i = 0; i < neighbors.size(); ++i)
         for (std::size_t g = 0; g < neighbors[i].ghosts.size(); ++g)
-          std::copy_n(received[i].begin() + g * n,
-                      n,
-                      values.begin() + std::size_t(neighbors[i].ghosts[g]) * n);
+          put(neighbors[i].ghosts[g], received[i].data() + g * n);
     }
 
   private:

@@ -34,8 +34,8 @@ namespace corotet
   };
 
   /**
-   * All cells of some parts, each given by the part and its number there, in
-   * this order. Vertices with the same number become one, in the order in which
+   * Cells of some parts, each given by the part and its number there, in this
+   * order. Vertices with the same number become one, in the order in which
    * the cells meet them.
    */
   MeshPart
@@ -65,8 +65,8 @@ namespace corotet
   serial_mesh(MeshPart &&part);
 
   /**
-   * Gives each rank a piece of the sequence of cells that rank 0 has in
-   * @p whole, all pieces with as many cells. Rank 0 makes one at a time.
+   * Gives each rank a piece of the mesh that rank 0 has in @p whole, nearly the
+   * one that sort_along_curve() will leave it. Rank 0 makes one at a time.
    * Collective.
    */
   MeshPart
