@@ -91,11 +91,14 @@ namespace corotet
     };
 
     // Without what tells a process that it is a rank of this run: a program
-    // that uses MPI itself would wait for the others.
+    // that uses MPI itself would wait for the others. Its memory is on huge
+    // pages, as this program's.
     std::vector<std::string>
-    environment_without_mpi()
+    environment_of_others()
     {
       std::vector<std::string> variables;
+      if (std::getenv("GLIBC_TUNABLES") == nullptr)
+        variables.emplace_back("GLIBC_TUNABLES=glibc.malloc.hugetlb=1");
       for (char **variable = environ; *variable != nullptr; ++variable)
         {
           const std::string text = *variable;
@@ -131,7 +134,7 @@ namespace corotet
       posix_spawnattr_setsigdefault(&attributes, &all);
       posix_spawnattr_setflags(&attributes,
                                POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-      std::vector<std::string> variables = environment_without_mpi();
+      std::vector<std::string> variables = environment_of_others();
       pid_t                    process   = 0;
       const int                failure   = posix_spawn(&process,
                                       path.c_str(),

@@ -10,39 +10,17 @@
 #include <boost/sort/spreadsort/integer_sort.hpp>
 
 #include <algorithm>
-#include <compare>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "curve_pieces.h"
 
 namespace corotet
 {
   namespace
   {
     namespace MPI = dealii::Utilities::MPI;
-
-    // What cells are sorted by: the place on the curve and, for cells at the
-    // same place, their numbers.
-    struct CurvePlace
-    {
-      std::uint64_t on_curve;
-      std::uint64_t number;
-
-      auto
-      operator<=>(const CurvePlace &) const = default;
-    };
-
-
-
-    // A cell of the part, or of one of several, and its place.
-    struct PlacedCell
-    {
-      std::uint64_t on_curve;
-      unsigned int  cell;
-      unsigned int  part = 0;
-    };
-
-
 
     // Of points of all ranks: the lowest coordinates, and the length of the
     // longest side.
@@ -138,176 +116,6 @@ namespace corotet
         return part.numbers[placed.cell];
       });
       return cells;
-    }
-
-
-
-    // The sorted cells of a rank, for questions about those of all ranks.
-    class Sequence
-    {
-    public:
-      Sequence(const std::vector<PlacedCell> &cells,
-               const MeshPart                &part,
-               const MPI_Comm                 comm)
-        : cells(cells)
-        , numbers(part.numbers)
-        , comm(comm)
-        , work_before(cells.size() + 1, 0)
-      {
-        for (std::size_t i = 0; i < cells.size(); ++i)
-          work_before[i + 1] =
-            work_before[i] + work_of(part.cells[cells[i].cell]);
-      }
-
-      std::uint64_t
-      n_cells() const
-      {
-        return MPI::sum(std::uint64_t(cells.size()), comm);
-      }
-
-      std::uint64_t
-      work() const
-      {
-        return MPI::sum(work_before.back(), comm);
-      }
-
-      // How many cells of all ranks are before each of @p cuts.
-      std::vector<std::uint64_t>
-      n_cells_before(const std::vector<CurvePlace> &cuts) const
-      {
-        std::vector<std::uint64_t> result;
-        for (const CurvePlace &cut : cuts)
-          result.push_back(position(cut));
-        MPI::sum(result, comm, result);
-        return result;
-      }
-
-      /**
-       * Places that have so much before them, ascending as @p amounts: work, or
-       * cells. Of those that differ from it by no more than @p tolerance, the
-       * one that is the corner of the largest cube; without any, the lowest one
-       * with at least so much.
-       */
-      std::vector<CurvePlace>
-      cuts(const std::vector<std::uint64_t> &amounts,
-           const bool                        of_work,
-           const std::uint64_t               tolerance) const
-      {
-        // By bisection: bits of the place on the curve, then of the number.
-        std::vector<CurvePlace> cuts(amounts.size(), CurvePlace{0, 0});
-        std::vector<bool>       is_found(amounts.size(), false);
-        for (const auto &[coordinate, n_bits] :
-             {std::pair(&CurvePlace::on_curve, int(3 * hilbert_bits)),
-              std::pair(&CurvePlace::number, 64)})
-          for (int bit = n_bits - 1; bit >= 0; --bit)
-            {
-              std::vector<CurvePlace> trials = cuts;
-              for (CurvePlace &trial : trials)
-                trial.*coordinate |= std::uint64_t(1) << bit;
-              std::vector<std::uint64_t> before;
-              for (const CurvePlace &trial : trials)
-                before.push_back(of_work ? work_before[position(trial)] :
-                                           position(trial));
-              MPI::sum(before, comm, before);
-              for (std::size_t i = 0; i < cuts.size(); ++i)
-                {
-                  if (is_found[i])
-                    continue;
-                  is_found[i] = before[i] + tolerance >= amounts[i] &&
-                                before[i] <= amounts[i] + tolerance;
-                  if (is_found[i] || before[i] < amounts[i])
-                    cuts[i] = trials[i];
-                }
-            }
-        // The others are the highest places with less before them.
-        for (std::size_t i = 0; i < cuts.size(); ++i)
-          if (!is_found[i])
-            ++cuts[i].number;
-        return cuts;
-      }
-
-      // Of the first cell of this rank that is not before @p cut.
-      std::size_t
-      position(const CurvePlace &cut) const
-      {
-        return std::lower_bound(cells.begin(),
-                                cells.end(),
-                                cut,
-                                [&](const PlacedCell &a, const CurvePlace &b) {
-                                  return CurvePlace{a.on_curve,
-                                                    numbers[a.cell]} < b;
-                                }) -
-               cells.begin();
-      }
-
-    private:
-      const std::vector<PlacedCell>    &cells;
-      const std::vector<std::uint64_t> &numbers;
-      const MPI_Comm                    comm;
-      std::vector<std::uint64_t>        work_before;
-    };
-
-
-
-    // Of the work of a rank, what it may have more or less at either end, so
-    // that pieces end between large cubes: lines of cells through the thickness
-    // of a plate, which solvers want together, stay whole [-].
-    constexpr double inequality = 0.005;
-
-
-
-    // Where the piece of each rank but the first begins, with about equal work,
-    // and a cell for each rank.
-    std::vector<CurvePlace>
-    beginnings(const Sequence &sequence, const unsigned int n_ranks)
-    {
-      const std::uint64_t        work = sequence.work(), n = sequence.n_cells();
-      std::vector<std::uint64_t> amounts;
-      for (unsigned int rank = 1; rank < n_ranks; ++rank)
-        amounts.push_back(work * rank / n_ranks);
-      std::vector<CurvePlace> cuts =
-        sequence.cuts(amounts, true, inequality * work / n_ranks);
-      std::vector<std::uint64_t> first    = sequence.n_cells_before(cuts);
-      bool                       is_moved = false;
-      if (n < n_ranks)
-        return cuts;
-      for (unsigned int rank = 1; rank < n_ranks; ++rank)
-        {
-          const std::uint64_t least = rank == 1 ? 1 : first[rank - 2] + 1;
-          const std::uint64_t wanted =
-            std::max(least, std::min(first[rank - 1], n - (n_ranks - rank)));
-          is_moved        = is_moved || wanted != first[rank - 1];
-          first[rank - 1] = wanted;
-        }
-      return is_moved ? sequence.cuts(first, false, 0) : cuts;
-    }
-
-
-
-    // Of the sorted cells of this rank, those from the first on and before the
-    // last that belong to the rank.
-    struct Piece
-    {
-      std::size_t begin, end;
-    };
-
-
-
-    std::vector<Piece>
-    pieces_by_owner(const MeshPart                &part,
-                    const std::vector<PlacedCell> &cells,
-                    const MPI_Comm                 comm)
-    {
-      const Sequence                sequence(cells, part, comm);
-      const std::vector<CurvePlace> cuts =
-        beginnings(sequence, MPI::n_mpi_processes(comm));
-      std::vector<Piece> pieces{{0, cells.size()}};
-      for (const CurvePlace &cut : cuts)
-        {
-          pieces.back().end = sequence.position(cut);
-          pieces.push_back({pieces.back().end, cells.size()});
-        }
-      return pieces;
     }
 
 

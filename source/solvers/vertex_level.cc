@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/memory.h>
 #include <corotet/solvers/vertex_level.h>
 
 #include <deal.II/base/array_view.h>
@@ -28,6 +29,9 @@ namespace corotet
     // Thin bodies with more than that many times as many unknowns as a cube
     // take more.
     constexpr double most_unknowns = 8;
+
+    // Nodes of a rank that take more memory than pages of libraries do.
+    constexpr unsigned int many_nodes = 50000;
 
     // What a factor takes with six unknowns in place of three at each point of
     // the same graph.
@@ -176,6 +180,10 @@ namespace corotet
                      const double             scale,
                      const Vector            &displacement)
   {
+    // The most memory is in use here. What only the set-up of large bodies has
+    // read makes room.
+    if (solver.empty() && A.discretization().n_owned_nodes() > many_nodes)
+      release_library_pages();
     assemble(A, stiffness_unit, scale, displacement);
     const BlockMatrix &level_matrix = matrix(A);
     solver                          = parameters.coarse_type;

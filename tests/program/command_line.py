@@ -13,6 +13,7 @@ import struct
 import subprocess
 import sys
 import termios
+import time
 import unittest
 
 from support import CASES, ROOT, ProgramTest, limit_files, parameter_text
@@ -41,6 +42,29 @@ class CommandLine(ProgramTest):
         for name in ("libfltk", "libGL.", "libvtk", "libarpack"):
             self.assertFalse([path for path in paths if path.startswith(name)], name)
         self.assertIn("/libdeal.ii", loaded)
+
+    def test_huge_pages(self):
+        """Where Linux gives huge pages on request only, the program asks for them, unless the environment chooses for it."""
+        setting = pathlib.Path("/sys/kernel/mm/transparent_hugepage/enabled")
+        if not setting.exists() or "[madvise]" not in setting.read_text(encoding="utf-8"):
+            self.skipTest("huge pages are for all, or for none")
+        inherited = {name: value for name, value in os.environ.items() if name != "GLIBC_TUNABLES"}
+        for chosen, is_huge in (({}, True), ({"GLIBC_TUNABLES": "glibc.malloc.hugetlb=0"}, False)):
+            # So it runs until it is ended.
+            run = subprocess.Popen([os.environ["COROTET_PROGRAM"], ROOT / "parameters" / "cantilever.prm", "--output", f"of_{is_huge}", "--quiet",
+                                    "--set", "Mesh/box/Cells = 80, 16, 16", "--set", "Time integration/End time = 1e6"],
+                                   cwd=self.folder, env={**inherited, **chosen})
+            pages = []
+            while run.poll() is None and len(pages) < (100 if is_huge else 20) and not (is_huge and pages and pages[-1] > 0):
+                time.sleep(0.1)
+                text = pathlib.Path(f"/proc/{run.pid}/smaps_rollup").read_text(encoding="utf-8")
+                pages.append(int(re.search(r"AnonHugePages: *(\d+) kB", text).group(1)))
+            name = pathlib.Path(f"/proc/{run.pid}/comm").read_text(encoding="utf-8")
+            self.assertIsNone(run.poll(), "the run has ended by itself")
+            run.kill()
+            run.wait()
+            self.assertEqual(pages[-1] > 0, is_huge, pages)
+            self.assertEqual(name, "corotet\n")
 
     def test_terminal(self):
         """A live line with a bar, as wide as the terminal allows, and last lines that say where to look; colours never."""
