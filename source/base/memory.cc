@@ -136,7 +136,15 @@ namespace corotet
   {
     // Bytes for which it pays: what comes back must be zeroed by the system.
     constexpr std::size_t much = 1 << 25;
-    if (mallinfo2().fordblks > much)
+    // What is free may never have been in use. See proc(5): pages of the
+    // process, those in memory, and those of these that are shared.
+    std::size_t   n_pages = 0, n_in_memory = 0, n_shared = 0;
+    std::ifstream file("/proc/self/statm");
+    if (!(file >> n_pages >> n_in_memory >> n_shared))
+      return;
+    const struct mallinfo2 heap = mallinfo2();
+    if ((n_in_memory - n_shared) * page_size() >
+        heap.uordblks + heap.hblkhd + much)
       malloc_trim(0);
   }
 
