@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -35,8 +36,9 @@ namespace
   // Bytes for which a look at the heap pays.
   constexpr std::size_t large = 1 << 16;
 
-  bool           is_on = false;
-  std::uintptr_t page_size, heap_begin, heap_end;
+  bool                        is_on = false;
+  std::uintptr_t              page_size, heap_begin;
+  std::atomic<std::uintptr_t> heap_end;
 
   std::uintptr_t
   end_of_heap() noexcept
@@ -60,12 +62,8 @@ namespace
   ask_for(void *const memory, const std::size_t n_bytes) noexcept
   {
     const std::uintptr_t end = end_of_heap();
-    if (end != heap_end)
-      {
-        heap_end = end;
-        if (end > heap_begin)
-          ask(heap_begin, end);
-      }
+    if (heap_end.exchange(end) != end && end > heap_begin)
+      ask(heap_begin, end);
     if (n_bytes >= own_mapping)
       {
         const auto           address = reinterpret_cast<std::uintptr_t>(memory);

@@ -246,7 +246,19 @@ namespace corotet
     for (auto &piece : pieces)
       piece.reserve(1.05 * part.cells.size() / n_pieces);
     for (unsigned int c = 0; c < part.cells.size(); ++c)
-      pieces[piece_of_vertex[part.cells[c].vertices[0]]].push_back(c);
+      {
+        // That of most vertices, or of the first one.
+        const auto  &v = part.cells[c].vertices;
+        unsigned int p[4];
+        for (unsigned int k = 0; k < 4; ++k)
+          p[k] = piece_of_vertex[v[k]];
+        const unsigned int piece =
+          p[0] == p[1] || p[0] == p[2] || p[0] == p[3] ? p[0] :
+          p[1] == p[2] || p[1] == p[3]                 ? p[1] :
+          p[2] == p[3]                                 ? p[2] :
+                                                         p[0];
+        pieces[piece].push_back(c);
+      }
     return pieces;
   }
 

@@ -4,14 +4,17 @@
 // What each rank has of a mesh, compared with the whole mesh, which every rank
 // has in these tests, and with deal.II's triangulation.
 
+#include <corotet/mesh/cell_order.h>
 #include <corotet/mesh/distributed_triangulation.h>
 #include <corotet/mesh/ghost_cells.h>
+#include <corotet/mesh/mesh_part.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "mesh/tools.h"
@@ -102,6 +105,41 @@ TEST(LocalMesh, ComesFromRankZero)
   ASSERT_EQ(mesh.faces.size(), expected.faces.size());
   for (unsigned int i = 0; i < mesh.faces.size(); ++i)
     EXPECT_EQ(mesh.faces[i].id, expected.faces[i].id);
+}
+
+// What rank 0 sends is nearly what each rank will own: so little is sent again.
+TEST(LocalMesh, PiecesOfTheCurve)
+{
+  const SerialMesh   whole = sorted_box("24, 12, 16");
+  const unsigned int n_ranks =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const LocalMesh mesh = distribute(whole, MPI_COMM_WORLD);
+  SerialMesh      copy = whole;
+  const auto pieces = pieces_of_curve(whole_part(copy, NamedParts()), n_ranks);
+  ASSERT_EQ(pieces.size(), n_ranks);
+  std::vector<unsigned int> n_pieces(whole.cells.size(), 0);
+  for (const auto &piece : pieces)
+    {
+      EXPECT_TRUE(std::is_sorted(piece.begin(), piece.end()));
+      for (const unsigned int c : piece)
+        ++n_pieces[c];
+    }
+  EXPECT_EQ(n_pieces, std::vector<unsigned int>(whole.cells.size(), 1));
+
+  // Cells have the numbers of the curve.
+  unsigned int n_own = 0, n_sent_again = 0;
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.is_owned(c))
+      {
+        const auto &piece = pieces[mesh.rank];
+        ++n_own;
+        n_sent_again +=
+          std::binary_search(piece.begin(), piece.end(), mesh.numbers[c]) ? 0 :
+                                                                            1;
+      }
+  // Those of half a layer of cuboids, of six cells each, around a piece, whose
+  // surface is half as large again as that of a cube.
+  EXPECT_LT(n_sent_again, 1.5 * 6 * 6 / 2 * std::pow(n_own / 6., 2. / 3));
 }
 
 // Neighbours, owners, numbers and boundaries are those that deal.II finds by
