@@ -15,6 +15,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -134,12 +135,14 @@ operator delete(void *const memory, std::size_t /*n_bytes*/) noexcept
   std::free(memory);
 }
 
-// deal.II's arrays for registers; alignments are powers of two.
+// deal.II's arrays for registers.
 extern "C" [[gnu::visibility("default")]] int
 posix_memalign(void            **memory,
                const std::size_t alignment,
                const std::size_t n_bytes) noexcept
 {
+  if (alignment % sizeof(void *) != 0 || !std::has_single_bit(alignment))
+    return EINVAL;
   const int   error     = errno;
   void *const allocated = memalign(alignment, n_bytes);
   errno                 = error;
