@@ -74,46 +74,62 @@ namespace corotet
   {
     using Pairs = std::set<std::pair<unsigned int, unsigned int>>;
 
+    // Numbers the parts of this rank's own cells, in the order of their first
+    // ones; how many there are. Ghost cells have none.
+    std::pair<std::vector<unsigned int>, unsigned int>
+    own_parts(const LocalMesh &mesh)
+    {
+      std::vector<unsigned int> parts(mesh.cells.size(), invalid_unsigned_int);
+      std::vector<unsigned int> open;
+      unsigned int              n_parts = 0;
+      const auto                add     = [&](const unsigned int c) {
+        if (mesh.is_owned(c) && parts[c] == invalid_unsigned_int)
+          {
+            parts[c] = n_parts;
+            open.push_back(c);
+          }
+      };
+      for (unsigned int c = 0; c < parts.size(); ++c)
+        {
+          add(c);
+          if (open.empty())
+            continue;
+          while (!open.empty())
+            {
+              const unsigned int member = open.back();
+              open.pop_back();
+              for (const unsigned int neighbor : mesh.neighbors[member])
+                if (neighbor != LocalMesh::no_cell)
+                  add(neighbor);
+            }
+          ++n_parts;
+        }
+      return {parts, n_parts};
+    }
+
+
+
     // A number for each cell, owned or ghost, no two of different parts alike,
     // and that of a part on one rank the same; numbers that mean the same part;
-    // and how many there are at most.
+    // and how many there are.
     std::tuple<std::vector<unsigned int>, Pairs, unsigned int>
     labels_by_rank(const LocalMesh &mesh)
     {
-      const MPI_Comm comm = mesh.communicator;
-      DisjointSets   sets(mesh.cells.size());
-      // Calls action(cell, neighbor) for the faces of owned cells.
-      const auto for_each_neighbor = [&](const auto &action) {
-        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          if (mesh.is_owned(c))
-            for (const unsigned int neighbor : mesh.neighbors[c])
-              if (neighbor != LocalMesh::no_cell)
-                action(c, neighbor);
-      };
-      for_each_neighbor([&](const unsigned int c, const unsigned int neighbor) {
-        if (neighbor > c && mesh.is_owned(neighbor))
-          sets.unite(c, neighbor);
-      });
-      auto [labels, n_own] = sets.numbers();
+      const MPI_Comm comm  = mesh.communicator;
+      auto [labels, n_own] = own_parts(mesh);
       unsigned int first   = 0;
       MPI_Exscan(&n_own, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
       for (unsigned int &label : labels)
-        label += first;
+        if (label != invalid_unsigned_int)
+          label += first;
       GhostCells(mesh).update(labels);
 
-      const std::vector<unsigned int> &of_cells = labels;
-      Pairs                            pairs;
-      unsigned int                     last = invalid_unsigned_int;
+      Pairs pairs;
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        if (mesh.is_owned(c) && of_cells[c] != last)
-          {
-            last = of_cells[c];
-            pairs.insert({last, last});
-          }
-      for_each_neighbor([&](const unsigned int c, const unsigned int neighbor) {
-        if (!mesh.is_owned(neighbor))
-          pairs.insert({of_cells[c], of_cells[neighbor]});
-      });
+        if (mesh.is_owned(c))
+          for (const unsigned int neighbor : mesh.neighbors[c])
+            if (neighbor != LocalMesh::no_cell && !mesh.is_owned(neighbor))
+              pairs.insert({labels[c], labels[neighbor]});
       return {labels,
               of_all_ranks(pairs, comm),
               dealii::Utilities::MPI::sum(n_own, comm)};
@@ -127,20 +143,17 @@ namespace corotet
     const MPI_Comm   comm          = mesh.communicator;
     auto [labels, pairs, n_labels] = labels_by_rank(mesh);
 
-    // What is one across ranks. Ghost cells' own numbers are not in use.
+    // What is one across ranks.
     DisjointSets sets(n_labels);
     for (const auto &[a, b] : pairs)
       sets.unite(a, b);
-    const std::vector<unsigned int> numbers = sets.numbers().first;
-    std::vector<unsigned int>       parts(n_labels, invalid_unsigned_int);
-    for (const auto &[a, b] : pairs)
-      if (parts[numbers[a]] == invalid_unsigned_int)
-        parts[numbers[a]] = n_parts++;
+    std::vector<unsigned int> parts;
+    std::tie(parts, n_parts) = sets.numbers();
     Pairs                                 part_regions;
     std::pair<unsigned int, unsigned int> last(invalid_unsigned_int, 0);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
-        labels[c] = parts[numbers[labels[c]]];
+        labels[c] = parts[labels[c]];
         const std::pair<unsigned int, unsigned int> pair(labels[c],
                                                          mesh.cells[c].region);
         if (!mesh.is_owned(c) || pair == last)

@@ -194,6 +194,7 @@ namespace corotet
                                                           unnamed_boundary}});
     for (const auto &[cell, face, boundary] : mesh.faces)
       boundaries[cell][face] = boundary;
+    double volume = 0;
     for (unsigned int c = 0; c < local_mesh_cells.size(); ++c)
       {
         const unsigned int in_mesh = local_mesh_cells[c];
@@ -216,6 +217,8 @@ namespace corotet
         const dealii::Point<3> &origin =
           mesh.vertices[mesh.cells[in_mesh].vertices[0]];
         const dealii::Tensor<2, 3> J = straight_jacobian(mesh, in_mesh);
+        if (c < n_owned)
+          volume += determinant(J) / 6;
         for (unsigned int i = 0; i < n_cell_nodes; ++i)
           {
             const dealii::Tensor<1, 3> x = origin + J * unit_points[i];
@@ -231,7 +234,11 @@ namespace corotet
         curve_positions();
         positions.update_ghost_values();
         set_up_curved_cells();
+        volume = 0;
+        for (unsigned int c = 0; c < n_owned; ++c)
+          volume += geometry(c).volume;
       }
+    body_volume = dealii::Utilities::MPI::sum(volume, communicator());
   }
 
 

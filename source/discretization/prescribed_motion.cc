@@ -34,14 +34,9 @@ namespace corotet
     : discretization(discretization)
     , conditions(conditions)
     , time_scale(time_scale)
+    , length_scale(std::cbrt(discretization.volume()))
     , flags(std::size_t(3) * discretization.n_local_nodes())
   {
-    double volume = 0;
-    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-      volume += discretization.geometry(c).volume;
-    length_scale = std::cbrt(
-      dealii::Utilities::MPI::sum(volume, discretization.communicator()));
-
     std::vector<unsigned int> entry_of_unknown(flags.size());
     for (unsigned int d = 0; d < conditions.displacements.size(); ++d)
       {

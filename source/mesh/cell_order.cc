@@ -58,12 +58,17 @@ namespace corotet
       // The same unit of length in all directions: stretching a slender body
       // to a cube would make far cells neighbours on the curve.
       const double unit = extent > 0 ? ((1 << hilbert_bits) - 1) / extent : 0;
-      std::vector<std::array<std::uint32_t, 3>> coordinates(points.size());
-      for (std::size_t i = 0; i < points.size(); ++i)
-        for (unsigned int d = 0; d < 3; ++d)
-          coordinates[i][d] =
-            static_cast<std::uint32_t>(unit * (points[i][d] - lowest[d]));
-      return places_on_hilbert_curve(coordinates);
+      std::vector<std::uint64_t> places;
+      places.reserve(points.size());
+      for (const dealii::Point<3> &x : points)
+        {
+          std::array<std::uint32_t, 3> coordinates;
+          for (unsigned int d = 0; d < 3; ++d)
+            coordinates[d] =
+              static_cast<std::uint32_t>(unit * (x[d] - lowest[d]));
+          places.push_back(place_on_hilbert_curve(coordinates));
+        }
+      return places;
     }
 
 

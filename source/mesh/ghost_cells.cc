@@ -12,35 +12,41 @@ namespace corotet
     : comm(mesh.communicator)
   {
     std::map<unsigned int, Neighbor> by_rank;
-    // Vertices of ghosts, and the ranks that own cells with them.
-    std::vector<bool> has_ghosts(mesh.vertices.size());
+    // Vertices of ghosts, and the ranks that own cells with them; of each
+    // vertex the last of these that was met.
+    constexpr unsigned int    none = dealii::numbers::invalid_unsigned_int;
+    std::vector<unsigned int> last_rank(mesh.vertices.size(), none);
     std::vector<std::pair<unsigned int, unsigned int>> ranks;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (!mesh.is_owned(c))
         {
-          by_rank[mesh.owners[c]].ghosts.push_back(c);
+          const unsigned int rank = mesh.owners[c];
+          by_rank[rank].ghosts.push_back(c);
           for (const unsigned int v : mesh.cells[c].vertices)
-            {
-              has_ghosts[v] = true;
-              ranks.emplace_back(v, mesh.owners[c]);
-            }
+            if (std::exchange(last_rank[v], rank) != rank)
+              ranks.emplace_back(v, rank);
         }
     std::sort(ranks.begin(), ranks.end());
     ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      if (mesh.is_owned(c))
-        for (const unsigned int v : mesh.cells[c].vertices)
-          if (has_ghosts[v])
-            for (auto pair = std::lower_bound(ranks.begin(),
-                                              ranks.end(),
-                                              std::pair(v, 0u));
-                 pair != ranks.end() && pair->first == v;
-                 ++pair)
-              {
-                std::vector<unsigned int> &owned = by_rank[pair->second].owned;
-                if (owned.empty() || owned.back() != c)
-                  owned.push_back(c);
-              }
+      {
+        const auto &v = mesh.cells[c].vertices;
+        // All bits of none are set.
+        if (!mesh.is_owned(c) || (last_rank[v[0]] & last_rank[v[1]] &
+                                  last_rank[v[2]] & last_rank[v[3]]) == none)
+          continue;
+        for (const unsigned int vertex : v)
+          for (auto pair = std::lower_bound(ranks.begin(),
+                                            ranks.end(),
+                                            std::pair(vertex, 0u));
+               pair != ranks.end() && pair->first == vertex;
+               ++pair)
+            {
+              std::vector<unsigned int> &owned = by_rank[pair->second].owned;
+              if (owned.empty() || owned.back() != c)
+                owned.push_back(c);
+            }
+      }
     for (auto &[rank, neighbor] : by_rank)
       {
         neighbor.rank = rank;

@@ -4,58 +4,120 @@
 #include <corotet/mesh/hilbert_curve.h>
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace corotet
 {
   namespace
   {
-    // Points side by side, which the compiler computes with in one register.
-    constexpr unsigned int n_lanes = 16;
-    using Lanes                    = std::array<std::uint32_t, n_lanes>;
-
-    // All bits set where bit @p bit of x is.
-    std::uint32_t
-    mask(const std::uint32_t x, const unsigned int bit)
+    // How the curve runs through a cube.
+    struct Orientation
     {
-      return 0u - (x >> bit & 1u);
+      // The coordinate that stands for each one, and whether it runs backwards.
+      std::array<unsigned int, 3> axes{{0, 1, 2}};
+      std::array<unsigned int, 3> is_reversed{{0, 0, 0}};
+      // From its end to its beginning.
+      unsigned int is_backward = 0;
+
+      auto
+      operator<=>(const Orientation &) const = default;
+    };
+
+
+
+    // Of the cubes of half the size in one with the orientation @p from, the
+    // one at @p octant (a bit for each coordinate, that of the first one the
+    // highest): how many the curve goes through before, and the orientation in
+    // it.
+    std::pair<unsigned int, Orientation>
+    step(const Orientation &from, const unsigned int octant)
+    {
+      std::array<unsigned int, 3> bits;
+      for (unsigned int i = 0; i < 3; ++i)
+        bits[i] = (octant >> (2 - from.axes[i]) & 1u) ^ from.is_reversed[i];
+      Orientation to = from;
+      for (unsigned int i = 0; i < 3; ++i)
+        if (bits[i] == 1)
+          to.is_reversed[0] ^= 1u;
+        else
+          {
+            std::swap(to.axes[0], to.axes[i]);
+            std::swap(to.is_reversed[0], to.is_reversed[i]);
+          }
+      // Gray's code.
+      bits[1] ^= bits[0];
+      bits[2] ^= bits[1];
+      to.is_backward ^= bits[2];
+      const unsigned int n_before = bits[0] << 2 | bits[1] << 1 | bits[2];
+      return {from.is_backward == 1 ? 7 - n_before : n_before, to};
     }
 
-    // The curve in a cube of half the size is turned and reflected: from the
-    // largest cube to the smallest, that is undone.
-    void
-    turn_back(std::array<Lanes, 3> &x)
-    {
-      for (unsigned int bit = hilbert_bits - 1; bit > 0; --bit)
-        {
-          const std::uint32_t below = (1u << bit) - 1;
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int lane = 0; lane < n_lanes; ++lane)
-              {
-                const std::uint32_t is_set = mask(x[i][lane], bit);
-                // Zero for i = 0.
-                const std::uint32_t swapped = (x[0][lane] ^ x[i][lane]) & below;
-                x[0][lane] ^= (is_set & below) | (~is_set & swapped);
-                x[i][lane] ^= ~is_set & swapped;
-              }
-        }
-    }
 
-    // Gray's code.
-    void
-    encode(std::array<Lanes, 3> &x)
+
+    // Places of the 64 cubes of a quarter of the size, for each orientation.
+    class Table
     {
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
-        {
-          x[1][lane] ^= x[0][lane];
-          x[2][lane] ^= x[1][lane];
-          std::uint32_t last = 0;
-          for (unsigned int bit = hilbert_bits - 1; bit > 0; --bit)
-            last ^= mask(x[2][lane], bit) & ((1u << bit) - 1);
-          for (unsigned int i = 0; i < 3; ++i)
-            x[i][lane] ^= last;
-        }
-    }
+    public:
+      struct Entry
+      {
+        std::uint8_t n_before;
+        std::uint8_t orientation;
+      };
+
+      Table()
+      {
+        // Orientations in the order in which they are met.
+        std::vector<Orientation> orientations(1);
+        const auto               number = [&](const Orientation &orientation) {
+          const auto place =
+            std::find(orientations.begin(), orientations.end(), orientation);
+          const std::size_t n = place - orientations.begin();
+          if (place == orientations.end())
+            orientations.push_back(orientation);
+          return static_cast<std::uint8_t>(n);
+        };
+        for (std::size_t n = 0; n < orientations.size(); ++n)
+          for (unsigned int octant = 0; octant < 8; ++octant)
+            {
+              const auto [n_before, half] = step(orientations[n], octant);
+              if (n == 0)
+                first[octant] = {static_cast<std::uint8_t>(n_before),
+                                 number(half)};
+              for (unsigned int inner = 0; inner < 8; ++inner)
+                {
+                  const auto [n_inner, quarter] = step(half, inner);
+                  entries.push_back(
+                    {static_cast<std::uint8_t>(8 * n_before + n_inner),
+                     number(quarter)});
+                }
+            }
+      }
+
+      // @p interleaved: the bits of the three coordinates in turns.
+      std::uint64_t
+      place(const std::uint64_t interleaved) const
+      {
+        static_assert(hilbert_bits % 2 == 1);
+        Entry         entry = first[interleaved >> (3 * (hilbert_bits - 1))];
+        std::uint64_t place = entry.n_before;
+        for (int shift = 3 * (hilbert_bits - 3); shift >= 0; shift -= 6)
+          {
+            entry =
+              entries[64 * entry.orientation + (interleaved >> shift & 63)];
+            place = place << 6 | entry.n_before;
+          }
+        return place;
+      }
+
+    private:
+      std::array<Entry, 8> first;
+      std::vector<Entry>   entries;
+    };
+
+
 
     // Puts two zeros between the bits.
     std::uint64_t
@@ -70,25 +132,10 @@ namespace corotet
     }
   } // namespace
 
-  std::vector<std::uint64_t>
-  places_on_hilbert_curve(
-    const std::vector<std::array<std::uint32_t, 3>> &coordinates)
+  std::uint64_t
+  place_on_hilbert_curve(const std::array<std::uint32_t, 3> &x)
   {
-    std::vector<std::uint64_t> places(coordinates.size());
-    for (std::size_t begin = 0; begin < places.size(); begin += n_lanes)
-      {
-        const unsigned int n =
-          std::min<std::size_t>(n_lanes, places.size() - begin);
-        std::array<Lanes, 3> x{};
-        for (unsigned int lane = 0; lane < n; ++lane)
-          for (unsigned int i = 0; i < 3; ++i)
-            x[i][lane] = coordinates[begin + lane][i];
-        turn_back(x);
-        encode(x);
-        for (unsigned int lane = 0; lane < n; ++lane)
-          places[begin + lane] = spread(x[0][lane]) << 2 |
-                                 spread(x[1][lane]) << 1 | spread(x[2][lane]);
-      }
-    return places;
+    static const Table table;
+    return table.place(spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2]));
   }
 } // namespace corotet

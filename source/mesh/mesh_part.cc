@@ -203,11 +203,20 @@ namespace corotet
   void
   sort_vertices(MeshPart &part)
   {
-    std::vector<std::pair<std::uint64_t, unsigned int>> order;
+    // But for those of cells of others, most are in order already.
+    using NumberedVertex = std::pair<std::uint64_t, unsigned int>;
+    std::vector<NumberedVertex> order, others;
     order.reserve(part.vertices.size());
     for (unsigned int v = 0; v < part.vertices.size(); ++v)
-      order.emplace_back(part.vertex_numbers[v], v);
-    std::sort(order.begin(), order.end());
+      {
+        const NumberedVertex numbered(part.vertex_numbers[v], v);
+        (order.empty() || order.back() < numbered ? order : others)
+          .push_back(numbered);
+      }
+    std::sort(others.begin(), others.end());
+    const std::size_t n_in_order = order.size();
+    order.insert(order.end(), others.begin(), others.end());
+    std::inplace_merge(order.begin(), order.begin() + n_in_order, order.end());
     std::vector<unsigned int>     new_index(order.size());
     std::vector<dealii::Point<3>> vertices;
     vertices.reserve(order.size());
@@ -325,18 +334,22 @@ namespace corotet
     const auto piece = [&](const unsigned int rank) {
       return cutter->cut(std::exchange(pieces[rank], {}));
     };
-    MeshPart result;
+    // Array by array: copies of them all in a message would take as long again.
+    MeshPart           result;
+    const unsigned int degree = MPI::broadcast(comm, mesh.geometry_degree, 0);
     for (unsigned int rank = 1; rank < n_ranks; ++rank)
       {
-        std::vector<std::byte> message;
-        on_root(comm, [&] { message = packed(piece(rank)); });
+        MeshPart sent;
+        on_root(comm, [&] { sent = piece(rank); });
         if (my_rank == 0)
-          send_array(message, rank, comm);
+          for_each_array(sent, [&](const auto &array) {
+            send_array(array, rank, comm);
+          });
         else if (my_rank == rank)
           {
-            receive_array(message, 0, comm);
-            std::size_t position = 0;
-            result               = unpacked(message, position);
+            result.geometry_degree = degree;
+            for_each_array(result,
+                           [&](auto &array) { receive_array(array, 0, comm); });
           }
       }
     on_root(comm, [&] { result = piece(0); });

@@ -158,16 +158,13 @@ namespace corotet
   void
   Body::fill_in(RunSummary &summary) const
   {
-    const MPI_Comm comm   = discretization.communicator();
-    double         volume = 0;
-    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-      volume += discretization.geometry(c).volume;
-    summary.ranks       = dealii::Utilities::MPI::n_mpi_processes(comm);
+    summary.ranks =
+      dealii::Utilities::MPI::n_mpi_processes(discretization.communicator());
     summary.degree      = discretization.degree();
     summary.cells       = discretization.n_global_cells();
     summary.nodes       = discretization.n_global_nodes();
     summary.unknowns    = std::size_t(3) * discretization.n_global_nodes();
-    summary.mesh_volume = dealii::Utilities::MPI::sum(volume, comm);
+    summary.mesh_volume = discretization.volume();
     summary.total_mass  = mass.total();
   }
 } // namespace corotet

@@ -22,17 +22,6 @@ namespace corotet
   {
     const std::string displacement_entry = "Initial conditions/Displacement";
 
-    // The cube root of the volume.
-    double
-    size_of(const Discretization &discretization)
-    {
-      double volume = 0;
-      for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-        volume += discretization.geometry(c).volume;
-      return std::cbrt(
-        dealii::Utilities::MPI::sum(volume, discretization.communicator()));
-    }
-
     // Nodes of supports must be where these are at the start.
     void
     check_supports_at_start(StructuralSystem           &system,
@@ -59,7 +48,7 @@ namespace corotet
         }
       const double largest_of_all = dealii::Utilities::MPI::max(largest, comm);
       // Of what is written with six digits.
-      if (largest_of_all <= 1e-6 * size_of(discretization))
+      if (largest_of_all <= 1e-6 * std::cbrt(discretization.volume()))
         return;
       // Without an initial displacement it may be meant: supports that jump.
       if (norm(initial.u) == 0)
@@ -208,7 +197,7 @@ namespace corotet
     Vector u;
     body.discretization.initialize_vector(u);
     const auto   first = u.get_partitioner()->local_range().first;
-    const double size  = 1e-6 * size_of(body.discretization);
+    const double size  = 1e-6 * std::cbrt(body.discretization.volume());
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
       {
         // Fractions of multiples of the golden ratio are all over the place.

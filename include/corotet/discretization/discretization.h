@@ -83,6 +83,13 @@ namespace corotet
     CellGeometry
     geometry(const unsigned int cell) const;
 
+    /// Of the body at rest, on all ranks together [m^3].
+    double
+    volume() const
+    {
+      return body_volume;
+    }
+
     /// As the mesh numbers it.
     unsigned int
     region(const unsigned int cell) const
@@ -227,6 +234,7 @@ namespace corotet
     /// Of those with a number.
     std::map<unsigned int, std::vector<BoundaryFace>> faces_of_boundaries;
     Vector                                            positions;
+    double                                            body_volume = 0;
     /// By local cell; empty if no cell of any rank is curved.
     std::vector<unsigned char> curved_cells;
 

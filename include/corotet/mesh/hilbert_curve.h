@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace corotet
 {
@@ -14,14 +13,13 @@ namespace corotet
   inline constexpr unsigned int hilbert_bits = 21;
 
   /**
-   * The places of points on Hilbert's curve through a cube [skilling2004]:
-   * those of dealii::Utilities::inverse_Hilbert_space_filling_curve, with the
-   * bits of its three numbers in one, computed for many points at once in less
-   * than a tenth of the time. @p coordinates are below 2^hilbert_bits.
+   * The place of a point on Hilbert's curve through a cube [skilling2004]: that
+   * of dealii::Utilities::inverse_Hilbert_space_filling_curve, with the bits of
+   * its three numbers in one, from a table of the curve's turns. Coordinates
+   * are below 2^hilbert_bits.
    */
-  std::vector<std::uint64_t>
-  places_on_hilbert_curve(
-    const std::vector<std::array<std::uint32_t, 3>> &coordinates);
+  std::uint64_t
+  place_on_hilbert_curve(const std::array<std::uint32_t, 3> &point);
 } // namespace corotet
 
 #endif
