@@ -53,18 +53,21 @@ namespace corotet
     };
     // Of constant loads, which are known by now.
     check_finite();
-    for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
-      {
-        const dealii::Point<3> x = body.discretization.node_position(n);
-        const auto             u = u0.vector_value(x, parameters.start_time);
-        const auto             v = v0.vector_value(x, parameters.start_time);
-        for (unsigned int a = 0; a < 3; ++a)
-          {
-            state.u.local_element(3 * n + a) = u[a];
-            if (is_dynamic)
-              state.v.local_element(3 * n + a) = v[a];
-          }
-      }
+    const auto fill = [&](Vector &vector, const Expression &value) {
+      if (value.is_zero())
+        return;
+      for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+        {
+          const auto x =
+            value.vector_value(body.discretization.node_position(n),
+                               parameters.start_time);
+          for (unsigned int a = 0; a < 3; ++a)
+            vector.local_element(3 * n + a) = x[a];
+        }
+    };
+    fill(state.u, u0);
+    if (is_dynamic)
+      fill(state.v, v0);
     check_finite();
   }
 
