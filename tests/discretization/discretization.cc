@@ -96,9 +96,9 @@ TEST_P(DiscretizationTest, GhostCellsCompleteOwnedNodes)
 // Volume 2 of the box and area 10 of its surface, over all ranks.
 TEST_P(DiscretizationTest, VolumeAndSurface)
 {
-  double volume = 0, area = 0;
+  double volume_of_cells = 0, area = 0;
   for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
-    volume += discretization.geometry(c).volume;
+    volume_of_cells += discretization.geometry(c).volume;
   const ReferenceElement reference(GetParam());
   for (const BoundaryFace &face : discretization.boundary_faces())
     {
@@ -109,7 +109,10 @@ TEST_P(DiscretizationTest, VolumeAndSurface)
                 .norm() /
               2;
     }
-  EXPECT_NEAR(dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD), 2, 1e-13);
+  EXPECT_NEAR(dealii::Utilities::MPI::sum(volume_of_cells, MPI_COMM_WORLD),
+              2,
+              1e-13);
+  EXPECT_NEAR(discretization.volume(), 2, 1e-13);
   EXPECT_NEAR(dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD), 10, 1e-13);
 }
 

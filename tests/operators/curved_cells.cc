@@ -321,6 +321,7 @@ TEST_P(CurvedCells, Mass)
         sum += body.discretization.geometry(c).volume;
       sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
       EXPECT_NEAR(sum, volume, 1e-13);
+      EXPECT_NEAR(body.discretization.volume(), volume, 1e-13);
       EXPECT_NEAR(body.mass.total(), 2 * volume, 1e-13);
       body.mass.apply(f, one);
       EXPECT_NEAR(f * owned(one), 2 * volume, 1e-12);
