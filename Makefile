@@ -59,9 +59,11 @@ verify:
 bench:
 	@$(TOOLCHAIN) sh -ec 'cmake -G Ninja -B build/bench -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCOROTET_TESTS=OFF -DCOROTET_BENCHMARKS=ON; \
 	  cmake --build build/bench --target corotet bench_machine bench_kernels bench_case'
-	@$(TOOLCHAIN) benchmarks/run_benchmarks.py $(if $(QUICK),--quick)
-	@$(TOOLCHAIN) benchmarks/end_to_end.py --program build/bench/corotet $(if $(QUICK),--quick)
-	@$(TOOLCHAIN) benchmarks/hard_bodies.py --program build/bench/corotet $(if $(QUICK),--quick)
+	@status=0; \
+	for script in run_benchmarks.py 'end_to_end.py --program build/bench/corotet' 'hard_bodies.py --program build/bench/corotet'; do \
+	  $(TOOLCHAIN) benchmarks/$$script $(if $(QUICK),--quick) || status=1; \
+	done; \
+	exit $$status
 
 docs:
 	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
