@@ -57,10 +57,12 @@ namespace corotet
 
 
 
-    // Places of the 64 cubes of a quarter of the size, for each orientation.
+    // What step() says, for two bits of each coordinate at a time.
     class Table
     {
     public:
+      // Of a cube in a larger one: how many the curve goes through before, and
+      // the number of its orientation.
       struct Entry
       {
         std::uint8_t n_before;
@@ -113,8 +115,10 @@ namespace corotet
       }
 
     private:
+      // Of the eight cubes in the whole one, as the number of bits is odd.
       std::array<Entry, 8> first;
-      std::vector<Entry>   entries;
+      // Of the 64 cubes of a quarter of the size, for each orientation.
+      std::vector<Entry> entries;
     };
 
 
