@@ -135,7 +135,9 @@ operator delete(void *const memory, std::size_t /*n_bytes*/) noexcept
   std::free(memory);
 }
 
-// deal.II's arrays for registers.
+// deal.II's arrays for registers. The C library's names of the parameters are
+// reserved ones.
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name)
 extern "C" [[gnu::visibility("default")]] int
 posix_memalign(void            **memory,
                const std::size_t alignment,

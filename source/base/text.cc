@@ -143,7 +143,7 @@ namespace corotet
         const auto next = static_cast<unsigned char>(
           i + 1 < message.size() ? message[i + 1] : 0);
         const bool is_kept = keep_lines && (byte == '\n' || byte == '\t');
-        const auto look_alike =
+        const auto *const look_alike =
           byte < 0x80 ?
             look_alikes.end() :
             std::find_if(

@@ -39,18 +39,16 @@ namespace corotet
       // In heights of the cell.
       constexpr double  near = 0.2;
       const PointSearch search(discretization);
-      for (const unsigned int c : nearby.cells(x, near))
-        {
+      return std::ranges::any_of(
+        nearby.cells(x, near), [&](const unsigned int c) {
           const Point<3> &origin =
             discretization.node_position(discretization.cell_nodes(c)[0]);
           const Tensor<1, 3> xi =
             discretization.geometry(c).inverse_jacobian * (x - origin);
-          if (std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >
-                -near ||
-              search.find(c, x))
-            return true;
-        }
-      return false;
+          return std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >
+                   -near ||
+                 search.find(c, x);
+        });
     }
 
     // Of the nodes at that distance, but for round-off, the one with the lowest

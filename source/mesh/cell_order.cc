@@ -257,11 +257,14 @@ namespace corotet
         unsigned int p[4];
         for (unsigned int k = 0; k < 4; ++k)
           p[k] = piece_of_vertex[v[k]];
-        const unsigned int piece =
-          p[0] == p[1] || p[0] == p[2] || p[0] == p[3] ? p[0] :
-          p[1] == p[2] || p[1] == p[3]                 ? p[1] :
-          p[2] == p[3]                                 ? p[2] :
-                                                         p[0];
+        unsigned int piece = p[0];
+        if (p[0] != p[1] && p[0] != p[2] && p[0] != p[3])
+          {
+            if (p[1] == p[2] || p[1] == p[3])
+              piece = p[1];
+            else if (p[2] == p[3])
+              piece = p[2];
+          }
         pieces[piece].push_back(c);
       }
     return pieces;

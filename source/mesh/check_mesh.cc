@@ -214,18 +214,6 @@ namespace corotet
 
 
   void
-  check_cells(const MeshCells   &mesh,
-              const std::string &origin,
-              const unsigned int element_degree)
-  {
-    check_volumes(
-      mesh, [](const unsigned int c) { return c; }, origin, MPI_COMM_SELF);
-    check_curved_cells(mesh, origin, element_degree, MPI_COMM_SELF);
-  }
-
-
-
-  void
   check_cells_on_ranks(const MeshPart    &part,
                        const std::string &origin,
                        const unsigned int element_degree,
@@ -246,7 +234,9 @@ namespace corotet
   {
     const std::string &origin = mesh.origin;
     check_vertices(mesh);
-    check_cells(mesh, origin, element_degree);
+    check_volumes(
+      mesh, [](const unsigned int c) { return c; }, origin, MPI_COMM_SELF);
+    check_curved_cells(mesh, origin, element_degree, MPI_COMM_SELF);
     constexpr unsigned int none     = dealii::numbers::invalid_unsigned_int;
     const auto             is_owned = [](const unsigned int) { return true; };
     check_surface(cell_surface(mesh,

@@ -107,8 +107,8 @@ namespace corotet
         std::uint64_t place = entry.n_before;
         for (int shift = 3 * (hilbert_bits - 3); shift >= 0; shift -= 6)
           {
-            entry =
-              entries[64 * entry.orientation + (interleaved >> shift & 63)];
+            entry = entries[std::size_t(64) * entry.orientation +
+                            (interleaved >> shift & 63)];
             place = place << 6 | entry.n_before;
           }
         return place;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace corotet
@@ -193,17 +194,21 @@ namespace corotet
         number_vertices(part, among_own, mesh.communicator);
       Messages received =
         exchange_messages(cells_for_others(part, shared), mesh.communicator);
-      received.try_emplace(mesh.rank);
-      const unsigned int        degree = part.geometry_degree;
-      std::vector<MeshPart>     parts;
-      std::vector<unsigned int> owners;
-      std::vector<std::pair<unsigned int, unsigned int>> order;
+      const unsigned int               degree = part.geometry_degree;
+      std::map<unsigned int, MeshPart> of_ranks;
       for (auto &[rank, message] : received)
         {
           std::size_t position = 0;
-          parts.push_back(rank == mesh.rank ? std::move(part) :
-                                              unpacked(message, position));
-          message = {};
+          of_ranks[rank]       = unpacked(message, position);
+          message              = {};
+        }
+      of_ranks[mesh.rank] = std::move(part);
+      std::vector<MeshPart>                              parts;
+      std::vector<unsigned int>                          owners;
+      std::vector<std::pair<unsigned int, unsigned int>> order;
+      for (auto &[rank, of_rank] : of_ranks)
+        {
+          parts.push_back(std::move(of_rank));
           owners.push_back(rank);
           for (unsigned int c = 0; c < parts.back().cells.size(); ++c)
             order.emplace_back(parts.size() - 1, c);

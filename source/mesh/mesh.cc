@@ -126,39 +126,13 @@ namespace corotet
 
 
 
-    // Makes the mesh as @p selections need it, which are of the whole mesh,
-    // with its refinements. Of rank 0.
-    void
-    select_in_whole(SerialMesh                &mesh,
-                    const unsigned int         n_refinements,
-                    const double               scale,
-                    const unsigned int         element_degree,
-                    const SelectionParameters &selections,
-                    Log                       &log)
-    {
-      check_mesh(mesh, element_degree);
-      refine_uniformly(mesh, n_refinements);
-      // Vertices have moved to where the curves have them.
-      check_cells(mesh, mesh.origin, element_degree);
-      multiply(mesh, scale);
-      MeshStatistics(mesh, mesh.origin, element_degree, MPI_COMM_SELF)
-        .log_lines(number_of_vertices(mesh), log);
-      log_remarks(mesh.remarks, log);
-      select(mesh, selections, log);
-    }
-
-
-
     // Shares out a mesh that rank 0 has. @p n_refinements becomes what is left
     // to be done.
     SpreadMesh
-    scattered(SerialMesh                 mesh,
-              unsigned int              &n_refinements,
-              const double               scale,
-              const MPI_Comm             comm,
-              Log                       &log,
-              const unsigned int         element_degree,
-              const SelectionParameters &selections)
+    scattered(SerialMesh         mesh,
+              unsigned int      &n_refinements,
+              const MPI_Comm     comm,
+              const unsigned int element_degree)
     {
       namespace MPI = dealii::Utilities::MPI;
       SpreadMesh result;
@@ -173,19 +147,7 @@ namespace corotet
                      n_refinements,
                      element_degree,
                      MPI::n_mpi_processes(comm));
-          if (selections.are_given())
-            {
-              select_in_whole(mesh,
-                              std::exchange(n_refinements, 0),
-                              scale,
-                              element_degree,
-                              selections,
-                              log);
-              named               = named_parts(mesh);
-              result.is_described = true;
-            }
-          else
-            named = check_names(mesh);
+          named        = check_names(mesh);
           result.names = UsedNames(mesh);
         });
         n_refinements    = MPI::broadcast(comm, n_refinements, 0);
@@ -242,36 +204,23 @@ namespace corotet
     : region_names("region", {})
     , place_names({})
   {
-    const MeshSource           &source = parameters.source.selected();
-    std::shared_ptr<SpreadMesh> mesh;
+    const MeshSource           &source        = parameters.source.selected();
     unsigned int                n_refinements = parameters.n_refinements;
-    // Selections are of the whole mesh.
-    if (!parameters.selections.are_given())
-      {
-        mesh = source.create_spread(folder, comm);
-        if (mesh)
-          check_size(mesh->origin,
-                     dealii::Utilities::MPI::sum(mesh->part.cells.size(), comm),
-                     n_refinements,
-                     element_degree,
-                     dealii::Utilities::MPI::n_mpi_processes(comm));
-      }
-    if (!mesh)
+    std::shared_ptr<SpreadMesh> mesh = source.create_spread(folder, comm);
+    if (mesh)
+      check_size(mesh->origin,
+                 dealii::Utilities::MPI::sum(mesh->part.cells.size(), comm),
+                 n_refinements,
+                 element_degree,
+                 dealii::Utilities::MPI::n_mpi_processes(comm));
+    else
       mesh = std::make_shared<SpreadMesh>(
         scattered(create_on_root(parameters, folder, comm),
                   n_refinements,
-                  parameters.scale,
                   comm,
-                  log,
-                  element_degree,
-                  parameters.selections));
-    set_up(std::move(*mesh),
-           n_refinements,
-           parameters.selections.are_given() ? 1. : parameters.scale,
-           parameters.partitioner,
-           comm,
-           log,
-           element_degree);
+                  element_degree));
+    set_up(
+      std::move(*mesh), n_refinements, parameters, comm, log, element_degree);
   }
 
 
@@ -285,34 +234,32 @@ namespace corotet
     : region_names("region", {})
     , place_names({})
   {
-    unsigned int n_left = n_refinements;
-    SpreadMesh   spread =
-      scattered(std::move(mesh), n_left, scale, comm, log, element_degree, {});
-    set_up(std::move(spread),
-           n_left,
-           scale,
-           Partitioner::hilbert_curve,
-           comm,
-           log,
-           element_degree);
+    unsigned int   n_left = n_refinements;
+    MeshParameters parameters;
+    parameters.scale = scale;
+    SpreadMesh spread =
+      scattered(std::move(mesh), n_left, comm, element_degree);
+    set_up(std::move(spread), n_left, parameters, comm, log, element_degree);
   }
 
 
 
   void
-  Mesh::set_up(SpreadMesh       &&mesh,
-               const unsigned int n_refinements,
-               const double       scale,
-               const Partitioner  partitioner,
-               const MPI_Comm     comm,
-               Log               &log,
-               const unsigned int element_degree)
+  Mesh::set_up(SpreadMesh          &&mesh,
+               const unsigned int    n_refinements,
+               const MeshParameters &parameters,
+               const MPI_Comm        comm,
+               Log                  &log,
+               const unsigned int    element_degree)
   {
-    seconds_read      = mesh.read_time;
-    seconds_partition = mesh.scatter_time;
-    region_names      = MeshNames("region", mesh.names.regions);
-    place_names =
-      PlaceNames(mesh.names.boundaries, mesh.names.edges, mesh.names.corners);
+    seconds_read          = mesh.read_time;
+    seconds_partition     = mesh.scatter_time;
+    const auto take_names = [&] {
+      region_names = MeshNames("region", mesh.names.regions);
+      place_names =
+        PlaceNames(mesh.names.boundaries, mesh.names.edges, mesh.names.corners);
+    };
+    take_names();
 
     ScopedTimer timer(seconds_partition);
     MeshPart   &part = mesh.part;
@@ -336,17 +283,16 @@ namespace corotet
         sort_along_curve(part, comm);
         statistics = spread_out();
       }
+    const double scale = parameters.scale;
     multiply(local_mesh, scale);
     statistics.quality.volume *= scale * scale * scale;
+    statistics.log_lines(number_of_vertices(local_mesh), log);
+    log_remarks(mesh.remarks, log);
 
-    const std::uint64_t n_vertices = number_of_vertices(local_mesh);
-    if (!mesh.is_described)
-      {
-        statistics.log_lines(n_vertices, log);
-        log_remarks(mesh.remarks, log);
-      }
+    select(local_mesh, mesh.names, parameters.selections, log);
+    take_names();
     log_names(region_names, place_names, log);
-    if (partitioner == Partitioner::pt_scotch)
+    if (parameters.partitioner == Partitioner::pt_scotch)
       share_out_by_graph(mesh.origin, log);
   }
 

@@ -40,34 +40,47 @@ namespace corotet
                  const std::vector<std::size_t>    &members,
                  const std::vector<unsigned int *> &id_of_member)
   {
-    std::map<unsigned int, std::size_t> n_in_set;
+    std::map<unsigned int, std::uint64_t> n_in_set;
     for (const std::size_t member : members)
       ++n_in_set[*id_of_member[member]];
     // Of all members, which are many, as are sets: those with an id that is in
     // this one are counted.
-    std::vector<unsigned int> counted;
+    std::vector<IdCount> counts;
     for (const auto &[id, n] : n_in_set)
-      counted.push_back(id);
-    std::vector<std::size_t> n_with(counted.size());
-    unsigned int             next = 0;
+      counts.push_back({id, 0, n});
+    unsigned int first_free = 0;
     for (const unsigned int *id : id_of_member)
       {
-        next = std::max(next, *id + 1);
-        const auto place =
-          std::lower_bound(counted.begin(), counted.end(), *id);
-        if (place != counted.end() && *place == *id)
-          ++n_with[place - counted.begin()];
+        first_free = std::max(first_free, *id + 1);
+        const auto count =
+          std::ranges::lower_bound(counts, *id, {}, &IdCount::id);
+        if (count != counts.end() && count->id == *id)
+          ++count->n_members;
       }
+    const auto part_of = add(name, counts, first_free);
+    for (const std::size_t member : members)
+      if (const auto part = part_of.find(*id_of_member[member]);
+          part != part_of.end())
+        *id_of_member[member] = part->second;
+  }
+
+
+
+  std::map<unsigned int, unsigned int>
+  NamedSets::add(const std::string          &name,
+                 const std::vector<IdCount> &counts,
+                 const unsigned int          first_free)
+  {
+    unsigned int next = first_free;
     for (const auto &[id, own] : names)
       next = std::max(next, id + 1);
 
     const std::vector<unsigned int>      before = ids(name);
     std::set<unsigned int>               meant(before.begin(), before.end());
     std::map<unsigned int, unsigned int> part_of;
-    auto                                 n_of_all = n_with.begin();
-    for (const auto &[id, n] : n_in_set)
+    for (const auto &[id, n_members, n_in_set] : counts)
       {
-        if (n == *n_of_all++ || meant.contains(id))
+        if (n_in_set == n_members || meant.contains(id))
           {
             meant.insert(id);
             continue;
@@ -85,14 +98,11 @@ namespace corotet
             own->second.clear();
           }
       }
-    for (const std::size_t member : members)
-      if (const auto part = part_of.find(*id_of_member[member]);
-          part != part_of.end())
-        *id_of_member[member] = part->second;
     for (auto &[id, own] : names)
       if (own == name)
         own.clear();
     sets[name].assign(meant.begin(), meant.end());
+    return part_of;
   }
 
 

@@ -87,15 +87,4 @@ namespace corotet
     return dealii::Utilities::MPI::sum(std::uint64_t(n), mesh.communicator);
   }
 
-
-
-  std::uint64_t
-  number_of_vertices(const SerialMesh &mesh)
-  {
-    std::vector<bool> is_used(mesh.vertices.size(), false);
-    for (const SerialMesh::Cell &cell : mesh.cells)
-      for (const unsigned int v : cell.vertices)
-        is_used[v] = true;
-    return std::count(is_used.begin(), is_used.end(), true);
-  }
 } // namespace corotet

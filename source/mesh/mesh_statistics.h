@@ -34,10 +34,6 @@ namespace corotet
   /// Vertices of the mesh, of all ranks. Collective.
   std::uint64_t
   number_of_vertices(const LocalMesh &mesh);
-
-  /// Those that cells have.
-  std::uint64_t
-  number_of_vertices(const SerialMesh &mesh);
 } // namespace corotet
 
 #endif

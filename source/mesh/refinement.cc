@@ -380,20 +380,4 @@ namespace corotet
       MPI::max(part.geometry_degree, comm) > 1 ? degree : 1;
   }
 
-
-
-  void
-  refine_uniformly(SerialMesh &mesh, const unsigned int n_refinements)
-  {
-    if (n_refinements == 0)
-      return;
-    NamedParts names = named_parts(mesh);
-    MeshPart   part  = whole_part(mesh, std::move(names));
-    refine_uniformly(part, n_refinements, MPI_COMM_SELF);
-    SerialMesh refined = serial_mesh(std::move(part));
-    mesh.faces         = std::move(refined.faces);
-    mesh.edges         = std::move(refined.edges);
-    static_cast<MeshCells &>(mesh) =
-      std::move(static_cast<MeshCells &>(refined));
-  }
 } // namespace corotet

@@ -7,9 +7,12 @@
 #include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace corotet::selections
 {
@@ -179,8 +182,10 @@ namespace corotet::selections
       std::string reasons;
       for (const Shape &shape : selected.shapes)
         {
-          const double nearest =
-            *std::min_element(shape.distances.begin(), shape.distances.end());
+          double nearest = std::numeric_limits<double>::infinity();
+          for (const double distance : shape.distances)
+            nearest = std::min(nearest, distance);
+          nearest = dealii::Utilities::MPI::min(nearest, members.communicator);
           reasons +=
             fmt::format("; the nearest to '{}' is {}",
                         shape.text,
@@ -228,14 +233,19 @@ namespace corotet::selections
                                        name));
         const Selected           selected = select(selection, members, entry);
         std::vector<std::size_t> chosen;
+        std::uint64_t            n_chosen = 0;
         for (std::size_t i = 0; i < selected.is_member.size(); ++i)
           if (selected.is_member[i])
-            chosen.push_back(i);
-        if (chosen.empty())
+            {
+              chosen.push_back(i);
+              n_chosen += members.is_counted[i];
+            }
+        n_chosen = dealii::Utilities::MPI::sum(n_chosen, members.communicator);
+        if (n_chosen == 0)
           refuse_nothing(name, selected, members, entry);
         give_name(name, chosen);
         log.line(fmt::format(
-          "  selection '{}': {} {}s", name, chosen.size(), members.kind));
+          "  selection '{}': {} {}s", name, n_chosen, members.kind));
       }
   }
 } // namespace corotet::selections

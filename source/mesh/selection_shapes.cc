@@ -5,6 +5,8 @@
 #include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,9 +75,8 @@ namespace corotet::selections
       for (const auto &[name, kind] : kinds)
         {
           const bool is_of_faces = name == "normal" || name == "patch";
-          if (is_of_faces ?
-                members.surface != nullptr || !members.normals.empty() :
-                name != "sharp" || !members.angles.empty())
+          if (is_of_faces ? members.surface != nullptr || members.has_normals :
+                            name != "sharp" || members.has_angles)
             allowed.push_back("'" + kind.allowed + "'");
         }
       refuse_shape("a " + members.kind + " " + reason,
@@ -112,12 +113,12 @@ namespace corotet::selections
     of_farthest_point(const Members &members, const Distance &distance)
     {
       std::vector<double> result;
-      result.reserve(members.points.size());
-      for (const auto &points : members.points)
+      result.reserve(members.size());
+      for (auto x = members.points.begin(); x != members.points.end();)
         {
           double farthest = std::numeric_limits<double>::lowest();
-          for (const Point<3> &x : points)
-            farthest = std::max(farthest, distance(x));
+          for (unsigned int i = 0; i < members.n_points; ++i)
+            farthest = std::max(farthest, distance(*x++));
           result.push_back(farthest - members.tolerance);
         }
       return result;
@@ -152,6 +153,47 @@ namespace corotet::selections
 
 
 
+    // The key of the face that is nearest, of all ranks; of several the first.
+    std::uint64_t
+    nearest_face(const Members &faces, const std::vector<double> &distances)
+    {
+      namespace MPI   = dealii::Utilities::MPI;
+      double shortest = std::numeric_limits<double>::infinity();
+      for (const double distance : distances)
+        shortest = std::min(shortest, distance);
+      shortest          = MPI::min(shortest, faces.communicator);
+      std::uint64_t key = std::numeric_limits<std::uint64_t>::max();
+      for (std::size_t f = 0; f < distances.size(); ++f)
+        if (distances[f] == shortest)
+          key = std::min(key, faces.keys[f]);
+      return MPI::min(key, faces.communicator);
+    }
+
+
+
+    // Adds to a patch what is connected with it on this rank.
+    void
+    spread(std::vector<unsigned char> &is_in_patch,
+           const Members              &faces,
+           const double                angle)
+    {
+      std::vector<unsigned int> patch;
+      for (unsigned int f = 0; f < is_in_patch.size(); ++f)
+        if (is_in_patch[f])
+          patch.push_back(f);
+      for (std::size_t i = 0; i < patch.size(); ++i)
+        for (const unsigned int other : faces.neighbours[patch[i]])
+          if (!is_in_patch[other] &&
+              degrees_between(faces.normals[patch[i]], faces.normals[other]) <=
+                angle)
+            {
+              is_in_patch[other] = 1;
+              patch.push_back(other);
+            }
+    }
+
+
+
     // Of faces in the patch zero, of others how far they are from the point.
     std::vector<double>
     distances_from_patch(const Members  &faces,
@@ -159,32 +201,26 @@ namespace corotet::selections
                          const double    angle)
     {
       std::vector<double> result;
-      for (const auto &p : faces.points)
+      for (auto p = faces.points.begin(); p != faces.points.end(); p += 3)
         result.push_back(distance_from_triangle(x, {{p[0], p[1], p[2]}}));
-      if (result.empty())
-        return result;
-      const std::size_t nearest =
-        std::min_element(result.begin(), result.end()) - result.begin();
-      std::vector<unsigned int> patch{static_cast<unsigned int>(nearest)};
-      std::vector<bool>         is_known(result.size(), false);
-      is_known[nearest] = true;
-      for (std::size_t i = 0; i < patch.size(); ++i)
+      const std::uint64_t        nearest = nearest_face(faces, result);
+      std::vector<unsigned char> is_in_patch(result.size());
+      for (std::size_t f = 0; f < result.size(); ++f)
+        is_in_patch[f] = faces.keys[f] == nearest ? 1 : 0;
+      // Until no rank finds more than others have told it.
+      for (bool has_grown = true; has_grown;)
         {
-          const unsigned int f = patch[i];
-          result[f]            = 0;
-          for (const unsigned int other : faces.neighbours[f])
-            if (!is_known[other] &&
-                degrees_between(faces.normals[f], faces.normals[other]) <=
-                  angle)
-              {
-                is_known[other] = true;
-                patch.push_back(other);
-              }
+          const std::vector<unsigned char> before = is_in_patch;
+          spread(is_in_patch, faces, angle);
+          faces.update(is_in_patch);
+          has_grown = dealii::Utilities::MPI::max(is_in_patch != before ? 1 : 0,
+                                                  faces.communicator) == 1;
         }
       // One that touches the point but is no part of the patch is outside.
       for (std::size_t f = 0; f < result.size(); ++f)
-        if (!is_known[f])
-          result[f] = std::max(result[f], std::numeric_limits<double>::min());
+        result[f] = is_in_patch[f] ?
+                      0 :
+                      std::max(result[f], std::numeric_limits<double>::min());
       return result;
     }
 
@@ -252,9 +288,9 @@ namespace corotet::selections
     const bool is_of_faces = name == "normal" || name == "patch";
     if (is_of_faces && members.surface != nullptr)
       return of_nearest_face(measure(words, *members.surface, entry), members);
-    if (is_of_faces && members.normals.empty())
+    if (is_of_faces && !members.has_normals)
       refuse_kind("has no normal and is on no patch", words, members, entry);
-    if (name == "sharp" && members.angles.empty())
+    if (name == "sharp" && !members.has_angles)
       refuse_kind("is not between two faces", words, members, entry);
     if ((name == "plane" && point(n, 3).norm() == 0) ||
         (name == "normal" && point(n, 0).norm() == 0))

@@ -3,10 +3,11 @@
 
 // The surface of a mesh, as selections see it.
 
-#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
+#include <limits>
 
 #include "selection.h"
 
@@ -14,150 +15,194 @@ namespace corotet::selections
 {
   namespace
   {
+    namespace MPI = dealii::Utilities::MPI;
     using dealii::Point;
-    using Triangle = std::array<unsigned int, 3>;
 
 
 
-    Triangle
-    sorted(Triangle triangle)
+    // The faces, those that the mesh has listed with their boundaries.
+    std::vector<CellPart>
+    faces_of(const LocalMesh &mesh, const unsigned int unnamed)
     {
-      std::sort(triangle.begin(), triangle.end());
-      return triangle;
+      const std::vector<bool> is_near = vertices_of_own_cells(mesh);
+      std::vector<CellPart>   faces;
+      auto                    listed = mesh.faces.begin();
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        {
+          unsigned int boundaries[] = {unnamed, unnamed, unnamed, unnamed};
+          for (; listed != mesh.faces.end() && listed->cell == c; ++listed)
+            boundaries[listed->number] = listed->id;
+          for (unsigned int f = 0; f < 4; ++f)
+            {
+              const CellPart face{c, f, boundaries[f]};
+              const auto     v = vertices_of(mesh, face);
+              // A cell beside the own ones may have others behind its far side.
+              if (mesh.neighbors[c][f] == LocalMesh::no_cell &&
+                  (is_near[v[0]] || is_near[v[1]] || is_near[v[2]]))
+                faces.push_back(face);
+            }
+        }
+      return faces;
     }
 
 
 
-    // Adds to listed faces of a mesh all others of its surface, with the id @p
-    // unnamed. Returns the vertex inside of each.
-    std::vector<unsigned int>
-    complete(std::vector<SerialMesh::Face> &faces,
-             const SerialMesh              &mesh,
-             const unsigned int             unnamed)
+    dealii::Tensor<1, 3>
+    outer_normal(const LocalMesh &mesh, const CellPart &face)
     {
-      struct Side
-      {
-        Triangle     vertices;
-        unsigned int inside;
-      };
-      std::vector<Side> sides;
-      sides.reserve(4 * mesh.cells.size());
-      for (const SerialMesh::Cell &cell : mesh.cells)
-        for (unsigned int i = 0; i < 4; ++i)
-          sides.push_back({sorted({{cell.vertices[(i + 1) % 4],
-                                    cell.vertices[(i + 2) % 4],
-                                    cell.vertices[(i + 3) % 4]}}),
-                           cell.vertices[i]});
-      std::sort(sides.begin(), sides.end(), [](const Side &a, const Side &b) {
-        return a.vertices < b.vertices;
-      });
-      std::map<Triangle, std::size_t> known;
-      for (std::size_t f = 0; f < faces.size(); ++f)
-        known.emplace(sorted(faces[f].vertices), f);
-      std::vector<unsigned int> inside(faces.size());
-      for (std::size_t i = 0; i < sides.size(); ++i)
-        {
-          if (i + 1 < sides.size() &&
-              sides[i].vertices == sides[i + 1].vertices)
-            {
-              ++i;
-              continue;
-            }
-          if (const auto found = known.find(sides[i].vertices);
-              found != known.end())
-            inside[found->second] = sides[i].inside;
-          else
-            {
-              faces.push_back({sides[i].vertices, unnamed});
-              inside.push_back(sides[i].inside);
-            }
-        }
-      return inside;
+      const auto [a, b, c] = vertices_of(mesh, face);
+      const Point<3> &x    = mesh.vertices[a];
+      auto            normal =
+        dealii::cross_product_3d(mesh.vertices[b] - x, mesh.vertices[c] - x);
+      // Face f has all vertices but one, 3 - f.
+      const unsigned int inside =
+        mesh.cells[face.cell].vertices[3 - face.number];
+      if (normal * (mesh.vertices[inside] - x) > 0)
+        normal *= -1;
+      return normal / normal.norm();
     }
 
 
 
     // Faces that share an edge.
     std::vector<std::vector<unsigned int>>
-    neighbours(const std::vector<SerialMesh::Face> &faces)
+    neighbours(const LocalMesh &mesh, const std::vector<CellPart> &faces)
     {
-      std::vector<Triangle> halves;
+      std::vector<std::array<unsigned int, 3>> sides;
+      sides.reserve(3 * faces.size());
       for (unsigned int f = 0; f < faces.size(); ++f)
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            const unsigned int a = faces[f].vertices[i];
-            const unsigned int b = faces[f].vertices[(i + 1) % 3];
-            halves.push_back({{std::min(a, b), std::max(a, b), f}});
-          }
-      std::sort(halves.begin(), halves.end());
+        {
+          const auto v = vertices_of(mesh, faces[f]);
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              const auto [a, b] = ascending_ends(v[i], v[(i + 1) % 3]);
+              sides.push_back({{a, b, f}});
+            }
+        }
+      std::sort(sides.begin(), sides.end());
       std::vector<std::vector<unsigned int>> result(faces.size());
-      for (std::size_t i = 0; i + 1 < halves.size(); ++i)
-        if (halves[i][0] == halves[i + 1][0] &&
-            halves[i][1] == halves[i + 1][1])
-          {
-            result[halves[i][2]].push_back(halves[i + 1][2]);
-            result[halves[i + 1][2]].push_back(halves[i][2]);
-          }
+      for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
+        {
+          while (end < sides.size() && sides[end][0] == sides[begin][0] &&
+                 sides[end][1] == sides[begin][1])
+            ++end;
+          for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t j = begin; j < end; ++j)
+              if (i != j)
+                result[sides[i][2]].push_back(sides[j][2]);
+        }
       return result;
     }
   } // namespace
 
 
 
-  double
-  tolerance(const SerialMesh &mesh)
+  std::array<unsigned int, 3>
+  vertices_of(const LocalMesh &mesh, const CellPart &face)
   {
-    const dealii::BoundingBox<3> box(mesh.vertices);
-    const auto [low, high] = box.get_boundary_points();
-    return 1e-6 * low.distance(high);
+    const auto &v        = mesh.cells[face.cell].vertices;
+    const auto [i, j, k] = corners_of_faces[face.number];
+    return {{v[i], v[j], v[k]}};
   }
 
 
 
-  bool
-  is_place(const SerialMesh &mesh, const std::string &name)
+  std::vector<bool>
+  vertices_of_own_cells(const LocalMesh &mesh)
   {
-    return !mesh.boundaries.ids(name).empty() ||
-           !mesh.edge_names.ids(name).empty() ||
-           !mesh.corner_names.ids(name).empty();
-  }
-
-
-
-  unsigned int
-  id_without_name(const SerialMesh &mesh)
-  {
-    unsigned int result = 0;
-    for (const SerialMesh::Face &face : mesh.faces)
-      result = std::max(result, face.boundary + 1);
-    for (const auto &[id, name] : mesh.boundaries.names)
-      result = std::max(result, id + 1);
+    std::vector<bool> result(mesh.vertices.size(), false);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.is_owned(c))
+        for (const unsigned int v : mesh.cells[c].vertices)
+          result[v] = true;
     return result;
   }
 
 
 
-  Surface
-  surface_of(const SerialMesh &mesh, const unsigned int unnamed)
+  double
+  tolerance(const LocalMesh &mesh)
   {
-    Surface                         surface{mesh.faces, {}};
-    const std::vector<unsigned int> inside =
-      complete(surface.faces, mesh, unnamed);
-    Members &members   = surface.members;
-    members.kind       = "face";
-    members.tolerance  = tolerance(mesh);
-    members.neighbours = neighbours(surface.faces);
-    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    constexpr double      infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 3> low{{infinity, infinity, infinity}};
+    std::array<double, 3> high{{-infinity, -infinity, -infinity}};
+    for (const Point<3> &x : mesh.vertices)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          low[d]  = std::min(low[d], x[d]);
+          high[d] = std::max(high[d], x[d]);
+        }
+    double sum = 0;
+    for (unsigned int d = 0; d < 3; ++d)
       {
-        std::vector<Point<3>> x;
-        for (const unsigned int v : surface.faces[f].vertices)
-          x.push_back(mesh.vertices[v]);
-        auto normal = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
-        if (normal * (mesh.vertices[inside[f]] - x[0]) > 0)
-          normal *= -1;
-        members.normals.push_back(normal / normal.norm());
-        members.points.push_back(x);
+        const double length = MPI::max(high[d], mesh.communicator) -
+                              MPI::min(low[d], mesh.communicator);
+        sum += length * length;
       }
+    return 1e-6 * std::sqrt(sum);
+  }
+
+
+
+  bool
+  is_place(const UsedNames &names, const std::string &name)
+  {
+    return !names.boundaries.ids(name).empty() ||
+           !names.edges.ids(name).empty() || !names.corners.ids(name).empty();
+  }
+
+
+
+  unsigned int
+  id_without_name(const NamedSets &boundaries)
+  {
+    return boundaries.names.empty() ? 0 : boundaries.names.rbegin()->first + 1;
+  }
+
+
+
+  std::vector<unsigned int>
+  ids_of_all(std::vector<unsigned int> own, const MPI_Comm comm)
+  {
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    return MPI::compute_set_union(own, comm);
+  }
+
+
+
+  Surface
+  surface_of(const LocalMesh   &mesh,
+             const GhostCells  &ghosts,
+             const unsigned int unnamed)
+  {
+    Surface  surface{faces_of(mesh, unnamed), {}};
+    Members &members     = surface.members;
+    members.kind         = "face";
+    members.communicator = mesh.communicator;
+    members.n_points     = 3;
+    members.tolerance    = tolerance(mesh);
+    members.has_normals  = true;
+    members.neighbours   = neighbours(mesh, surface.faces);
+    for (const CellPart &face : surface.faces)
+      {
+        for (const unsigned int v : vertices_of(mesh, face))
+          members.points.push_back(mesh.vertices[v]);
+        members.normals.push_back(outer_normal(mesh, face));
+        members.is_counted.push_back(mesh.is_owned(face.cell));
+        const std::uint64_t number = 4 * mesh.numbers[face.cell] + face.number;
+        members.keys.push_back(
+          face.id == unnamed ? 4 * mesh.n_global_cells + number : number);
+      }
+    members.update = [&mesh, &ghosts, faces = surface.faces](
+                       std::vector<unsigned char> &values) {
+      std::vector<unsigned char> of_cells(4 * mesh.cells.size());
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        of_cells[4 * faces[f].cell + faces[f].number] = values[f];
+      ghosts.update(of_cells, 4);
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        values[f] = of_cells[4 * faces[f].cell + faces[f].number];
+    };
     return surface;
   }
 } // namespace corotet::selections

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/mesh/facets.h>
 #include <corotet/mesh/selections.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 
@@ -12,8 +13,25 @@ namespace corotet
 {
   namespace
   {
+    namespace MPI = dealii::Utilities::MPI;
     using dealii::Point;
     using selections::Members;
+
+    /// Of each member, where its id is.
+    using Ids = std::vector<unsigned int *>;
+
+
+
+    std::vector<unsigned int>
+    values(const Ids &ids)
+    {
+      std::vector<unsigned int> result;
+      result.reserve(ids.size());
+      for (const unsigned int *id : ids)
+        if (result.empty() || result.back() != *id)
+          result.push_back(*id);
+      return result;
+    }
 
 
 
@@ -30,105 +48,181 @@ namespace corotet
 
     // Which members have an id that a name means. @p unnamed: of those that
     // have no name, unless a selection means them.
-    template <typename Id>
     std::function<std::vector<bool>(const std::string &)>
     by_name(const std::string &kind,
             const NamedSets   &named,
-            const std::size_t  n,
+            const Ids         &id_of_member,
             const std::string &entry,
-            const Id          &id,
-            const unsigned int unnamed = no_boundary)
+            const MPI_Comm     comm,
+            const unsigned int unnamed)
     {
-      return [=, &named](const std::string &name) {
-        NamedSets                 known = named;
-        std::vector<unsigned int> used;
-        const bool                has_unnamed = is_meant(named, unnamed);
-        for (std::size_t i = 0; i < n; ++i)
-          if (id(i) != unnamed || has_unnamed)
-            used.push_back(id(i));
+      return [=, &named, &id_of_member](const std::string &name) {
+        std::vector<unsigned int> used =
+          selections::ids_of_all(values(id_of_member), comm);
+        if (!is_meant(named, unnamed))
+          std::erase(used, unnamed);
+        NamedSets known = named;
         known.restrict_to(used);
         const std::vector<unsigned int> ids =
           MeshNames(kind, known).ids(name, entry);
-        std::vector<bool> result(n);
-        for (std::size_t i = 0; i < n; ++i)
-          result[i] = std::binary_search(ids.begin(), ids.end(), id(i));
+        std::vector<bool> result(id_of_member.size());
+        for (std::size_t i = 0; i < result.size(); ++i)
+          result[i] =
+            std::binary_search(ids.begin(), ids.end(), *id_of_member[i]);
         return result;
       };
     }
 
 
 
+    // NamedSets::add() for members of all ranks.
     void
-    select_faces(SerialMesh &mesh, const std::string &text, Log &log)
+    add_on_ranks(NamedSets                      &named,
+                 const std::string              &name,
+                 const std::vector<std::size_t> &chosen,
+                 const Members                  &members,
+                 const Ids                      &id_of_member)
     {
-      const std::string  entry   = "Selections/Boundaries";
-      const unsigned int unnamed = selections::id_without_name(mesh);
-      // No selection gets this id.
-      mesh.boundaries.names.emplace(unnamed, "");
-      selections::Surface surface = selections::surface_of(mesh, unnamed);
-      mesh.faces                  = std::move(surface.faces);
-      std::vector<unsigned int *> ids;
-      for (SerialMesh::Face &face : mesh.faces)
-        ids.push_back(&face.boundary);
-      surface.members.with_name = by_name(
-        "boundary",
-        mesh.boundaries,
-        ids.size(),
-        entry,
-        [&ids](const std::size_t i) { return *ids[i]; },
-        unnamed);
-      selections::select_by_names(
-        text,
-        entry,
-        surface.members,
-        [&](const std::string &name) {
-          return selections::is_place(mesh, name);
-        },
-        [&](const std::string &name, const auto &chosen) {
-          mesh.boundaries.add(name, chosen, ids);
-        },
-        log);
-      if (!is_meant(mesh.boundaries, unnamed))
-        std::erase_if(mesh.faces, [&](const SerialMesh::Face &face) {
-          return face.boundary == unnamed;
-        });
+      Ids ids_of_set;
+      for (const std::size_t i : chosen)
+        ids_of_set.push_back(id_of_member[i]);
+      const MPI_Comm                  comm = members.communicator;
+      const std::vector<unsigned int> ids =
+        selections::ids_of_all(values(ids_of_set), comm);
+      const auto place_of = [&](const unsigned int id) {
+        return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
+      };
+      std::vector<std::uint64_t> n_members(ids.size()), n_in_set(ids.size());
+      unsigned int               first_free = 0;
+      for (std::size_t i = 0; i < id_of_member.size(); ++i)
+        {
+          const unsigned int id    = *id_of_member[i];
+          const std::size_t  place = place_of(id);
+          first_free               = std::max(first_free, id + 1);
+          if (members.is_counted[i] && place < ids.size() && ids[place] == id)
+            ++n_members[place];
+        }
+      for (const std::size_t i : chosen)
+        if (members.is_counted[i])
+          ++n_in_set[place_of(*id_of_member[i])];
+      MPI::sum(n_members, comm, n_members);
+      MPI::sum(n_in_set, comm, n_in_set);
+
+      std::vector<NamedSets::IdCount> counts;
+      for (std::size_t k = 0; k < ids.size(); ++k)
+        counts.push_back({ids[k], n_members[k], n_in_set[k]});
+      const auto part_of = named.add(name, counts, MPI::max(first_free, comm));
+      for (unsigned int *const id : ids_of_set)
+        if (const auto part = part_of.find(*id); part != part_of.end())
+          *id = part->second;
     }
 
 
 
     void
-    select_cells(SerialMesh &mesh, const std::string &text, Log &log)
+    select_faces(LocalMesh         &mesh,
+                 UsedNames         &names,
+                 const GhostCells  &ghosts,
+                 const std::string &text,
+                 Log               &log)
     {
-      const std::string           entry = "Selections/Regions";
-      Members                     cells;
-      std::vector<unsigned int *> ids;
-      cells.kind      = "cell";
-      cells.tolerance = selections::tolerance(mesh);
-      for (SerialMesh::Cell &cell : mesh.cells)
-        {
-          Point<3> centre;
-          for (const unsigned int v : cell.vertices)
-            centre += mesh.vertices[v] / 4.;
-          cells.points.push_back({centre});
-          ids.push_back(&cell.region);
-        }
-      cells.with_name =
-        by_name("region",
-                mesh.regions,
-                ids.size(),
-                entry,
-                [&ids](const std::size_t i) { return *ids[i]; });
+      const std::string  entry      = "Selections/Boundaries";
+      NamedSets         &boundaries = names.boundaries;
+      const unsigned int unnamed    = selections::id_without_name(boundaries);
+      // No selection gets this id.
+      boundaries.names.emplace(unnamed, "");
+      selections::Surface surface =
+        selections::surface_of(mesh, ghosts, unnamed);
+      Ids ids;
+      for (CellPart &face : surface.faces)
+        ids.push_back(&face.id);
+      surface.members.with_name =
+        by_name("boundary", boundaries, ids, entry, mesh.communicator, unnamed);
+      selections::select_by_names(
+        text,
+        entry,
+        surface.members,
+        [&](const std::string &name) {
+          return selections::is_place(names, name);
+        },
+        [&](const std::string &name, const auto &chosen) {
+          add_on_ranks(boundaries, name, chosen, surface.members, ids);
+        },
+        log);
+
+      // Also of faces of cells beside the own ones that only others know to be
+      // on the surface.
+      constexpr unsigned int    none = LocalMesh::no_cell;
+      std::vector<unsigned int> of_cells(4 * mesh.cells.size(), none);
+      const bool                is_kept = is_meant(boundaries, unnamed);
+      for (const auto &[c, f, id] : surface.faces)
+        if (id != unnamed || is_kept)
+          of_cells[4 * c + f] = id;
+      ghosts.update(of_cells, 4);
+      mesh.faces.clear();
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        for (unsigned int f = 0; f < 4; ++f)
+          if (const unsigned int id = of_cells[4 * c + f]; id != none)
+            mesh.faces.push_back({c, f, id});
+      std::vector<unsigned int> used = values(ids);
+      if (!is_kept)
+        std::erase(used, unnamed);
+      boundaries.restrict_to(selections::ids_of_all(used, mesh.communicator));
+    }
+
+
+
+    void
+    select_cells(LocalMesh         &mesh,
+                 UsedNames         &names,
+                 const GhostCells  &ghosts,
+                 const std::string &text,
+                 Log               &log)
+    {
+      const std::string entry = "Selections/Regions";
+      Members           cells;
+      Ids               ids;
+      cells.kind         = "cell";
+      cells.communicator = mesh.communicator;
+      cells.tolerance    = selections::tolerance(mesh);
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        if (mesh.is_owned(c))
+          {
+            Point<3> centre;
+            for (const unsigned int v : mesh.cells[c].vertices)
+              centre += mesh.vertices[v] / 4.;
+            cells.points.push_back(centre);
+            ids.push_back(&mesh.cells[c].region);
+          }
+      cells.is_counted.assign(ids.size(), true);
+      cells.with_name = by_name("region",
+                                names.regions,
+                                ids,
+                                entry,
+                                mesh.communicator,
+                                dealii::numbers::invalid_unsigned_int);
       selections::select_by_names(
         text,
         entry,
         cells,
         [&](const std::string &name) {
-          return !mesh.regions.ids(name).empty();
+          return !names.regions.ids(name).empty();
         },
         [&](const std::string &name, const auto &chosen) {
-          mesh.regions.add(name, chosen, ids);
+          add_on_ranks(names.regions, name, chosen, cells, ids);
         },
         log);
+
+      ghosts.send<unsigned int>(
+        1,
+        [&](const unsigned int c, unsigned int *const sent) {
+          *sent = mesh.cells[c].region;
+        },
+        [&](const unsigned int c, const unsigned int *const received) {
+          mesh.cells[c].region = *received;
+        });
+      names.regions.restrict_to(
+        selections::ids_of_all(values(ids), mesh.communicator));
     }
   } // namespace
 
@@ -172,15 +266,21 @@ namespace corotet
 
 
   void
-  select(SerialMesh &mesh, const SelectionParameters &parameters, Log &log)
+  select(LocalMesh                 &mesh,
+         UsedNames                 &names,
+         const SelectionParameters &parameters,
+         Log                       &log)
   {
+    if (!parameters.are_given())
+      return;
+    const GhostCells ghosts(mesh);
     if (!parameters.boundaries.empty())
-      select_faces(mesh, parameters.boundaries, log);
+      select_faces(mesh, names, ghosts, parameters.boundaries, log);
     if (!parameters.regions.empty())
-      select_cells(mesh, parameters.regions, log);
+      select_cells(mesh, names, ghosts, parameters.regions, log);
     if (!parameters.edges.empty())
-      selections::select_edges(mesh, parameters.edges, log);
+      selections::select_edges(mesh, names, ghosts, parameters.edges, log);
     if (!parameters.corners.empty())
-      selections::select_corners(mesh, parameters.corners, log);
+      selections::select_corners(mesh, names, ghosts, parameters.corners, log);
   }
 } // namespace corotet

@@ -4,9 +4,6 @@
 // Edges and corners that have names are held at all their nodes, and only
 // there, on any number of ranks.
 
-#include <corotet/mesh/refinement.h>
-#include <corotet/mesh/selections.h>
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +11,7 @@
 
 #include "../body.h"
 #include "../refusal.h"
+#include "../serial_meshes.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -44,12 +42,10 @@ namespace
   SerialMesh
   box_with_lines(const unsigned int n_refinements)
   {
-    SerialMesh          mesh = box("1, 1, 1", "2, 2, 2");
     SelectionParameters selections;
     selections.edges   = "belt: plane 0 0 0.5 0 0 1, brow: x-min and z-max";
     selections.corners = "heart: sphere 0.5 0.5 0.5 0.01";
-    Log log(MPI_COMM_SELF, true);
-    select(mesh, selections, log);
+    SerialMesh mesh    = with_selections(box("1, 1, 1", "2, 2, 2"), selections);
     refine_uniformly(mesh, n_refinements);
     return mesh;
   }

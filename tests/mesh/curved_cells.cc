@@ -6,7 +6,6 @@
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh.h>
-#include <corotet/mesh/refinement.h>
 
 #include <fmt/format.h>
 #include <gmsh.h>

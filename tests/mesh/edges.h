@@ -4,8 +4,6 @@
 #ifndef corotet_tests_mesh_edges_h
 #define corotet_tests_mesh_edges_h
 
-#include <corotet/mesh/selections.h>
-
 #include <algorithm>
 
 #include "../body.h"
@@ -44,14 +42,11 @@ namespace corotet::tests
            const std::string &corners    = "",
            const std::string &boundaries = "")
   {
-    SerialMesh          mesh = tests::box("2, 1, 1", "8, 4, 4");
     SelectionParameters parameters;
     parameters.edges      = edges;
     parameters.corners    = corners;
     parameters.boundaries = boundaries;
-    Log log(MPI_COMM_SELF, true);
-    select(mesh, parameters, log);
-    return mesh;
+    return with_selections(tests::box("2, 1, 1", "8, 4, 4"), parameters);
   }
 } // namespace corotet::tests
 

@@ -9,7 +9,6 @@
 #include <corotet/mesh/abaqus_file.h>
 #include <corotet/mesh/edges.h>
 #include <corotet/mesh/mesh_report.h>
-#include <corotet/mesh/refinement.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 // Names by place.
 
 #include <corotet/mesh/box_mesh.h>
-#include <corotet/mesh/selections.h>
 
 #include <gtest/gtest.h>
 
@@ -42,16 +41,14 @@ namespace
     }
 
     static SerialMesh
-    with(SerialMesh         mesh,
+    with(const SerialMesh  &mesh,
          const std::string &boundaries,
          const std::string &regions = "")
     {
-      Log                 log(MPI_COMM_SELF, true);
       SelectionParameters parameters;
       parameters.boundaries = boundaries;
       parameters.regions    = regions;
-      select(mesh, parameters, log);
-      return mesh;
+      return with_selections(mesh, parameters);
     }
 
     static double

@@ -17,6 +17,7 @@
 #include <functional>
 
 #include "../refusal.h"
+#include "../serial_meshes.h"
 #include "../source_path.h"
 #include "../temporary_folder.h"
 

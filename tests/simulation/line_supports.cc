@@ -4,7 +4,6 @@
 // Bodies that are held at lines and points: their names are selections.
 
 #include <corotet/discretization/rigid_motions.h>
-#include <corotet/mesh/selections.h>
 #include <corotet/time_integration/load_stepping.h>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 
 #include <cmath>
 
+#include "../serial_meshes.h"
 #include "modal.h"
 
 using namespace corotet;
@@ -27,16 +27,14 @@ namespace
   }
 
   SerialMesh
-  with_names(SerialMesh         mesh,
+  with_names(const SerialMesh  &mesh,
              const std::string &edges,
              const std::string &corners = "")
   {
     SelectionParameters selections;
     selections.edges   = edges;
     selections.corners = corners;
-    Log log(MPI_COMM_SELF, true);
-    select(mesh, selections, log);
-    return mesh;
+    return with_selections(mesh, selections);
   }
 
   void

@@ -36,13 +36,8 @@ namespace corotet
   void
   check_vertices(const SerialMesh &mesh);
 
-  /// The part of check_mesh() that looks at volumes and folds.
-  void
-  check_cells(const MeshCells   &mesh,
-              const std::string &origin,
-              const unsigned int element_degree);
-
-  /// The same of a mesh that is spread over the ranks. Collective.
+  /// The part of check_mesh() that looks at volumes and folds, of a mesh that
+  /// is spread over the ranks. Collective.
   void
   check_cells_on_ranks(const MeshPart    &part,
                        const std::string &origin,

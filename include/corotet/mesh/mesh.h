@@ -163,15 +163,15 @@ namespace corotet
 
   private:
     /// What constructors end with: the cells of @p mesh are not yet checked,
-    /// refined, multiplied by the scale, and sorted.
+    /// refined, as often as is left to be done, multiplied by the scale, and
+    /// sorted.
     void
-    set_up(SpreadMesh       &&mesh,
-           const unsigned int n_refinements,
-           const double       scale,
-           const Partitioner  partitioner,
-           const MPI_Comm     comm,
-           Log               &log,
-           const unsigned int element_degree);
+    set_up(SpreadMesh          &&mesh,
+           const unsigned int    n_refinements,
+           const MeshParameters &parameters,
+           const MPI_Comm        comm,
+           Log                  &log,
+           const unsigned int    element_degree);
 
     /// Gives cells to ranks by PT-Scotch.
     void

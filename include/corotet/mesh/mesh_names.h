@@ -7,6 +7,7 @@
 #include <deal.II/base/types.h>
 
 #include <compare>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -49,6 +50,21 @@ namespace corotet
     add(const std::string                 &name,
         const std::vector<std::size_t>    &members,
         const std::vector<unsigned int *> &id_of_member);
+
+    /// How many members have an id, and how many of them are in a set.
+    struct IdCount
+    {
+      unsigned int  id;
+      std::uint64_t n_members, n_in_set;
+    };
+
+    /// The same of members that are counted: @p counts has the ids of the set,
+    /// ascending, @p first_free is above the ids of all members. Returns, by
+    /// their ids, the new ones of members of the set whose ids are split.
+    std::map<unsigned int, unsigned int>
+    add(const std::string          &name,
+        const std::vector<IdCount> &counts,
+        const unsigned int          first_free);
 
     /// Forgets ids that are not in @p used, and sets that are empty then;
     /// used ids without a name are known by their number.

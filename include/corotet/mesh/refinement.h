@@ -19,10 +19,6 @@ namespace corotet
   refine_uniformly(MeshPart          &part,
                    const unsigned int n_refinements,
                    const MPI_Comm     comm);
-
-  /// The same for a whole mesh. Vertices keep their numbers.
-  void
-  refine_uniformly(SerialMesh &mesh, const unsigned int n_refinements);
 } // namespace corotet
 
 #endif

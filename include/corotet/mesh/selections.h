@@ -5,7 +5,6 @@
 #define corotet_mesh_selections_h
 
 #include <corotet/base/log.h>
-#include <corotet/mesh/serial_mesh.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -13,6 +12,9 @@
 
 namespace corotet
 {
+  struct LocalMesh;
+  struct UsedNames;
+
   /**
    * The parameters of section Selections, as text: lists "name: selection".
    *
@@ -56,9 +58,13 @@ namespace corotet
    * Gives names to what is selected in a mesh, in addition to those that there
    * are, and logs how much it is. Throws InputError if a text is no selection,
    * and if nothing is selected, with the distance of what is nearest.
+   * Collective.
    */
   void
-  select(SerialMesh &mesh, const SelectionParameters &parameters, Log &log);
+  select(LocalMesh                 &mesh,
+         UsedNames                 &names,
+         const SelectionParameters &parameters,
+         Log                       &log);
 } // namespace corotet
 
 #endif

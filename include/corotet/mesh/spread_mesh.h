@@ -27,8 +27,6 @@ namespace corotet
     double                   scatter_time = 0;
     std::vector<std::string> remarks;
     std::set<unsigned int>   faceted;
-    /// Whether rank 0 has told the log of the mesh.
-    bool is_described = false;
   };
 } // namespace corotet
 

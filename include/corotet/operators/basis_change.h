@@ -157,9 +157,9 @@ namespace corotet
       T even_vertex, odd_vertex, even_edge, odd_edge;
     };
     static constexpr OfEdge of_edge = [] {
-      constexpr auto  &row   = bernstein::from_lagrange<3>[4];
-      constexpr double first = row[tetrahedron::edges[0][0]];
-      constexpr double last  = row[tetrahedron::edges[0][1]];
+      constexpr const auto &row   = bernstein::from_lagrange<3>[4];
+      constexpr double      first = row[tetrahedron::edges[0][0]];
+      constexpr double      last  = row[tetrahedron::edges[0][1]];
       return OfEdge{T((first + last) / 2),
                     T((first - last) / 2),
                     T((row[4] + row[5]) / 2),
@@ -173,7 +173,7 @@ namespace corotet
       T vertex, edge, face;
     };
     static constexpr OfFace of_face = [] {
-      constexpr auto &row = bernstein::from_lagrange<3>[16];
+      constexpr const auto &row = bernstein::from_lagrange<3>[16];
       return OfFace{
         T(row[tetrahedron::faces[0][0]]),
         T(row[first_node_of_edge(tetrahedron::edges_of_faces[0][0])]),
