@@ -94,8 +94,9 @@ namespace corotet
     const Simulation *coarse = run.simulation();
     if (fine == nullptr)
       return;
-    const GatheredField field(coarse->body().discretization,
-                              coarse->displacement());
+    const TransferredField field(coarse->body().discretization,
+                                 coarse->displacement(),
+                                 fine->body().discretization);
     result.errors =
       error_norms(fine->body().discretization,
                   fine->body().materials,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A field that every rank has as a whole: polynomials of the elements' degree
-// are reproduced everywhere, by each rank, and so are their norms.
+// A field on one mesh that is evaluated in the cells of another: polynomials of
+// the elements' degree are reproduced wherever a rank has such cells, and so
+// are their norms.
 
 #include <corotet/operators/error_norms.h>
-#include <corotet/studies/gathered_field.h>
+#include <corotet/studies/transferred_field.h>
 
 #include <gtest/gtest.h>
 
@@ -34,26 +35,28 @@ namespace
   }
 } // namespace
 
-TEST(GatheredField, ReproducesPolynomials)
+TEST(TransferredField, ReproducesPolynomials)
 {
   const MovingBody body(box("1, 1, 1", "3, 3, 3", 0.2),
                         element_text(Element(3)));
   const Vector     u =
     body.interpolate([](const Point<3> &x) { return cubic(x).value; });
-  const GatheredField field(body.discretization, u);
-  // Corners, sides, the inside; also outside by round-off.
-  for (const Point<3> x : {Point<3>(0, 0, 0),
-                           Point<3>(1, 1, 1),
-                           Point<3>(1, 0.3, 0.77),
-                           Point<3>(0.123, 0.456, 0.789),
-                           Point<3>(1 + 1e-15, 0.5, 0.5),
-                           Point<3>(0.9, 0.1, 0.2)})
-    {
-      const PointDisplacement found = field.value(x);
-      // Coordinates, shape functions and their sum: some ten times round-off.
-      EXPECT_LT((found.value - cubic(x).value).norm(), 1e-14);
-      EXPECT_LT((found.gradient - cubic(x).gradient).norm(), 1e-13);
-    }
+  // Of other cells, which the ranks have others of: their nodes are corners,
+  // sides and the inside; and some outside by round-off.
+  const MovingBody other(box("1, 1, 1", "4, 5, 6"), element_text(Element(2)));
+  const Discretization  &target = other.discretization;
+  const TransferredField field(body.discretization, u, target);
+  for (unsigned int c = 0; c < target.n_owned_cells(); ++c)
+    for (const unsigned int n : target.cell_nodes(c))
+      {
+        Point<3> x = target.node_position(n);
+        if (x[0] == 1)
+          x[0] += 1e-15;
+        const PointDisplacement found = field.value(x);
+        // Coordinates, shape functions and their sum: some ten times round-off.
+        EXPECT_LT((found.value - cubic(x).value).norm(), 1e-14);
+        EXPECT_LT((found.gradient - cubic(x).gradient).norm(), 1e-13);
+      }
 }
 
 // The rule is exact for these: integrals over the unit cube, by hand.

@@ -7,8 +7,8 @@
 #include <corotet/base/log.h>
 #include <corotet/output/checkpoints.h>
 #include <corotet/simulation/command_line.h>
-#include <corotet/studies/gathered_field.h>
 #include <corotet/studies/study_run.h>
+#include <corotet/studies/transferred_field.h>
 
 #include <memory>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#ifndef corotet_studies_gathered_field_h
-#define corotet_studies_gathered_field_h
+#ifndef corotet_studies_transferred_field_h
+#define corotet_studies_transferred_field_h
 
 #include <corotet/base/vector.h>
 #include <corotet/operators/error_norms.h>
@@ -15,19 +15,23 @@
 namespace corotet
 {
   /**
-   * A displacement that every rank has as a whole, to be evaluated anywhere:
-   * for meshes that fit into the memory of one rank.
+   * A displacement on one mesh, to be evaluated where another mesh of the body
+   * has cells: each rank has what lies at those of the other mesh that it owns.
+   * Cells of the first one must be straight.
    */
-  class GatheredField
+  class TransferredField
   {
   public:
-    /// @p u with ghost entries up to date. Collective.
-    GatheredField(const Discretization &discretization, const Vector &u);
-    ~GatheredField();
+    /// @p u on the mesh of @p source, with ghost entries up to date, for the
+    /// cells of @p target. Collective.
+    TransferredField(const Discretization &source,
+                     const Vector         &u,
+                     const Discretization &target);
+    ~TransferredField();
 
     /// The value in the cell that @p x is in, or is nearest to by barycentric
-    /// coordinates. Fast for points that follow each other closely. Not
-    /// collective.
+    /// coordinates, for a point in an owned cell of the other mesh. Fast for
+    /// points that follow each other closely. Not collective.
     PointDisplacement
     value(const dealii::Point<3> &x) const;
 
@@ -39,10 +43,10 @@ namespace corotet
     reference_point(const unsigned int cell, const dealii::Point<3> &x) const;
 
     const dealii::FiniteElement<3> &fe;
-    /// Of each cell: vertex 0, the inverse of its Jacobian, values
+    /// Numbers for each cell: vertex 0, the inverse of its Jacobian, values
     /// [node][component].
-    std::vector<double>           data;
     unsigned int                  stride;
+    std::vector<double>           data;
     std::unique_ptr<const Search> search;
     mutable unsigned int          last_cell = 0;
   };
