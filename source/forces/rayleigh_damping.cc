@@ -141,7 +141,7 @@ namespace corotet
                              const ForceRoundOff &noise) const
   {
     return coefficients.stiffness > 0 ?
-             coefficients.stiffness * noise.of_product(motion.v) :
+             coefficients.stiffness * noise.of_displacement(motion.v) :
              0;
   }
 

@@ -44,7 +44,7 @@ namespace corotet
   double
   EffectiveOperator::round_off(const Vector &v) const
   {
-    return c_K * noise->of_product(v) +
+    return c_K * noise->of_displacement(v) +
            (surface_operator ? surface_operator->round_off(v) : 0.);
   }
 

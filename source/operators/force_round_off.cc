@@ -20,13 +20,12 @@ namespace corotet
     // Of displacements, in machine precisions: their own rounding, and those
     // of the sums that make a gradient of them.
     constexpr double displacement_noise = 1;
+    constexpr double precision = std::numeric_limits<double>::epsilon();
   } // namespace
 
   ForceRoundOff::ForceRoundOff(const Discretization &discretization,
                                const Elasticity     &elasticity)
-    : has_rotations(!elasticity.law().is_linear())
-    , by_strain(has_rotations ? discretization.n_owned_nodes() : 0)
-    , by_displacement(discretization.n_owned_nodes())
+    : by_displacement(discretization.n_owned_nodes())
   {
     const ReferenceElement &reference = elasticity.reference_element();
     // One component of each node is the first of the two, another the second.
@@ -60,28 +59,21 @@ namespace corotet
           }
       }
     sums.compress(dealii::VectorOperation::add);
+    double of_unit_strains = 0;
     for (unsigned int n = 0; n < by_displacement.size(); ++n)
       {
-        if (has_rotations)
-          by_strain[n] = sums.local_element(3 * n);
+        of_unit_strains += sums.local_element(3 * n);
         by_displacement[n] = sums.local_element(3 * n + 1);
       }
+    if (!elasticity.law().is_linear())
+      by_rotations =
+        corotational_noise * precision *
+        std::sqrt(dealii::Utilities::MPI::sum(of_unit_strains,
+                                              sums.get_mpi_communicator()));
   }
 
   double
-  ForceRoundOff::of_force(const Vector &u) const
-  {
-    return estimate(u, corotational_noise);
-  }
-
-  double
-  ForceRoundOff::of_product(const Vector &v) const
-  {
-    return estimate(v, 0.);
-  }
-
-  double
-  ForceRoundOff::estimate(const Vector &u, const double strain_noise) const
+  ForceRoundOff::of_displacement(const Vector &u) const
   {
     double sum = 0;
     for (unsigned int n = 0; n < by_displacement.size(); ++n)
@@ -89,12 +81,9 @@ namespace corotet
         double square = 0;
         for (unsigned int a = 0; a < 3; ++a)
           square += u.local_element(3 * n + a) * u.local_element(3 * n + a);
-        if (has_rotations)
-          sum += strain_noise * strain_noise * by_strain[n];
-        sum +=
-          displacement_noise * displacement_noise * square * by_displacement[n];
+        sum += square * by_displacement[n];
       }
-    return std::numeric_limits<double>::epsilon() *
+    return displacement_noise * precision *
            std::sqrt(
              dealii::Utilities::MPI::sum(sum, u.get_mpi_communicator()));
   }

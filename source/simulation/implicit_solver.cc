@@ -168,7 +168,11 @@ namespace corotet
     // counts, for a linear problem whose solution has none.
     if (is_linear())
       stage_scale = std::max(stage_scale, least_share * force_scale);
-    return {sizes[0], std::max(stage_scale, force_scale), round_off()};
+    const RoundOffOfForces noise = round_off();
+    return {sizes[0],
+            std::max(stage_scale, force_scale),
+            noise.sure,
+            noise.most};
   }
 
   bool

@@ -19,17 +19,19 @@ namespace corotet
     constexpr double far_away = 1e3;
   } // namespace
 
-  double
+  ImplicitSolver::RoundOffOfForces
   ImplicitSolver::round_off()
   {
     const ForceRoundOff &noise = effective_operator->force_round_off();
-    const double         sum =
-      noise.of_force(equation.displacement()) + 4 * precision * force_scale +
+    const double         sure =
+      noise.of_displacement(equation.displacement()) +
+      4 * precision * force_scale +
       equation.terms.round_off(equation.last_motion(), external_force, noise);
+    const double most = sure + noise.of_rotations();
     has_run_away =
-      external_force > 0 && sum > external_force && is_out_of_reach();
-    force_noise = has_run_away ? 0. : sum;
-    return force_noise;
+      external_force > 0 && most > external_force && is_out_of_reach();
+    force_noise = has_run_away ? 0. : sure;
+    return {force_noise, has_run_away ? 0. : most};
   }
 
   bool

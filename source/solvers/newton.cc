@@ -21,14 +21,12 @@ namespace corotet
     constexpr unsigned int longest_pause = 16;
     // Trials of a line search: the last are some 1e-4 of the increment.
     constexpr unsigned int max_trials = 10;
+    // Where a residual may be round-off: what a full increment leaves of it
+    // then at least, and iterations after which others have converged.
+    constexpr double       stalled = 0.5;
+    constexpr unsigned int many    = 5;
     // Residuals this much above the best one are divergence.
     constexpr double divergence = 1e8;
-
-    bool
-    is_finite(const NewtonProblem::Norm &norm)
-    {
-      return std::isfinite(norm.value) && std::isfinite(norm.scale);
-    }
   } // namespace
 
   /**
@@ -52,11 +50,10 @@ namespace corotet
     {
       n_expected            = std::exchange(newton.n_last, 0);
       residual              = problem.residual(r);
-      report.first_residual = relative_residual();
-      if (!is_finite(residual))
+      report.first_residual = report.final_residual = relative_residual();
+      if (!residual.is_finite())
         throw ComputationError("the forces are not finite in Newton iteration "
                                "0");
-      report.final_residual = relative_residual();
       if (residual.value <=
           1e-3 * parameters.residual_tolerance * residual.scale)
         return;
@@ -100,10 +97,14 @@ namespace corotet
       return residual.value > 0 ? residual.value / residual.scale : 0.;
     }
 
+    // What may be round-off is taken for it if a full increment has not made it
+    // smaller, or if there were many.
     bool
     is_round_off() const
     {
-      return residual.value <= residual.round_off;
+      const bool was_tried = has_stalled || report.iterations >= many;
+      return residual.value <= residual.round_off ||
+             (was_tried && residual.value <= residual.most_round_off);
     }
 
     bool
@@ -227,7 +228,8 @@ namespace corotet
       const NewtonProblem::Norm increment = problem.add(1., dx);
       residual                            = problem.residual(r);
       increment_is_round_off = increment.value <= increment.round_off;
-      if (is_finite(residual) &&
+      has_stalled            = residual.value > stalled * previous;
+      if (residual.is_finite() &&
           (residual.value < best || is_round_off() || increment_is_round_off ||
            (n_without_progress < patience &&
             residual.value < divergence * best)))
@@ -254,6 +256,7 @@ namespace corotet
     {
       ++report.line_searches;
       increment_is_round_off = false;
+      has_stalled            = false;
       problem.restore();
       residual = problem.residual(r);
       if (!dx_is_known)
@@ -290,7 +293,7 @@ namespace corotet
           const NewtonProblem::Norm increment = problem.add(length, dx);
           residual                            = problem.residual(r);
           double next                         = 0.1 * length;
-          if (is_finite(residual))
+          if (residual.is_finite())
             {
               const double here = r * dx;
               if (problem.has_energy() ?
@@ -369,6 +372,7 @@ namespace corotet
     bool is_from_best = false;
     /// Of the last full increment.
     bool         increment_is_round_off = false;
+    bool         has_stalled            = false;
     unsigned int linear_iterations      = 0;
     double       tolerance_of_solve     = 0;
     /// Iterations of the last solve, if it has converged without a search, and

@@ -53,8 +53,9 @@ namespace
     elastic.update_rotations_and_force(f, u);
     elastic.update_rotations_and_force(g, moved);
     f -= g;
+    const ForceRoundOff round_off(body.discretization, elastic);
     return {norm(f),
-            ForceRoundOff(body.discretization, elastic).of_force(moved)};
+            round_off.of_displacement(moved) + round_off.of_rotations()};
   }
 
   const std::vector<std::string> types{material_type("linear"),

@@ -40,6 +40,40 @@ TEST(Newton, RoundOffIsAccepted)
   EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
 }
 
+// What may be round-off, and what it is not, is only taken for it where an
+// iteration has not made it smaller.
+TEST(Newton, PossibleRoundOffIsTriedFirst)
+{
+  class Doubtful : public Scalar
+  {
+  public:
+    using Scalar::Scalar;
+
+    Norm
+    residual(Vector &r) override
+    {
+      Norm norm = Scalar::residual(r);
+      norm.value += noise;
+      // More than the residual at the start.
+      norm.most_round_off = 2;
+      return norm;
+    }
+
+    double noise = 0;
+  };
+  Doubtful root([](double x) { return x * x - 2; },
+                [](double x) { return 2 * x; },
+                1.);
+  EXPECT_EQ(solve(root).round_off, NewtonReport::RoundOff::none);
+  EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
+  root.x                    = 1;
+  root.noise                = 1e-9;
+  const NewtonReport report = solve(root);
+  EXPECT_EQ(report.round_off, NewtonReport::RoundOff::of_residual);
+  EXPECT_LE(report.iterations, 6u);
+  EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
+}
+
 // An increment that x is too coarse for is the last one, whatever the residual.
 TEST(Newton, RoundOffOfIncrementIsTheEnd)
 {

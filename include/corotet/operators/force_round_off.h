@@ -18,11 +18,9 @@ namespace corotet
    * is uncertain by some eps |u| / h: a body that has moved far compared with
    * the size h of its cells knows its strain less well. Corotational strain is
    * moreover a difference of numbers of size 1 and uncertain by some eps,
-   * wherever the body is. A strain of that size has a stress, and the stress
-   * forces at the nodes, which are independent from cell to cell: their squares
-   * add up.
-   *
-   * Members are collective.
+   * wherever the body is, if it has turned. A strain of that size has a stress,
+   * and the stress forces at the nodes, which are independent from cell to
+   * cell: their squares add up.
    */
   class ForceRoundOff
   {
@@ -30,26 +28,26 @@ namespace corotet
     ForceRoundOff(const Discretization &discretization,
                   const Elasticity     &elasticity);
 
-    /// Of the internal force of the displacement @p u [N].
+    /// Of the internal force of the displacement @p u, or of K u with any of
+    /// the tangents K, for what u is known to [N]. Collective.
     double
-    of_force(const Vector &u) const;
+    of_displacement(const Vector &u) const;
 
-    /// Of K v [N], for any of the tangents K.
+    /// Of the internal force, for what rotations are known to [N]; 0 for linear
+    /// laws. An upper bound: bodies that have hardly turned, above all thin
+    /// ones, may have a thousandth of it.
     double
-    of_product(const Vector &v) const;
+    of_rotations() const
+    {
+      return by_rotations;
+    }
 
   private:
-    /// @p strain_noise: in machine precisions.
-    double
-    estimate(const Vector &u, const double strain_noise) const;
-
-    bool has_rotations;
-    /// By owned node: sum of the squares of the forces that cells exert if
-    /// their strains are 1 [N^2]; empty without rotations.
-    std::vector<double> by_strain;
-    /// The same if the displacements of their nodes are independent of each
-    /// other, 1 m each [N^2/m^2].
+    /// By owned node: sum of the squares of the forces that cells exert if the
+    /// displacements of their nodes are independent of each other, 1 m each
+    /// [N^2/m^2].
     std::vector<double> by_displacement;
+    double              by_rotations = 0;
   };
 } // namespace corotet
 

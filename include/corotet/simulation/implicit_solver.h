@@ -106,9 +106,13 @@ namespace corotet
                          const Vector          &r,
                          const TangentOperator *J,
                          const double           tolerance = 0);
-    /// What round-off may make of the sum of the last evaluation's forces [N];
-    /// zero if the body has run away.
-    double
+    /// What round-off makes of the sum of the last evaluation's forces for
+    /// sure, and at most [N]; zero if the body has run away.
+    struct RoundOffOfForces
+    {
+      double sure, most;
+    };
+    RoundOffOfForces
     round_off();
     /// Whether statics have taken the body to where supports cannot hold it.
     /// Collective.

@@ -11,6 +11,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <cmath>
+
 namespace corotet
 {
   /**
@@ -20,14 +22,21 @@ namespace corotet
   class NewtonProblem
   {
   public:
-    /// A norm and the size that it is compared with, in the same unit; and what
-    /// round-off alone may make of it at the present x, below which it means
-    /// nothing.
+    /// A norm and the size that it is compared with, in the same unit; what
+    /// round-off alone makes of it at the present x, below which it means
+    /// nothing; and what it makes of it at most.
     struct Norm
     {
       double value;
       double scale;
-      double round_off = 0;
+      double round_off      = 0;
+      double most_round_off = 0;
+
+      bool
+      is_finite() const
+      {
+        return std::isfinite(value) && std::isfinite(scale);
+      }
     };
 
     virtual ~NewtonProblem() = default;

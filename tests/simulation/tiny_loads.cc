@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Loads so small, on a body so thin, that its forces could be round-off: they
+// are not, and bend it as they bend a linear one.
+
+#include <gtest/gtest.h>
+
+#include "../all_laws.h"
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // A steel strip of a thickness of 1 mm and 1 m long.
+  const std::string strip =
+    box_mesh("1, 0.01, 0.001", "20, 1, 1") + fixed("x-min");
+
+  const std::vector<std::string> turning_laws{
+    material_type("corotational"),
+    material_type("corotational") + rotation_at("quadrature points"),
+    material_type("Saint Venant-Kirchhoff"),
+    material_type("neo-Hookean")};
+} // namespace
+
+// Ten millionths of a newton at the tip in twenty steps: less in each than what
+// round-off of rotations can make of the forces of such flat cells, but does
+// not. All laws give the deflection of the linear one, whose strains of 1e-8
+// and rotations of 1e-5 are all that they differ by.
+TEST(TinyLoads, BendAThinStrip)
+{
+  const std::string load =
+    strip + material_text(2.1e11) + tractions("x-max: 0; 0; 1") + statics(20);
+  CompleteRun linear(load + material_type("linear"));
+  ASSERT_EQ(linear.run(), "");
+  for (const std::string &law : turning_laws)
+    {
+      CompleteRun run(load + law);
+      ASSERT_EQ(run.run(), "");
+      const auto &steps = run.recorder().steps;
+      ASSERT_EQ(steps.size(), 20u);
+      for (std::size_t k = 0; k < steps.size(); ++k)
+        EXPECT_NEAR(steps[k].max_displacement /
+                      linear.recorder().steps[k].max_displacement,
+                    1,
+                    1e-5)
+          << law << k;
+    }
+}
+
+// A tenth of that load, all at once, in implicit steps. Tolerances of solvers,
+// which are of all forces, leave some 1e-5 of the displacement.
+TEST(TinyLoads, MoveAThinStrip)
+{
+  for (const std::string &method : {"BDF2", "backward Euler", "Newmark"})
+    {
+      const std::string text = strip + material_text(2.1e11, 0.3, 7850) +
+                               tractions("x-max: 0; 0; 0.1") +
+                               time_integration(method, 0.2, 0.02);
+      CompleteRun linear(text + material_type("linear"));
+      ASSERT_EQ(linear.run(), "");
+      for (const std::string &law : turning_laws)
+        {
+          CompleteRun run(text + law);
+          ASSERT_EQ(run.run(), "");
+          EXPECT_NEAR(run.recorder().steps.back().max_displacement /
+                        linear.recorder().steps.back().max_displacement,
+                      1,
+                      1e-4)
+            << method << law;
+        }
+    }
+}
