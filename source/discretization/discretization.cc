@@ -205,8 +205,7 @@ namespace corotet
               if (c < n_owned)
                 {
                   surface.push_back(face);
-                  if (face.boundary != unnamed_boundary)
-                    faces_of_boundaries[face.boundary].push_back(face);
+                  faces_of_boundaries[face.boundary].push_back(face);
                 }
               else if (face.boundary != unnamed_boundary)
                 // The others may be inside of the body, where the known part

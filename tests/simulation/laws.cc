@@ -77,6 +77,36 @@ namespace
   }
 } // namespace
 
+// Sides without names have the tractions of exact solutions like those with
+// names: a quadratic displacement is exact in quadratic elements.
+TEST(ExactSolutions, TractionsOnSidesWithoutNames)
+{
+  SerialMesh mesh = box("0.5, 0.5, 0.5", "2, 2, 2", 0.1);
+  std::erase_if(mesh.faces, [&](const SerialMesh::Face &face) {
+    const auto &name = mesh.boundaries.names.at(face.boundary);
+    return name != "x-min" && name != "y-max";
+  });
+  MovingBody body(
+    mesh,
+    element_text(2) + material_type("linear") + material_text(10) +
+      section("Exact solution",
+              {{"Displacement", "0.1*x*y; 0.2*x*x - y*z; 0.3*z*z + x"},
+               {"Displacement boundary", "x-min"}}) +
+      statics() + newton_tolerances(1e-11));
+  LoadStepping load_stepping;
+  load_stepping.proportional = false;
+  load_stepping.step(body.system, {0., 1., 1.}, body.state);
+  const ExactSolution &exact = *body.problem.solution();
+  for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+    {
+      const Tensor<1, 3> u =
+        exact.displacement(body.discretization.node_position(n), 1.);
+      for (unsigned int a = 0; a < 3; ++a)
+        // Of the linear solver's tolerance.
+        EXPECT_NEAR(body.state.u.local_element(3 * n + a), u[a], 1e-8);
+    }
+}
+
 // One rotation per cell leaves out O(h) times the strain; see
 // large_rotations.cc for its orders.
 TEST_P(LawsInProblems, OrdersOfConvergence)

@@ -144,7 +144,7 @@ namespace corotet
       return surface;
     }
 
-    /// What belongs to a boundary with a number.
+    /// What belongs to a boundary; with unnamed_boundary, what belongs to none.
     const std::vector<BoundaryFace> &
     boundary_faces(const unsigned int boundary) const
     {
