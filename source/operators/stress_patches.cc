@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "monomials.h"
 #include <Eigen/Dense>
 
 namespace corotet
@@ -18,41 +19,15 @@ namespace corotet
 
   namespace
   {
-    // Coefficients of a polynomial of degree 3, the highest.
-    constexpr int max_size = 20;
-    using Basis = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
-    using Coefficients =
-      Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, max_size, 6>;
-    using SixNumbers = Eigen::Matrix<double, 6, 1>;
-
-    constexpr int
-    n_coefficients(const unsigned int degree)
-    {
-      return (degree + 1) * (degree + 2) * (degree + 3) / 6;
-    }
-
-    // Monomials of a degree and all lower ones.
-    Basis
-    monomials(const unsigned int degree, const Tensor<1, 3> &x)
-    {
-      Basis result(n_coefficients(degree));
-      int   n           = 0;
-      result[n++]       = 1;
-      int first_of_last = 0;
-      // Each degree is x[0] times the one before, x[1] times what has no x[0]
-      // there, and x[2] times the last.
-      for (unsigned int d = 1; d <= degree; ++d)
-        {
-          const int                first = n;
-          const std::array<int, 3> begins{
-            {first_of_last, first - static_cast<int>(d), first - 1}};
-          for (unsigned int a = 0; a < 3; ++a)
-            for (int i = begins[a]; i < first; ++i)
-              result[n++] = x[a] * result[i];
-          first_of_last = first;
-        }
-      return result;
-    }
+    using monomials::Basis;
+    using monomials::n_coefficients;
+    using Coefficients = Eigen::Matrix<double,
+                                       Eigen::Dynamic,
+                                       6,
+                                       Eigen::RowMajor,
+                                       monomials::max_size,
+                                       6>;
+    using SixNumbers   = Eigen::Matrix<double, 6, 1>;
 
     SixNumbers
     six_numbers(const SymmetricTensor<2, 3> &tensor)
@@ -260,7 +235,8 @@ namespace corotet
     for (const unsigned int c : cells)
       for (const Point<3> &x : samples.points(c))
         {
-          const Basis b = monomials(degree, result.scale * (x - result.centre));
+          const Basis b =
+            monomials::at(degree, result.scale * (x - result.centre));
           A += weight(result.scale * (x - result.vertex), decay) * b *
                b.transpose();
         }
@@ -362,8 +338,8 @@ namespace corotet
       SixNumbers sum = SixNumbers::Zero();
       for (unsigned int f = 0; f < coefficients.size(); ++f)
         sum += coefficients[f].transpose() *
-               monomials(patch.fits[f].degree,
-                         patch.fits[f].scale * (x - patch.fits[f].centre));
+               monomials::at(patch.fits[f].degree,
+                             patch.fits[f].scale * (x - patch.fits[f].centre));
       return sum;
     };
     for (const Patch &patch : patches)
@@ -378,7 +354,7 @@ namespace corotet
               for (unsigned int q = 0; const Point<3> &x : samples.points(c))
                 right_side +=
                   weight(fit.scale * (x - fit.vertex), fit.decay) *
-                  monomials(fit.degree, fit.scale * (x - fit.centre)) *
+                  monomials::at(fit.degree, fit.scale * (x - fit.centre)) *
                   (six_numbers(at_points[samples.first_point(c) + q++]) -
                    polynomial(patch, x))
                     .transpose();

@@ -175,6 +175,49 @@ TEST(StressField, TurnsWithTheBody)
     }
 }
 
+// Nor does it matter how a body at rest lies in space: where patches are small,
+// which polynomials are fitted there does not depend on the axes.
+TEST(StressField, DoesNotDependOnTheAxes)
+{
+  const SerialMesh mesh = box("1, 1, 1", "2, 2, 1", 0.2);
+  // What the field is of a body that is turned by Q: the squares of the nodes'
+  // stresses and the error.
+  const auto squares_and_error = [&](const Tensor<2, 3> &Q,
+                                     const Element      &element) {
+    SerialMesh turned = mesh;
+    for (Point<3> &x : turned.vertices)
+      x = Point<3>(Q * Tensor<1, 3>(x));
+    const MovingBody body(turned, element_text(element) + material_text(1.));
+    const Vector     u     = body.interpolate([&](const Point<3> &x) {
+      const Point<3> at(transpose(Q) * Tensor<1, 3>(x));
+      return Q * polynomial(5, at);
+    });
+    StressField      field = stress_field(body, linear_law());
+    field.set_displacement(u);
+    double sum = 0;
+    for (const SymmetricTensor<2, 3> &sigma : field.at_nodes().stress)
+      sum += sigma * sigma;
+    return std::array<double, 2>{
+      {dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD),
+       field.error().energy_norm}};
+  };
+  Tensor<2, 3> identity;
+  for (unsigned int a = 0; a < 3; ++a)
+    identity[a][a] = 1;
+  for (const Element element : {Element(1), Element(2), Element(3)})
+    {
+      const auto expected = squares_and_error(identity, element);
+      for (const double angle : {0.3, 1.1, 2.1})
+        {
+          const auto found = squares_and_error(
+            rotation_about(Tensor<1, 3>({0.3, -1., 2.}), angle), element);
+          for (unsigned int i = 0; i < 2; ++i)
+            EXPECT_NEAR(found[i] / expected[i], 1, 1e-10)
+              << "degree " << element.degree() << ", " << i;
+        }
+    }
+}
+
 // For degree 1 stress is constant in cells: its von Mises equivalent is what is
 // known of the centres.
 TEST(StressField, AgreesWithTheCentres)
