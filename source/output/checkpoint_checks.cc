@@ -182,11 +182,13 @@ namespace corotet
            values.at("Tables").at("Cubic").get<std::string>(), ','))
       if (dealii::Utilities::split_string_list(item, ':').front() == name)
         entry = "Tables/Cubic";
-    throw InputError(entry,
-                     fmt::format("--restart: found other rows in the table "
-                                 "'{}', which the run cannot go on with; "
-                                 "allowed: the rows that it began with, and "
-                                 "more behind them",
-                                 name));
+    throw InputError(
+      entry,
+      fmt::format(
+        "--restart: found other rows or another interpolation in the table "
+        "'{}', which the run cannot go on with; "
+        "allowed: the rows that it began with, and "
+        "more behind them",
+        name));
   }
 } // namespace corotet

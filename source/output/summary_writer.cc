@@ -67,6 +67,12 @@ namespace corotet
   {}
 
   void
+  SummaryWriter::resume(const Snapshot &state)
+  {
+    step(state);
+  }
+
+  void
   SummaryWriter::step(const Snapshot &state)
   {
     if (state.last)

@@ -35,7 +35,9 @@ namespace corotet
     for (const auto &[name, table] : tables)
       {
         const std::size_t n = table->rows().size();
-        result[name] = {{"rows", n}, {"checksum", checksum_of_rows(*table, n)}};
+        result[name]        = {{"rows", n},
+                               {"is_cubic", table->is_cubic()},
+                               {"checksum", checksum_of_rows(*table, n)}};
       }
     return result;
   }
@@ -50,6 +52,9 @@ namespace corotet
         {
           const std::size_t n = before.at(name).at("rows").get<std::size_t>();
           if (n > table->rows().size() ||
+              // Checkpoints of older versions do not have it.
+              before.at(name).value("is_cubic", table->is_cubic()) !=
+                table->is_cubic() ||
               before.at(name).at("checksum").get<std::string>() !=
                 checksum_of_rows(*table, n))
             result.push_back(name);

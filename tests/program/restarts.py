@@ -49,8 +49,12 @@ class Restarts(ProgramTest):
                 for others in (rows.replace("0.1, 1", "0.1, 2"), rows.replace("0.1,", "0.12,"), "0, 0\n0.2, 0.5\n", "0, 0\n0.05, 0.5\n0.1, 1\n0.2, 0.5\n"):
                     table.write_text(others, encoding="utf-8")
                     self.check_refused(before, self.run_entries(entries, "--restart", status=1),
-                                       f"Tables/{kind}: --restart: found other rows in the table 'rise', which the run cannot go on with; "
-                                       "allowed: the rows that it began with, and more behind them")
+                                       f"Tables/{kind}: --restart: found other rows or another interpolation in the table 'rise', which the run cannot "
+                                       "go on with; allowed: the rows that it began with, and more behind them")
+                table.write_text(rows, encoding="utf-8")
+                swapped = {**entries, f"Tables/{kind}": "", f"Tables/{other}": "hold: hold.csv, rise: rise.csv"}
+                self.check_refused(before, self.run_entries(swapped, "--restart", status=1),
+                                   f"Tables/{other}: --restart: found other rows or another interpolation in the table 'rise'")
                 table.write_text(rows + "0.3, 3\n", encoding="utf-8")
                 self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3")
                 self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.3, delta=1e-12)

@@ -58,6 +58,13 @@ namespace corotet
       return values;
     }
 
+    /// Whether it is smooth at the rows.
+    bool
+    is_cubic() const
+    {
+      return !slopes.empty();
+    }
+
   private:
     std::vector<double> arguments;
     std::vector<double> values;

@@ -29,6 +29,9 @@ namespace corotet
                   const bool           with_error_estimate = false);
 
     void
+    resume(const Snapshot &state) override;
+
+    void
     step(const Snapshot &state) override;
 
     void
