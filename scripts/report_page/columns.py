@@ -9,7 +9,7 @@ UNITS = (("(time|dt|(.*_)?time|time_step)", "s"), (".*energy|external_work|energ
          ("momentum_[xyz]", "kg m/s"), ("internal_moment_[xyz]", "N m"), ("reaction_[xyz]", "N"), ("volume|mesh_volume", "m³"),
          (".*_stress_[xyz][xyz]|.*_von_mises", "Pa"), ("max_displacement|.*_[xyz]", "m"))
 # Of modes.csv, study.csv and summary.json, where they differ from those of history.csv.
-OTHER_UNITS = {"frequency": "Hz", "angular_frequency": "rad/s", "eigenvalue": "1/s²", "modal_mass": "kg", "total_mass": "kg", "h": "m",
+OTHER_UNITS = {"frequency": "Hz", "angular_frequency": "rad/s", "eigenvalue": "1/s²", "modal_mass": "kg m²", "total_mass": "kg", "h": "m",
                "peak_memory_bytes": "B", "largest_rotation_difference": "rad"}
 
 NAMES = {

@@ -79,7 +79,7 @@ def modes(run):
                      quantity(t["frequency"][i], "Hz", f"frequencies.{i}"), number(t["modal_mass"][i], digits=4), *shares,
                      number(t["residual"][i], digits=2)])
     note = "A mode’s button shows its shape. In x, y and z: the shares of the mass that take part when supports shake in this direction."
-    return f'<p class="note">{note}</p>' + table(["mode", "frequency", "modal mass [kg]", "x [%]", "y [%]", "z [%]", "residual"], rows, classes="numbers")
+    return f'<p class="note">{note}</p>' + table(["mode", "frequency", "modal mass [kg m²]", "x [%]", "y [%]", "z [%]", "residual"], rows, classes="numbers")
 
 
 def checks(run):

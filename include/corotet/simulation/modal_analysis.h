@@ -34,7 +34,7 @@ namespace corotet
     double residual;
     /// Largest residual that round-off explains, with these units.
     double round_off;
-    /// phi . M phi [kg].
+    /// phi . M phi [kg m^2].
     double modal_mass;
     /// (phi . M e)^2 / (phi . M phi) for the unit translation e in x, y and z
     /// [kg].
