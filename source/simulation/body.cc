@@ -70,7 +70,11 @@ namespace corotet
              reference,
              conditions,
              time_scale(parameters, discretization, materials, purpose))
-  {}
+  {
+    for (const auto &[region, material] : materials)
+      check_at_rest(*parameters.material.law(discretization.degree()),
+                    material);
+  }
 
   Body::Body(const SimulationParameters &parameters,
              const std::string          &folder,

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include <optional>
+#include <utility>
 
 namespace corotet
 {
@@ -30,6 +31,7 @@ namespace corotet
     std::optional<DirectoryLock>           lock;
     std::optional<Simulation>              simulation;
     std::vector<std::unique_ptr<Observer>> observers;
+    bool                                   is_over = false;
 
   private:
     void
@@ -96,19 +98,29 @@ namespace corotet
   bool
   SteppedRun::is_done() const
   {
-    return parts->simulation->is_done();
+    return parts->is_over || parts->simulation->is_done();
   }
 
   void
   SteppedRun::step()
   {
-    parts->simulation->step();
+    AssertThrow(!is_done(), dealii::ExcMessage("the run is over"));
+    try
+      {
+        parts->simulation->step();
+      }
+    catch (...)
+      {
+        parts->is_over = true;
+        throw;
+      }
   }
 
   void
   SteppedRun::finish()
   {
-    parts->simulation->finish();
+    if (!std::exchange(parts->is_over, true))
+      parts->simulation->finish();
   }
 
   double

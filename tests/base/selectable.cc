@@ -170,6 +170,17 @@ TEST(Selectable, HasAddedCandidates)
 
 TEST(Selectable, RefusesAddedCandidatesWithTheSameName)
 {
-  const AddedCandidate<Shape> square(candidate<Shape, Blob>("square", 1.));
-  EXPECT_THROW(shapes(), dealii::ExceptionBase);
+  {
+    const AddedCandidate<Shape> square(candidate<Shape, Blob>("square", 1.));
+    EXPECT_THROW(shapes(), dealii::ExceptionBase);
+  }
+  // The first one stays; names are single choices without a section in them.
+  const AddedCandidate<Shape> blob(candidate<Shape, Blob>("blob", 1.));
+  for (const std::string name : {"blob", "", "a|b", "a/b"})
+    EXPECT_THROW(const AddedCandidate<Shape> another(
+                   candidate<Shape, Blob>(name, 2.)),
+                 dealii::ExceptionBase)
+      << name;
+  ASSERT_EQ(shapes().size(), 3u);
+  EXPECT_EQ(shapes().back().make()->area(), 1);
 }

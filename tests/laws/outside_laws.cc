@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../operators/random_states.h"
+#include "../refusal.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -67,6 +68,63 @@ namespace
     }
   };
 } // namespace
+
+// Laws that are not those of linear elasticity at rest, or have a stress there,
+// are refused before a run.
+TEST(OutsideLaws, AreCheckedAtRest)
+{
+  class Wrong : public MyKirchhoff
+  {
+  public:
+    Wrong(const double factor, const double stress_at_rest)
+      : factor(factor)
+      , stress_at_rest(stress_at_rest)
+    {}
+
+    Tensor<2, 3>
+    stress(const IsotropicMaterial &material,
+           const Tensor<2, 3>      &H) const override
+    {
+      return factor * MyKirchhoff::stress(material, H) +
+             stress_at_rest * Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
+    }
+
+    Tensor<2, 3>
+    stress_derivative(const IsotropicMaterial &material,
+                      const Tensor<2, 3>      &H,
+                      const Tensor<2, 3>      &dF) const override
+    {
+      return factor * MyKirchhoff::stress_derivative(material, H, dF);
+    }
+
+  private:
+    double factor, stress_at_rest;
+  };
+  const IsotropicMaterial material = isotropic_material(1e3, 0.3, 1);
+  const auto said = [&](const double factor, const double stress_at_rest) {
+    return refusal(
+      [&] { check_at_rest(Wrong(factor, stress_at_rest), material); });
+  };
+  EXPECT_EQ(said(1, 0), "nothing was refused");
+  EXPECT_EQ(said(2, 0).find(
+              "Material/Type: the law is not linear elasticity at "
+              "rest"),
+            0u)
+    << said(2, 0);
+  EXPECT_EQ(said(1, 7).find("Material/Type: the law has a stress of 12.1 Pa"),
+            0u)
+    << said(1, 7);
+  EXPECT_NE(said(std::nan(""), 0), "nothing was refused");
+
+  const AddedCandidate<LawKind> added(law_candidate("twice as stiff", [] {
+    return material_law(std::make_shared<Wrong>(2., 0.));
+  }));
+  EXPECT_NE(refusal([] {
+              MovingBody(box("1, 1, 1", "1, 1, 1"),
+                         material_type("twice as stiff"));
+            }).find("not linear elasticity at rest"),
+            std::string::npos);
+}
 
 TEST(OutsideLaws, IsLikeTheLibrarysOwn)
 {

@@ -7,6 +7,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <functional>
+#include <list>
 #include <memory>
 #include <string>
 #include <utility>
@@ -49,10 +50,10 @@ namespace corotet
    * AddedCandidate keeps.
    */
   template <typename Base>
-  std::vector<Candidate<Base>> &
+  std::list<Candidate<Base>> &
   added_candidates()
   {
-    static std::vector<Candidate<Base>> candidates;
+    static std::list<Candidate<Base>> candidates;
     return candidates;
   }
 
@@ -66,16 +67,26 @@ namespace corotet
    *     candidate<TimeIntegrator, MyIntegrator>("my integrator"));
    *
    * All ranks must add the same. The name must not be that of another
-   * candidate.
+   * candidate, and must not be empty or have '|' or '/' in it. Throws an
+   * exception if another program's one has it; one of the library's own is
+   * found when a choice is made.
    */
   template <typename Base>
   class AddedCandidate
   {
   public:
     explicit AddedCandidate(const Candidate<Base> &added)
-      : name(added.name)
     {
-      added_candidates<Base>().push_back(added);
+      std::list<Candidate<Base>> &all = added_candidates<Base>();
+      AssertThrow(!added.name.empty() &&
+                    added.name.find_first_of("|/") == std::string::npos,
+                  dealii::ExcMessage("A candidate cannot be called '" +
+                                     added.name + "'"));
+      for (const Candidate<Base> &other : all)
+        AssertThrow(other.name != added.name,
+                    dealii::ExcMessage("Two candidates are called " +
+                                       added.name));
+      place = all.insert(all.end(), added);
     }
 
     AddedCandidate(const AddedCandidate &) = delete;
@@ -84,12 +95,11 @@ namespace corotet
 
     ~AddedCandidate()
     {
-      std::erase_if(added_candidates<Base>(),
-                    [&](const Candidate<Base> &c) { return c.name == name; });
+      added_candidates<Base>().erase(place);
     }
 
   private:
-    const std::string name;
+    typename std::list<Candidate<Base>>::iterator place;
   };
 
   /**

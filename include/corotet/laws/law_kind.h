@@ -25,7 +25,8 @@ namespace corotet
   public:
     virtual ~LawKind() = default;
 
-    /// Declares its entries, in a section of its own in section Material.
+    /// Declares its entries: the caller has entered the section of the law's
+    /// name in section Material.
     virtual void
     declare_parameters(dealii::ParameterHandler & /*prm*/)
     {}

@@ -18,9 +18,13 @@ namespace corotet
    *
    * H is grad u, [component][direction]; F = I + H. @p material has Lamé's
    * parameters of the cell. At rest the law must be linear elasticity with
-   * these: modes and the preconditioner rely on it. Where it has no stress, it
-   * returns numbers that are not finite; the step is then made in halves.
-   * Members must not change the object.
+   * these, without stress: modes and the preconditioner rely on it, and runs
+   * begin with check_at_rest(). Where it has no stress, it returns numbers that
+   * are not finite; the step is then made in halves. Members must not change
+   * the object.
+   *
+   * Where H is small, stress and energy should be as accurate as H itself: H +
+   * H^T + H^T H has digits that F^T F - I has lost.
    */
   class PointLaw
   {
@@ -44,6 +48,11 @@ namespace corotet
     energy_density(const IsotropicMaterial    &material,
                    const dealii::Tensor<2, 3> &H) const = 0;
   };
+
+  /// Throws an InputError blamed on Material/Type unless the law at rest is
+  /// that of linear elasticity with these parameters, to six digits.
+  void
+  check_at_rest(const PointLaw &law, const IsotropicMaterial &material);
 } // namespace corotet
 
 #endif

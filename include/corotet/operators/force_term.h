@@ -44,6 +44,15 @@ namespace corotet
    * linear, and has its derivative, by one of three ways: damping_shares(),
    * add_surface_matrix(), or linearize() with add_linearized(). Preconditioners
    * and assembled matrices have the first two; what is stiff must be there.
+   * Forces of programs that use the library have the first and the last one, as
+   * the matrix of the surface is not installed: modes, stable steps and what
+   * holds a body in statics know nothing of their stiffness, and stiff ones
+   * take more iterations.
+   *
+   * Forces are functions of the motion alone, without a memory. They are asked
+   * for in any order, also before a run, at its end time and at displacements
+   * that no step has, and of steps that are made again. A collective member
+   * that throws must do so on all ranks.
    */
   class ForceTerm
   {

@@ -27,6 +27,9 @@ namespace corotet
    * integrator the load goes there from its last value as if it were given as
    * an expression that jumps inside of that step.
    *
+   * There are no checkpoints, and signals do not end it. Each run has an output
+   * directory of its own; several may go on at once.
+   *
    * All members are collective.
    */
   class SteppedRun
@@ -41,20 +44,22 @@ namespace corotet
                         const MPI_Comm     comm = MPI_COMM_WORLD);
     ~SteppedRun();
 
-    /// Whether the end time is reached.
+    /// Whether the end time is reached, or the run is over: by finish(), or by
+    /// a step that has failed.
     bool
     is_done() const;
 
     /**
      * Goes on to the next step that is recorded (every one, unless
      * Output/Steps between rows says otherwise). Throws ComputationError; then
-     * the run is over and its results are complete.
+     * the run is over and its results are complete. To be called before
+     * is_done() only: throws an exception after it.
      */
     void
     step();
 
     /// Completes the results. After the last step, which need not be that of
-    /// the end time, unless a step has failed.
+    /// the end time; without effect if the run is over.
     void
     finish();
 

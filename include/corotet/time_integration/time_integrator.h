@@ -54,6 +54,8 @@ namespace corotet
   public:
     virtual ~TimeIntegrator() = default;
 
+    /// Declares its entries: the caller has entered the section of the
+    /// method's name in section Time integration.
     virtual void
     declare_parameters(dealii::ParameterHandler & /*prm*/)
     {}
