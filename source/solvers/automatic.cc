@@ -372,5 +372,6 @@ namespace corotet
     archive.transfer("cost_of_first", costs.first);
     archive.transfer("cost_of_next", costs.again);
     archive.transfer("cost_of_solve", costs.solve);
+    archive.within("p_multigrid", [&] { multigrid.transfer(archive); });
   }
 } // namespace corotet

@@ -133,6 +133,8 @@ namespace corotet
       last != nullptr ? &last->coarser : nullptr,
       last != nullptr ? last->is_prescribed : is_prescribed,
       std::move(finest_nodes));
+    if (begins_in_double)
+      vertex_level->begin_in_double();
     if (levels.empty())
       return;
     const CellBatches &batches = A.discretization().batches();
@@ -180,6 +182,15 @@ namespace corotet
         A.discretization().initialize_vector(levels[0]->lumped_mass);
         copy_scaled(levels[0]->lumped_mass, A.mass().diagonal(), 1 / mass_unit);
       }
+  }
+
+  void
+  PMultigrid::transfer(Archive &archive)
+  {
+    bool is_in_double = vertex_level && vertex_level->is_in_double();
+    archive.transfer("is_in_double", is_in_double);
+    if (archive.is_reading())
+      begins_in_double = is_in_double;
   }
 
   void

@@ -16,6 +16,7 @@
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -288,7 +289,8 @@ namespace corotet
   SparseCholesky::analyze(const BlockMatrix &A)
   {
     if (!factors || !factors->belong_to(A))
-      factors = std::make_unique<Factors>(A.pattern(), wanted);
+      factors =
+        std::make_unique<Factors>(A.pattern(), std::exchange(first, wanted));
   }
 
   void
@@ -338,7 +340,7 @@ namespace corotet
   SparseCholesky::Precision
   SparseCholesky::precision() const
   {
-    return factors ? factors->precision : wanted;
+    return factors ? factors->precision : first;
   }
 
   template void

@@ -54,7 +54,7 @@ TEST(TinyLoads, BendAThinStrip)
 // which are of all forces, leave some 1e-5 of the displacement.
 TEST(TinyLoads, MoveAThinStrip)
 {
-  for (const std::string &method : {"BDF2", "backward Euler", "Newmark"})
+  for (const std::string method : {"BDF2", "backward Euler", "Newmark"})
     {
       const std::string text = strip + material_text(2.1e11, 0.3, 7850) +
                                tractions("x-max: 0; 0; 0.1") +

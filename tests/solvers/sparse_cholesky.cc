@@ -140,6 +140,20 @@ TEST(SparseCholesky, InvertsMatrixInSinglePrecision)
   EXPECT_GT(error_of_double, 1e-9);
 }
 
+// As a run does that goes on after single precision has failed: for the first
+// pattern only.
+TEST(SparseCholesky, BeginsInDouble)
+{
+  const SpringBox box({{8, 2, 2}}, true), other({{3, 4, 3}}, true);
+  SparseCholesky  inverse(Precision::single_precision);
+  inverse.begin_in_double();
+  inverse.factorize(*box.matrix);
+  EXPECT_EQ(inverse.precision(), Precision::double_precision);
+  EXPECT_LT(error<double>(box, inverse), 1e-11);
+  inverse.factorize(*other.matrix);
+  EXPECT_EQ(inverse.precision(), Precision::single_precision);
+}
+
 // Powers of two change exponents only: solutions are the same to the last bit
 // for matrices and right hand sides far beyond the range of single precision.
 TEST(SparseCholesky, AnySize)

@@ -61,6 +61,9 @@ namespace corotet
     void
     update(const EffectiveOperator &A) override;
 
+    void
+    transfer(Archive &archive) override;
+
     /// 4 to 8 iterations at degree 3, 8 to 13 at degree 2 and 11 to 17 at
     /// degree 1 were measured.
     double
@@ -142,6 +145,8 @@ namespace corotet
 
     CellProportions              the_proportions;
     std::unique_ptr<VertexLevel> vertex_level;
+    /// As that was before a restart.
+    bool begins_in_double = false;
   };
 } // namespace corotet
 

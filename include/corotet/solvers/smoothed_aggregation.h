@@ -73,6 +73,18 @@ namespace corotet
     std::vector<int>
     n_aggregates() const;
 
+    SparseCholesky &
+    factor_of_last_level()
+    {
+      return last_factor;
+    }
+
+    const SparseCholesky &
+    factor_of_last_level() const
+    {
+      return last_factor;
+    }
+
   private:
     /// @p given_up: see AggregationLevel::build().
     void

@@ -43,6 +43,14 @@ namespace corotet
 
     ~SparseCholesky();
 
+    /// Takes double precision for the first factors, as it had been taken
+    /// before a restart.
+    void
+    begin_in_double()
+    {
+      first = Precision::double_precision;
+    }
+
     /// Finds ordering and pattern of L alone, for n_entries() and
     /// n_operations(). Throws as factorize() does. Collective.
     void
@@ -90,6 +98,7 @@ namespace corotet
     struct Shares;
     class Factors;
     Precision                wanted;
+    Precision                first = wanted;
     std::unique_ptr<Factors> factors;
   };
 } // namespace corotet

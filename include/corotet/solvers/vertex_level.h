@@ -82,6 +82,24 @@ namespace corotet
       return solver == "direct";
     }
 
+    /// Whether the factors, or those of the last level of aggregation, are in
+    /// double precision, because single had failed.
+    bool
+    is_in_double() const
+    {
+      const SparseCholesky &factor =
+        has_factors() ? direct : aggregation.factor_of_last_level();
+      return factor.precision() == SparseCholesky::Precision::double_precision;
+    }
+
+    /// Lets them be so from the first ones on.
+    void
+    begin_in_double()
+    {
+      direct.begin_in_double();
+      aggregation.factor_of_last_level().begin_in_double();
+    }
+
     /// Whether vertices have rotations.
     bool
     has_rotations() const
