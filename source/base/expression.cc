@@ -131,23 +131,6 @@ namespace corotet
       return "";
     }
 
-    // muParser wants the parenthesis right after the name of a function, and
-    // takes "||" before a letter for "|", which is defined here.
-    std::string
-    with_blanks_as_wanted(const std::string &formula)
-    {
-      std::string result;
-      for (const char c : formula)
-        {
-          if (c == '(')
-            result.erase(result.find_last_not_of(" \t") + 1);
-          if (result.ends_with("||") || result.ends_with("&&"))
-            result += ' ';
-          result += c;
-        }
-      return result;
-    }
-
     double
     table_value(void *const table, const double argument)
     {

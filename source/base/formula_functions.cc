@@ -113,6 +113,23 @@ namespace corotet
     }
   } // namespace
 
+  std::string
+  with_blanks_as_wanted(const std::string &formula)
+  {
+    std::string result;
+    for (const char c : formula)
+      {
+        if (c == '(')
+          result.erase(result.find_last_not_of(" \t") + 1);
+        if (result.ends_with("||") || result.ends_with("&&"))
+          result += ' ';
+        result += c;
+      }
+    return result;
+  }
+
+
+
   void
   define_functions(mu::Parser &parser)
   {

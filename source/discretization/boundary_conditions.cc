@@ -75,26 +75,12 @@ namespace corotet
     entry = section + "Displacement";
     for (const auto &[name, value] :
          named_values(parameters.displacement, entry))
-      {
-        Displacement                   condition{find(name, entry), {}, entry};
-        const std::vector<std::string> components =
-          split_outside_brackets(value, ';');
-        if (components.size() != 3)
-          throw InputError(entry,
-                           fmt::format("found {} components for {} '{}'; "
-                                       "allowed: 'x; y; z', three "
-                                       "expressions or 'free'",
-                                       components.size(),
-                                       kind(condition.places),
-                                       name));
-        for (unsigned int a = 0; a < 3; ++a)
-          if (components[a] != "free")
-            {
-              claim(condition.places, a, entry);
-              condition.components[a].emplace(components[a], 1, entry, tables);
-            }
-        displacements.push_back(condition);
-      }
+      prescribe(find(name, entry), name, value, tables);
+    for (const unsigned int id : parameters.boundaries_of_solution)
+      prescribe({Place{{id}, {}, {}}},
+                names.boundaries.name(id),
+                parameters.displacement_of_solution,
+                tables);
 
     entry = section + "Traction";
     for (const auto &[name, value] : named_values(parameters.traction, entry))
@@ -126,6 +112,33 @@ namespace corotet
                 a,
                 entry);
       }
+  }
+
+  void
+  BoundaryConditions::prescribe(const std::set<Place> &places,
+                                const std::string     &name,
+                                const std::string     &value,
+                                const TableFunctions  &tables)
+  {
+    const std::string              entry = section + "Displacement";
+    Displacement                   condition{places, {}, entry};
+    const std::vector<std::string> components =
+      split_outside_brackets(value, ';');
+    if (components.size() != 3)
+      throw InputError(entry,
+                       fmt::format("found {} components for {} '{}'; "
+                                   "allowed: 'x; y; z', three "
+                                   "expressions or 'free'",
+                                   components.size(),
+                                   kind(places),
+                                   name));
+    for (unsigned int a = 0; a < 3; ++a)
+      if (components[a] != "free")
+        {
+          claim(places, a, entry);
+          condition.components[a].emplace(components[a], 1, entry, tables);
+        }
+    displacements.push_back(condition);
   }
 
   std::string

@@ -93,12 +93,12 @@ namespace corotet::abaqus
         for (const Scope &scope : scopes)
           {
             for (const auto &[key, set] : scope.element_sets.sets)
-              if (!scope.internal_names.contains(key))
+              if (!scope.internal_element_sets.contains(key))
                 add_elements(name(scope, scope.element_sets, key), set);
             for (const auto &[key, set] : scope.surfaces.sets)
               add_surface(name(scope, scope.surfaces, key), set);
             for (const auto &[key, set] : scope.node_sets.sets)
-              if (!scope.internal_names.contains(key))
+              if (!scope.internal_node_sets.contains(key))
                 add_nodes(name(scope, scope.node_sets, key), set);
           }
       }

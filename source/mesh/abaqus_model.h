@@ -77,8 +77,9 @@ namespace corotet::abaqus
     Named<std::vector<std::uint32_t>>               node_sets;
     Named<std::vector<std::uint32_t>>               element_sets;
     Named<std::vector<FaceOfElement>>               surfaces;
-    /// Of sets that a program has made for surfaces; in capitals.
-    std::set<std::string> internal_names;
+    /// Names of sets that a program has made for surfaces; in capitals.
+    std::set<std::string> internal_node_sets;
+    std::set<std::string> internal_element_sets;
   };
 
   struct Model

@@ -80,11 +80,13 @@ namespace corotet::abaqus
   std::vector<std::uint32_t> &
   Reader::target_of_set()
   {
-    const std::string name = keyword.needed(keyword.name);
+    const std::string name           = keyword.needed(keyword.name);
+    Scope            &scope          = current_scope();
+    const bool        is_of_elements = keyword.name == "ELSET";
     if (keyword.has("INTERNAL"))
-      current_scope().internal_names.insert(upper_case(name));
-    return keyword.name == "ELSET" ? current_scope().element_sets[name] :
-                                     current_scope().node_sets[name];
+      (is_of_elements ? scope.internal_element_sets : scope.internal_node_sets)
+        .insert(upper_case(name));
+    return is_of_elements ? scope.element_sets[name] : scope.node_sets[name];
   }
 
 

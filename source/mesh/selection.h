@@ -153,7 +153,7 @@ namespace corotet::selections
   double
   tolerance(const LocalMesh &mesh);
 
-  /// Whether something of the surface has this name.
+  /// Whether something of the surface has this name or number.
   bool
   is_place(const UsedNames &names, const std::string &name);
 

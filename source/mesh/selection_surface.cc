@@ -147,8 +147,11 @@ namespace corotet::selections
   bool
   is_place(const UsedNames &names, const std::string &name)
   {
-    return !names.boundaries.ids(name).empty() ||
-           !names.edges.ids(name).empty() || !names.corners.ids(name).empty();
+    // Numbers of what has no name count, too.
+    const PlaceNames places(names.boundaries, names.edges, names.corners);
+    return !places.boundaries.find(name).empty() ||
+           !places.edges.find(name).empty() ||
+           !places.corners.find(name).empty();
   }
 
 

@@ -143,7 +143,8 @@ namespace corotet
         entry,
         surface.members,
         [&](const std::string &name) {
-          return selections::is_place(names, name);
+          return name != std::to_string(unnamed) &&
+                 selections::is_place(names, name);
         },
         [&](const std::string &name, const auto &chosen) {
           add_on_ranks(boundaries, name, chosen, surface.members, ids);
@@ -206,7 +207,7 @@ namespace corotet
         entry,
         cells,
         [&](const std::string &name) {
-          return !names.regions.ids(name).empty();
+          return !MeshNames("region", names.regions).find(name).empty();
         },
         [&](const std::string &name, const auto &chosen) {
           add_on_ranks(names.regions, name, chosen, cells, ids);

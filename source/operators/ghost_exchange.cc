@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 namespace corotet
@@ -114,24 +115,29 @@ namespace corotet
     constexpr int tag = 7316;
     requests.resize(2 * neighbours.size());
     MPI_Request *request = requests.data();
+    // MPI counts in int.
+    constexpr std::size_t most  = std::numeric_limits<int>::max();
+    const auto            start = [&](const auto  &call,
+                           auto *const  data,
+                           const Range &range,
+                           const int    rank) {
+      auto *const       begin   = data + range.begin * size;
+      const std::size_t n_bytes = (range.end - range.begin) * size;
+      if (n_bytes <= most)
+        call(begin, n_bytes, MPI_BYTE, rank, tag, comm, request++);
+      else
+        call(begin,
+             1,
+             *dealii::Utilities::MPI::create_mpi_data_type_n_bytes(n_bytes),
+             rank,
+             tag,
+             comm,
+             request++);
+    };
     for (const Neighbour &neighbour : neighbours)
       {
-        const Range received = neighbour.*received_range;
-        MPI_Irecv(target + received.begin * size,
-                  (received.end - received.begin) * size,
-                  MPI_BYTE,
-                  neighbour.rank,
-                  tag,
-                  comm,
-                  request++);
-        const Range to_send = neighbour.*sent_range;
-        MPI_Isend(source + to_send.begin * size,
-                  (to_send.end - to_send.begin) * size,
-                  MPI_BYTE,
-                  neighbour.rank,
-                  tag,
-                  comm,
-                  request++);
+        start(MPI_Irecv, target, neighbour.*received_range, neighbour.rank);
+        start(MPI_Isend, source, neighbour.*sent_range, neighbour.rank);
       }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
   }

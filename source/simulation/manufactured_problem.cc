@@ -88,11 +88,9 @@ namespace corotet
   {
     if (!manufacture)
       return parameters.boundary_conditions;
-    std::vector<std::string> items;
-    for (const unsigned int id : displacement_boundaries(boundaries))
-      items.push_back(fmt::format("{}: {}", id, exact->displacement_text()));
     BoundaryConditionParameters conditions;
-    conditions.displacement = join(items);
+    conditions.boundaries_of_solution   = displacement_boundaries(boundaries);
+    conditions.displacement_of_solution = exact->displacement_text();
     return conditions;
   }
 

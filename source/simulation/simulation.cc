@@ -46,16 +46,20 @@ namespace corotet
                    springs ? springs->springs() :
                              std::vector<RigidMotions::Spring>())
         .description();
-    if (!motions.empty())
-      throw InputError("Boundary conditions/Fixed",
-                       fmt::format("statics needs a body that cannot move "
-                                   "without strain; found: {}; allowed: {} "
-                                   "such that nothing of this "
-                                   "is left, or another Time integration/Type",
-                                   motions,
-                                   springs ?
-                                     "Fixed, Displacement and Supports" :
-                                     "Fixed and Displacement"));
+    if (motions.empty())
+      return;
+    const bool        is_made = the_body.problem.makes_data();
+    const std::string remedy  = is_made ? "boundaries" :
+                                springs ? "Fixed, Displacement and Supports" :
+                                          "Fixed and Displacement";
+    throw InputError(is_made ? "Exact solution/Displacement boundary" :
+                               "Boundary conditions/Fixed",
+                     fmt::format("statics needs a body that cannot move "
+                                 "without strain; found: {}; allowed: {} "
+                                 "such that nothing of this "
+                                 "is left, or another Time integration/Type",
+                                 motions,
+                                 remedy));
   }
 
   void

@@ -132,7 +132,7 @@ namespace corotet
       try
         {
           define_functions(parser);
-          parser.SetExpr(text);
+          parser.SetExpr(with_blanks_as_wanted(text));
           for (const auto &[name, place] : parser.GetUsedVar())
             if (std::find(columns.begin(), columns.end(), name) ==
                 columns.end())

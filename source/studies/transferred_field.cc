@@ -169,7 +169,7 @@ namespace corotet
     , stride(n_geometry + 3 * source.n_nodes_per_cell())
     , data(cells_at(cells_with_values(source, u, stride), stride, target))
   {
-    Assert(!data.empty(), dealii::ExcMessage("the meshes are far apart"));
+    AssertThrow(!data.empty(), dealii::ExcMessage("The meshes are far apart."));
     std::vector<BoundingBox> boxes;
     for (std::size_t c = 0; c < data.size() / stride; ++c)
       boxes.push_back(box_of_cell(data.data() + c * stride));

@@ -197,6 +197,24 @@ TEST(NamedEdges, SetsOfNodes)
     << mesh.remarks.at(0);
 }
 
+// Sets that a program has made for itself hide no set of the other kind that
+// has their name.
+TEST(NamedEdges, InternalSets)
+{
+  const TemporaryFolder folder;
+  const std::string     text =
+    "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n"
+    "*ELEMENT, TYPE=C3D4, ELSET=all\n1, 1, 2, 3, 4\n"
+    "*NSET, NSET=floor\n1, 2, 3\n*ELSET, ELSET=Floor, INTERNAL\n1\n"
+    "*ELSET, ELSET=first\n1\n*NSET, NSET=first, INTERNAL\n1, 2, 4\n";
+  SerialMesh mesh = serial_mesh(read_abaqus_file(folder.write("x.inp", text)));
+  check_mesh(mesh);
+  EXPECT_EQ(MeshNames("boundary", mesh.boundaries).known(),
+            std::vector<std::string>{"floor"});
+  EXPECT_EQ(MeshNames("region", mesh.regions).known(),
+            (std::vector<std::string>{"all", "first"}));
+}
+
 // A line for each name, below the boundaries.
 TEST(NamedEdges, Report)
 {

@@ -190,6 +190,27 @@ namespace
 
 
 
+  // Parts without a name are known by their numbers, which no selection takes.
+  TEST_F(Selecting, NumbersAreNames)
+  {
+    SerialMesh body = box();
+    for (auto &[id, name] : body.boundaries.names)
+      name.clear();
+    body.regions = {};
+    EXPECT_NEAR(tests::area(with(body, "top: 5"), "top"), 2, 1e-14);
+    for (const std::string number : {"0", "5"})
+      EXPECT_EQ(refusal([&] { with(body, number + ": normal 0 0 1"); }),
+                "Selections/Boundaries: the mesh has this name, or another "
+                "selection: found '" +
+                  number + "'; give another one");
+    EXPECT_NEAR(tests::area(with(body, "6: normal 0 0 1"), "6"), 2, 1e-14);
+    EXPECT_EQ(refusal([&] { with(body, "", "0: box 0 0 0 1 1 1"); }),
+              "Selections/Regions: the mesh has this name, or another "
+              "selection: found '0'; give another one");
+  }
+
+
+
   TEST_F(Selecting, Refusals)
   {
     const auto says = [](const std::string &selection,

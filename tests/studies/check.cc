@@ -66,6 +66,14 @@ TEST(Check, Conditions)
             4.5);
 }
 
+// As in all formulas.
+TEST(Check, OperatorsAndBlanks)
+{
+  EXPECT_EQ(result("a: mean tip_x where tip_x>0&&step>=0 < 3").computed, 4.5);
+  EXPECT_EQ(result("a: max tip_x where step==0||step==1 < 3").computed, 1);
+  EXPECT_EQ(result("a: max abs (tip_x) < 9").computed, 8);
+}
+
 TEST(Check, Tolerances)
 {
   // 0.5 is exact: the bound itself passes.

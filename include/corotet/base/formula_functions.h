@@ -54,6 +54,12 @@ namespace corotet
   void
   define_functions(mu::Parser &parser);
 
+  /// A formula as muParser wants it: the parenthesis right after the name of a
+  /// function, and a blank behind "||" and "&&", which it takes for the
+  /// operators "|" and "&" before a letter.
+  std::string
+  with_blanks_as_wanted(const std::string &formula);
+
   /// The constants that formulas have, muParser's among them.
   const std::map<std::string, double> &
   formula_constants();

@@ -30,6 +30,11 @@ namespace corotet
     std::string displacement;
     std::string traction;
     std::string pressure;
+
+    /// No parameter: boundaries, by id, that have the displacement of an exact
+    /// solution, and that as a text of three components.
+    std::set<unsigned int> boundaries_of_solution;
+    std::string            displacement_of_solution;
   };
 
   /**
@@ -81,6 +86,14 @@ namespace corotet
     kind(const std::set<Place> &places);
 
   private:
+    /// Prescribes the displacement that @p value has three components of on
+    /// what @p name means, which are @p places.
+    void
+    prescribe(const std::set<Place> &places,
+              const std::string     &name,
+              const std::string     &value,
+              const TableFunctions  &tables);
+
     /// What "name & name" means, each place once.
     std::set<Place>
     find(const std::string &text, const std::string &entry) const;

@@ -33,6 +33,13 @@ namespace corotet
       return exact.get();
     }
 
+    /// Whether data are made of the exact solution.
+    bool
+    makes_data() const
+    {
+      return manufacture;
+    }
+
     /// Those of the parameters, or those that are made. Throws InputError if a
     /// boundary is unknown.
     BoundaryConditionParameters
