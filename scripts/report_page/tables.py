@@ -10,6 +10,8 @@ from . import columns
 from .run import last_row
 from .text import MINUS, count, escape, number, plain, quantity, with_prefix
 
+# Vectors of the whole body in the history.
+OF_BODY = ("momentum", "angular_momentum", "reaction", "internal_moment")
 COUNTS = ("step", "newton_iterations", "linear_iterations", "inverted_cells", "degenerate_cells", "robust_rotations", "clamped_cells", "parts",
           "rejected_steps")
 
@@ -41,7 +43,8 @@ def final_state(run):
         unit = columns.unit(f"{stem}_x")
         values = [final[f"{stem}_{c}"] for c in "xyz"]
         factor, shown = with_prefix(max((abs(v) for v in values if v is not None), default=0), unit)
-        known = columns.NAMES.get(stem) or f"displacement of {stem}"
+        # Others are probes, whatever they are called.
+        known = columns.NAMES[stem] if stem in OF_BODY else f"displacement of {stem}"
         cells = [f'<data value="{v!r}" title="{v!r} {unit}" data-key="final.{escape(stem)}_{c}">{plain(v * factor)}</data>' if v is not None else "–"
                  for v, c in zip(values, "xyz")]
         rows.append([escape(known), *cells, escape(shown)])
@@ -135,7 +138,7 @@ def histogram(values, bins, title, note):
     labels = [(0, "start", edges[0]), (width / 2, "middle", (edges[0] + edges[-1]) / 2), (width, "end", edges[-1])]
     texts = "".join(f'<text x="{x:.0f}" y="{height + bottom - 4}" text-anchor="{anchor}">{value:.3g}</text>' for x, anchor, value in labels)
     return (f'<figure class="histogram"><figcaption>{title}</figcaption><svg viewBox="0 0 {width} {height + bottom}" role="img" '
-            f'aria-label="{title}: {note}"><g>{"".join(bars)}</g><line x1="0" x2="{width}" y1="{height}" y2="{height}"/>{texts}</svg><p>{note}</p></figure>')
+            f'aria-label="{title}"><g>{"".join(bars)}</g><line x1="0" x2="{width}" y1="{height}" y2="{height}"/>{texts}</svg><p>{note}</p></figure>')
 
 
 def quality(q):

@@ -47,7 +47,7 @@ def lead(run):
         return "The deformation of an elastic body at rest under its loads, " + ("in one step." if steps == "1" else f"in {value(steps)} load steps.")
     if not entry("Time integration/End time"):
         return "The motion of an elastic body."
-    return f"The motion of an elastic body from {value(entry('Time integration/Start time'))} to {value(entry('Time integration/End time'), 's')}."
+    return f"The motion of an elastic body from {value(entry('Time integration/Start time'), 's')} to {value(entry('Time integration/End time'), 's')}."
 
 
 def body(run):
