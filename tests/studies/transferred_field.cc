@@ -5,8 +5,11 @@
 // the elements' degree are reproduced wherever a rank has such cells, and so
 // are their norms.
 
+#include <corotet/discretization/point_search.h>
 #include <corotet/operators/error_norms.h>
 #include <corotet/studies/transferred_field.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
 
@@ -41,22 +44,43 @@ TEST(TransferredField, ReproducesPolynomials)
                         element_text(Element(3)));
   const Vector     u =
     body.interpolate([](const Point<3> &x) { return cubic(x).value; });
-  // Of other cells, which the ranks have others of: their nodes are corners,
-  // sides and the inside; and some outside by round-off.
+  // Of other cells, which the ranks have others of.
   const MovingBody other(box("1, 1, 1", "4, 5, 6"), element_text(Element(2)));
   const Discretization  &target = other.discretization;
   const TransferredField field(body.discretization, u, target);
+  const auto             expect_cubic = [&](const Point<3> &x) {
+    const PointDisplacement found = field.value(x);
+    // Coordinates, shape functions and their sum: some ten times round-off.
+    EXPECT_LT((found.value - cubic(x).value).norm(), 1e-14) << x;
+    EXPECT_LT((found.gradient - cubic(x).gradient).norm(), 1e-13) << x;
+  };
   for (unsigned int c = 0; c < target.n_owned_cells(); ++c)
     for (const unsigned int n : target.cell_nodes(c))
       {
         Point<3> x = target.node_position(n);
         if (x[0] == 1)
           x[0] += 1e-15;
-        const PointDisplacement found = field.value(x);
-        // Coordinates, shape functions and their sum: some ten times round-off.
-        EXPECT_LT((found.value - cubic(x).value).norm(), 1e-14);
-        EXPECT_LT((found.gradient - cubic(x).gradient).norm(), 1e-13);
+        expect_cubic(x);
       }
+  // Corners, sides, the inside; also outside by round-off: of ranks that have a
+  // cell with the point, some rank does.
+  const PointSearch search(target);
+  for (const Point<3> x : {Point<3>(0, 0, 0),
+                           Point<3>(1, 1, 1),
+                           Point<3>(1, 0.3, 0.77),
+                           Point<3>(0.123, 0.456, 0.789),
+                           Point<3>(1 + 1e-15, 0.5, 0.5),
+                           Point<3>(0.9, 0.1, 0.2)})
+    {
+      unsigned int n_found = 0;
+      for (unsigned int c = 0; c < target.n_owned_cells(); ++c)
+        if (search.find(c, x))
+          {
+            expect_cubic(x);
+            ++n_found;
+          }
+      EXPECT_GT(dealii::Utilities::MPI::sum(n_found, MPI_COMM_WORLD), 0u) << x;
+    }
 }
 
 // The rule is exact for these: integrals over the unit cube, by hand.
