@@ -145,9 +145,10 @@ namespace corotet::selections
   std::vector<bool>
   vertices_of_own_cells(const LocalMesh &mesh);
 
-  /// An id that no boundary of the mesh has, and no name means.
+  /// An id that no part of a kind has in the mesh, and no name means: it and
+  /// all above it are new.
   unsigned int
-  id_without_name(const NamedSets &boundaries);
+  id_without_name(const NamedSets &named);
 
   /// Distances that are nothing in a mesh [m].
   double

@@ -69,9 +69,8 @@ namespace corotet::selections
              const std::vector<std::size_t> &chosen,
              Ids                            &ids)
     {
-      const unsigned int id =
-        named.names.empty() ? 0 : named.names.rbegin()->first + 1;
-      named.names[id] = name;
+      const unsigned int id = id_without_name(named);
+      named.names[id]       = name;
       for (const std::size_t i : chosen)
         ids[i].push_back(id);
     }
@@ -266,8 +265,7 @@ namespace corotet::selections
           result[i] = true;
       return result;
     };
-    const unsigned int first_new =
-      names.edges.names.empty() ? 0 : names.edges.names.rbegin()->first + 1;
+    const unsigned int first_new = id_without_name(names.edges);
     select_by_names(
       text,
       entry,
@@ -312,8 +310,7 @@ namespace corotet::selections
           result[v] = true;
       return result;
     };
-    const unsigned int first_new =
-      names.corners.names.empty() ? 0 : names.corners.names.rbegin()->first + 1;
+    const unsigned int first_new = id_without_name(names.corners);
     select_by_names(
       text,
       entry,

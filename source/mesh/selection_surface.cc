@@ -157,9 +157,9 @@ namespace corotet::selections
 
 
   unsigned int
-  id_without_name(const NamedSets &boundaries)
+  id_without_name(const NamedSets &named)
   {
-    return boundaries.names.empty() ? 0 : boundaries.names.rbegin()->first + 1;
+    return named.names.empty() ? 0 : named.names.rbegin()->first + 1;
   }
 
 

@@ -186,9 +186,8 @@ namespace corotet
       entry,
       fmt::format(
         "--restart: found other rows or another interpolation in the table "
-        "'{}', which the run cannot go on with; "
-        "allowed: the rows that it began with, and "
-        "more behind them",
+        "'{}', which the run cannot go on with; allowed: the rows that it "
+        "began with, and more behind them",
         name));
   }
 } // namespace corotet

@@ -71,9 +71,10 @@ namespace corotet
              conditions,
              time_scale(parameters, discretization, materials, purpose))
   {
+    // Modes take it for the linear one at rest, too.
+    const auto chosen = parameters.material.law(discretization.degree());
     for (const auto &[region, material] : materials)
-      check_at_rest(*parameters.material.law(discretization.degree()),
-                    material);
+      check_at_rest(*chosen, material);
   }
 
   Body::Body(const SimulationParameters &parameters,
