@@ -16,6 +16,22 @@ namespace
       H[a][a] += 1;
     return H;
   }
+
+  // F^T F - I and det F - 1, which F itself has not the digits for where H is
+  // small.
+  Tensor<2, 3>
+  twice_strain(const Tensor<2, 3> &H)
+  {
+    return H + transpose(H) + transpose(H) * H;
+  }
+
+  double
+  change_of_volume(const Tensor<2, 3> &H)
+  {
+    const double trace = dealii::trace(H);
+    return trace + 0.5 * (trace * trace - dealii::trace(H * H)) +
+           determinant(H);
+  }
 } // namespace
 
 Tensor<2, 3>
@@ -23,11 +39,12 @@ QuadraticVolume::stress(const corotet::IsotropicMaterial &material,
                         const Tensor<2, 3>               &H) const
 {
   const Tensor<2, 3> F = deformation_gradient(H), G = transpose(invert(F));
-  const double       J = determinant(F);
+  const double       e = change_of_volume(H);
   // Numbers that are not finite say that there is no stress.
-  if (!(J > 0))
+  if (!(e > -1))
     return NAN * F;
-  return material.mu * (F - G) + material.lambda * (J - 1) * J * G;
+  // F - G = G (F^T F - I).
+  return material.mu * G * twice_strain(H) + material.lambda * e * (1 + e) * G;
 }
 
 // dG = -G dF^T G, dJ = J G : dF.
@@ -46,10 +63,9 @@ double
 QuadraticVolume::energy_density(const corotet::IsotropicMaterial &material,
                                 const Tensor<2, 3>               &H) const
 {
-  const Tensor<2, 3> F = deformation_gradient(H);
-  const double       J = determinant(F);
-  if (!(J > 0))
+  const double e = change_of_volume(H);
+  if (!(e > -1))
     return INFINITY;
-  return 0.5 * material.mu * (scalar_product(F, F) - 3 - 2 * std::log(J)) +
-         0.5 * material.lambda * (J - 1) * (J - 1);
+  return 0.5 * material.mu * (trace(twice_strain(H)) - 2 * std::log1p(e)) +
+         0.5 * material.lambda * e * e;
 }
