@@ -7,6 +7,7 @@ import contextlib
 import errno
 import os
 import pathlib
+import re
 import shutil
 import signal
 import sys
@@ -53,6 +54,8 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, name, description):
         super().__init__(prog=name, description=description, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+        # What begins so is a value, no option: argparse itself takes -1e-3 and -0.5:2 for options.
+        self._negative_number_matcher = re.compile(r"-\.?\d")
 
     def error(self, message):
         raise WrongInput(message)
@@ -114,6 +117,15 @@ def check_target(path, overwrite):
         raise WrongInput(f"{path} cannot be written: it is a folder")
     if path.exists() and not overwrite and not is_ours(path):
         raise WrongInput(f"{path} exists and was not made by this program; --overwrite replaces it")
+
+
+def remove_after(last):
+    """What a longer series FILE_0000, FILE_0001, .. has left after its last file now, as far as these scripts have written it."""
+    stem, number = last.stem.rsplit("_", 1)
+    number = int(number) + 1
+    while (path := last.with_name(f"{stem}_{number:04d}{last.suffix}")).is_file() and is_ours(path):
+        path.unlink()
+        number += 1
 
 
 @contextlib.contextmanager

@@ -170,18 +170,20 @@ def write_stl(source, path):
 def write_obj(source, path):
     """The displaced surface as text; with a field the vertices have colours, as many programs read them."""
     files = numbered(path, len(source.states))
-    limits = None
-    if source.fields:
-        source.make_surface()
-        limits = None if source.flat() else source.colour_range()
+    triangles = source.make_surface().simplices
+    coloured = bool(source.fields)
+    limits = source.colour_range() if coloured else None
+    # Where colours jump, each triangle has vertices of its own.
+    vertices = triangles.ravel() if coloured and source.flat() else np.arange(triangles.max() + 1)
+    faces = np.arange(len(vertices)).reshape(-1, 3) if coloured and source.flat() else triangles
     for state, file in zip(source.states, files):
-        rows = source.surface_points(state)
-        if limits:
+        rows = source.surface_points(state)[vertices]
+        if coloured:
             rows = np.hstack([rows, colours_of(source.colour_values(state), limits)])
         with open(file, "w", encoding="ascii") as out:
             out.write(f"# {MARK}\n")
             np.savetxt(out, rows, fmt="v" + " %.9g" * rows.shape[1])
-            np.savetxt(out, source.surface.simplices + 1, fmt="f %d %d %d")
+            np.savetxt(out, faces + 1, fmt="f %d %d %d")
         source.advance()
     return [file.name for file in files]
 

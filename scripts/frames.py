@@ -167,8 +167,10 @@ class Pictures:
             elif not options.perspective:
                 seen = np.abs(view.coordinates(corners)).max(axis=0)
                 view.height = 2.2 * max(seen[1], seen[0] * options.size[1] / options.size[0])
-        if options.height and not options.perspective:
+        if options.height:
             view.height = options.height
+            if options.perspective and not options.position:
+                view.distance = view.height / (2 * np.tan(np.radians(15)))
         return view
 
     def corners(self, view):

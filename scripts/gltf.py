@@ -72,7 +72,8 @@ class Skin:
 
 
 def write_gltf(source, path, split=False, seconds=None):
-    """One file in which states follow each other at their times, which @p seconds stretch to that length; with @p split a file for each state."""
+    """One file in which states follow each other at their times, from the first one on, which @p seconds stretch to that length; with @p split a file
+    for each state."""
     if not split:
         write_file(source, source.states, path, seconds)
         return [path.name]
@@ -102,7 +103,8 @@ def write_file(source, states, path, seconds):
         targets.append({name: buffer.add(data - base[name], VERTICES, name == "POSITION") for name, data in target.items()})
         source.advance()
     mesh = {"primitives": [primitive | ({"targets": targets} if targets else {})],
-            "extras": {"field": source.colour_field.name, "unit": source.colour_field.unit, "range": [float(end) for end in limits]}}
+            "extras": {"field": source.colour_field.name, "unit": source.colour_field.unit, "range": [float(end) for end in limits],
+                       "times": source.run.times[states].tolist()}}
     if targets:
         mesh["weights"] = [0] * len(targets) if swings else [1] + [0] * (len(targets) - 1)
     animations = swing(buffer, source.run, states, seconds or 1) if swings else follow(buffer, source.run.times[states], seconds) if targets else []
@@ -133,9 +135,13 @@ def animation(buffer, name, times, weights):
 
 
 def follow(buffer, times, seconds):
-    """One state after the other: each is a target, which counts fully at its time."""
-    if seconds and times[-1] > times[0]:
-        times = (times - times[0]) * seconds / (times[-1] - times[0])
+    """One state after the other: each is a target, which counts fully at its time. The format wants times from 0 on, in single precision, that grow."""
+    times = times - times[0]
+    if seconds and times[-1] > 0:
+        times = times * seconds / times[-1]
+    times = times.astype(np.float32)
+    for i in range(1, len(times)):
+        times[i] = max(times[i], np.nextafter(times[i - 1], np.float32(np.inf)))
     return [animation(buffer, "states", times, np.eye(len(times)))]
 
 

@@ -125,11 +125,17 @@ class Run:
     def index(self, time):
         """The state nearest to @p time, which must be within those of the run."""
         first, last = self.times[0], self.times[-1]
-        margin = 1e-9 * max(abs(first), abs(last))
-        if not first - margin <= time <= last + margin:
+        if not first - self.margin() <= time <= last + self.margin():
             what = "modes" if self.is_modes else "times"
             raise WrongInput(f"{time:g} is outside of the run, whose {what} are from {first:g} to {last:g}")
         return int(np.abs(self.times - time).argmin())
+
+    def margin(self):
+        """What times of command lines may differ by, as they are rounded."""
+        return 1e-9 * max(abs(self.times[0]), abs(self.times[-1]))
+
+    def between(self, first, last):
+        return np.flatnonzero((self.times >= first - self.margin()) & (self.times <= last + self.margin())).tolist()
 
     def choose(self, words):
         """The states meant by words of a command line: `all`, times, or FROM:TO[:NUMBER], which are all between or a number of states at
@@ -143,12 +149,16 @@ class Run:
                 chosen.add(self.index(float(word)))
             elif len(parts) in (2, 3) and all(map(is_number, parts[:2])) and all(part.isdecimal() and int(part) > 0 for part in parts[2:]):
                 ends = [float(part) for part in parts[:2]]
-                first, last = (self.index(time) for time in ends)
+                nearest = [self.index(time) for time in ends]
                 if ends[0] > ends[1]:
                     raise WrongInput(f"found the times {word}; the first must not be after the last")
                 if parts[2:] and int(parts[2]) > MOST_TIMES:
                     raise WrongInput(f"found the times {word}; allowed are up to {MOST_TIMES}")
-                chosen |= {self.index(time) for time in np.linspace(*ends, int(parts[2]))} if parts[2:] else set(range(first, last + 1))
+                between = {self.index(time) for time in np.linspace(*ends, int(parts[2]))} if parts[2:] else set(self.between(*ends))
+                if not between:
+                    near = " and ".join(f"{self.times[state]:g}" for state in sorted(set(nearest)))
+                    raise WrongInput(f"found the times {word}; there is no state between, the nearest is at {near}")
+                chosen |= between
             else:
                 raise WrongInput(f"found the time '{word}'; allowed are numbers, FROM:TO, FROM:TO:NUMBER and all")
         return sorted(chosen)

@@ -57,7 +57,7 @@ class Legend:
 
 def number_text(value):
     """With three digits, or all of whole numbers up to 9999."""
-    return f"{value:.{4 if abs(value) >= 1000 else 3}g}".replace("e-0", "e-").replace("e+0", "e+").replace("-", "\N{MINUS SIGN}")
+    return f"{value:.{4 if abs(value) >= 999.5 else 3}g}".replace("e-0", "e-").replace("e+0", "e+").replace("-", "\N{MINUS SIGN}")
 
 
 def font_size(size):

@@ -35,6 +35,8 @@ def any_unit(column):
         return "kg"
     if column.startswith(("mass_share", "residual")) or re.search("_(error|order|reference)(_|$)|_order_in_time$", column):
         return "-"
+    if re.fullmatch(r"frequency_\d+", column):
+        return "Hz"
     return OTHER_UNITS.get(column) or unit(column)
 
 

@@ -180,6 +180,17 @@ class Export(ScriptTest):
         for value, colour in ((sizes.min(), 0.0), (sizes.max(), 1.0)):
             expected = matplotlib.colormaps["viridis"](colour)[:3]
             np.testing.assert_allclose(rows[np.isclose(sizes, value)][0, 3:], expected, atol=1e-8)
+        # What is a number of something jumps from triangle to triangle, which have vertices of their own then: the cells at an end are another region.
+        parts = self.run_case("cantilever", "parts", "Time integration/End time = 0.01", "Mesh/box/Cells = 6, 1, 1", "Discretization/Degree = 2",
+                              "Selections/Regions = end: box 0.5 -1 -1 2 1 1")
+        self.start(parts, "--to", "obj", "--field", "region", "--times", 0, "--warp", 0, "--out", "parts.obj")
+        lines = [line.split() for line in (self.folder / "parts.obj").read_text().splitlines()]
+        rows = np.array([line[1:] for line in lines if line[0] == "v"], float).reshape(-1, 3, 6)
+        self.assertEqual([line[1:] for line in lines if line[0] == "f"], [[str(3 * i + k) for k in (1, 2, 3)] for i in range(len(rows))])
+        self.assertEqual(len(rows), len(triangles))
+        is_end = rows[:, :, 0].mean(axis=1) > 0.5
+        np.testing.assert_allclose(rows[is_end][:, :, 3:], np.broadcast_to(matplotlib.colormaps["viridis"](1.0)[:3], (is_end.sum(), 3, 3)), atol=1e-8)
+        np.testing.assert_allclose(rows[~is_end][:, :, 3:], np.broadcast_to(matplotlib.colormaps["viridis"](0.0)[:3], ((~is_end).sum(), 3, 3)), atol=1e-8)
 
     def test_gltf(self):
         """Each state is a morph target that counts fully at its time, with the run's largest displacement and volume."""
@@ -207,6 +218,25 @@ class Export(ScriptTest):
         for vertex, colour in ((tip, 1.0), (file.base["POSITION"][:, 0].argmin(), 0.0)):
             expected = ((np.array(matplotlib.colormaps["viridis"](colour)[:3]) + 0.055) / 1.055) ** 2.4
             np.testing.assert_allclose(colours[vertex], expected, atol=2e-3)
+
+    def test_times_of_gltf(self):
+        """From the first state on, whatever its time: the format has no times below 0, and those of this run differ by less than single precision has
+        at its start. States are told apart even where nothing could."""
+        late = self.runs / "late"
+        if not late.exists():
+            shutil.copytree(self.runs / "beam", late)
+        for times in (1e6 + 1e-3 * np.arange(11), -1 + 0.1 * np.arange(11)):
+            with h5py.File(late / "solution.vtkhdf", "r+") as file:
+                file["VTKHDF/Steps/Values"][...] = times
+            self.start(late, "--to", "gltf", "--out", "late.glb")
+            file = Glb(self, self.folder / "late.glb")
+            np.testing.assert_allclose(file.animation(0)[0], times - times[0], rtol=SINGLE, atol=1e-9)
+            self.assertEqual(file.json["meshes"][0]["extras"]["times"], times.tolist())
+        with h5py.File(late / "solution.vtkhdf", "r+") as file:
+            file["VTKHDF/Steps/Values"][...] = np.append(1 + 1e-12 * np.arange(10), 2)
+        self.start(late, "--to", "gltf", "--out", "late.glb")
+        keys = Glb(self, self.folder / "late.glb").animation(0)[0]
+        self.assertTrue((np.diff(keys) > 0).all() and keys[0] == 0 and keys[-1] == 1, keys)
 
     def test_gltf_by_vtk(self):
         """VTK's reader takes the file, and has the run's displaced body at a time of the run."""
@@ -316,7 +346,19 @@ class Export(ScriptTest):
             ((beam, "--to", "stl", "--warp", "1e45"), "the displaced body is not finite at 0.03, with displacements multiplied by 1e+45"),
             ((beam, "--to", "gltf", "--seconds", "nan"), "argument --seconds: found nan; allowed are numbers from"),
             ((beam, "--to", "csv", "--times", "nan"), "found the time 'nan'; allowed are numbers"),
+            ((beam, "--to", "csv", "--field", "stress", "region"), "csv has what is at nodes; found region, which cells have"),
+            ((beam, "--to", "csv", "--times", "-1e-2:0.1"), "-0.01 is outside of the run, whose times are from 0 to 0.3"),
+            ((beam, "--to", "csv", "--times", "0.1:0.11"), "found the times 0.1:0.11; there is no state between, the nearest is at 0.09 and 0.12"),
             ((beam, "--to", "csv", "--times", "0:0.3:99999999999"), "found the times 0:0.3:99999999999; allowed are up to 100000")))
+
+    def test_times_between(self):
+        """FROM:TO are the states between, ends included; not the nearest ones outside."""
+        self.start(self.runs / "beam", "--to", "csv", "--times", "0.04:0.15", "--field", "displacement")
+        names = [path.name for path in self.folder.glob("*.csv")]
+        self.assertEqual(sorted(names), [f"beam_{i:04d}.csv" for i in range(4)])
+        # A value below zero is no option, however it is written.
+        for factor in ("-1e-3", "-0.001", "-.001"):
+            self.start(self.runs / "beam", "--to", "stl", "--times", "0.3", "--warp", factor)
 
     def test_missing_part(self):
         """Of a long run the states of files that others refer to, not solution.vtkhdf itself: one that is missing or damaged is no state of zeros."""
@@ -357,6 +399,13 @@ class Export(ScriptTest):
         files = [path for path in self.folder.rglob("*") if path.is_file()]
         self.assertEqual(len(files), 1 + 3 + 2 + 2 + 2 + 2)
         self.assertEqual([path for path in files if not is_ours(path)], [])
+        # Of a longer series nothing is left that would look like a part of a later one, but what is not ours.
+        (self.folder / "beam_0012.obj").write_text("of someone else")
+        for kind in ("vtu", "stl", "obj", "csv"):
+            for n in (4, 3):
+                self.start(self.runs / "beam", "--to", kind, "--times", f"0:0.3:{n}")
+        endings = [path.name for path in self.folder.rglob("beam_0*") if path.suffix != ".glb"]
+        self.assertEqual(sorted(endings), sorted([f"beam_{i:04d}.{kind}" for kind in ("vtu", "stl", "obj", "csv") for i in range(3)] + ["beam_0012.obj"]))
         # Nothing is left of what was under way.
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".")], [])
 

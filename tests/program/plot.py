@@ -4,6 +4,7 @@
 """scripts/plot: columns of history.csv as a picture; scripts/draw_study: those of study.csv."""
 
 import csv
+import re
 import subprocess
 import sys
 import unittest
@@ -44,6 +45,15 @@ class Plot(ProgramTest):
         self.plot("one", "other", "tip_z", "end_z", "--out", "both.png")
         self.assertIn("no column 'middle_z' in any history.csv", self.plot("one", "other", "middle_z", status=1).stderr)
 
+    def test_legend(self):
+        """Runs of the same name are told apart by their paths."""
+        for folder in ("a/run", "b/run", "other"):
+            self.run_case("cantilever", folder, *CASE)
+        for runs, names in ((("a/run", "b/run"), {"a/run", "b/run"}), (("a/run", "other"), {"run", "other"})):
+            self.plot(*runs, "dt", "--out", "both.svg")
+            texts = re.findall("<!-- (.*?) -->", (self.folder / "both.svg").read_text())
+            self.assertEqual({text.removeprefix("dt, ") for text in texts if text.startswith("dt, ")}, names)
+
     def test_mistakes(self):
         self.run_case("cantilever", "one", *CASE)
         (self.folder / "empty").mkdir()
@@ -54,6 +64,7 @@ class Plot(ProgramTest):
                                (("one", "dt", "--size", "0", "0"), "found the size 0 x 0; allowed are 1.5 to 50 inches"),
                                (("one", "dt", "--size", "nan", "1"), "argument --size: found nan; allowed are numbers from"),
                                (("one", "step", "dt", "tip_z", "volume", "kinetic_energy", "--size", "2", "50"), "diagrams of 50 inches; allowed are 200 together"),
+                               (("one", "dt", "--x", "tip"), "found --x tip, which are tip_x, tip_y, tip_z; allowed is one column"),
                                (("one", "dt", "--range", "2", "1"), "found --range 2 1; the first must be the lower one"),
                                (("one", "dt", "--colour", "red"), "unrecognized arguments: --colour red")):
             with self.subTest(words=words):

@@ -271,6 +271,9 @@ class Report(ProgramTest):
         self.assertEqual(self.browser.run("return report.description.view.states[report.state].time"), float(row["time"]))
         self.browser.click(f"{chart} .keyline button")
         self.assertEqual(self.browser.run(f"return document.querySelectorAll('{chart} path.curve').length"), 2)
+        # The time has as many digits as tell states apart.
+        self.browser.run("report.description.view.states.forEach((one, k) => { one.time = 1 + 5e-5 * k; }); report.state = 1; report.showTime()")
+        self.assertEqual(self.browser.texts("#clock"), ["t = 1.00005\u00a0s"])
 
     def test_curved_cells(self):
         """An eighth of a thick sphere, radii 1 and 2: three flat quarters of a ring and two curved sides."""

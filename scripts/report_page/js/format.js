@@ -30,6 +30,15 @@ function plainNumber(value, digits = 4) {
   return text.replace('-', MINUS);
 }
 
+/** A number with as many decimals, all multiplied by the factor, as tell the sorted values apart to a hundredth. */
+function withDecimals(value, values, factor) {
+  const gaps = values.slice(1).map((one, k) => factor * (one - values[k])).filter((gap) => gap > 0);
+  const gap = gaps.length ? Math.min(...gaps) : Math.abs(factor * value) / 10;
+  const isEnough = (decimals) => values.every((one) => Math.abs(Number((factor * one).toFixed(decimals)) - factor * one) <= 0.01 * gap);
+  const decimals = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10].find(isEnough) ?? 11;
+  return (factor * value).toFixed(decimals).replace('-', MINUS);
+}
+
 /** How many digits mean something of a number that is known to a resolution: none of one below that. */
 function meaningfulDigits(value, resolution) {
   return Math.abs(value) < resolution ? 0 : Math.min(4, Math.floor(Math.log10(Math.abs(value) / resolution)) + 1);

@@ -150,8 +150,9 @@ class Report {
       return;
     }
     // In the unit that suits the whole of the run.
-    const scale = withPrefix(Math.max(...view.states.map((one) => Math.abs(one.time))), 's');
-    const time = `${plainNumber(state.time * scale.factor)}\u00a0${scale.unit}`;
+    const times = view.states.map((one) => one.time);
+    const scale = withPrefix(Math.max(...times.map(Math.abs)), 's');
+    const time = `${withDecimals(state.time, times, scale.factor)}\u00a0${scale.unit}`;
     byId('clock').textContent = `t = ${time}${this.warp === 1 ? '' : ` · drawn × ${plainNumber(this.warp)}`}`;
     byId('now').textContent = `t = ${time}`;
     byId('time').setAttribute('aria-valuetext', `${time}, state ${this.state + 1} of ${view.states.length}`);
