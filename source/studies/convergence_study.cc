@@ -303,6 +303,7 @@ namespace corotet
       {
         return failed_result(study_case, error);
       }
+    compare_parts(*run, study_case);
     Json problem          = run->fingerprint();
     problem["quantities"] = Json::array();
     for (const auto &quantity : quantities)

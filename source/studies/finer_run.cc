@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The run that those of a study are compared with, and runs that fail before
-// they begin.
+// What the runs of a study are compared with: a finer run, and the body of the
+// first one. Runs that fail before they begin.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/studies/convergence_study.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "sizes_of_parts.h"
 
 namespace corotet
 {
@@ -23,6 +25,26 @@ namespace corotet
       (error.entry.empty() ? "" : error.entry + ": ") + error.what();
     result.quantities.assign(quantities.size(), std::nan(""));
     return result;
+  }
+
+  void
+  ConvergenceStudy::compare_parts(const StudyRun  &run,
+                                  const StudyCase &study_case)
+  {
+    if (has_warned_of_parts)
+      return;
+    const auto sizes = run.sizes_of_parts();
+    // Curved bodies have other sizes with another degree.
+    const auto [first, is_new] = first_sizes.emplace(study_case.degree, sizes);
+    const std::string changed =
+      is_new ? "" : describe_changed_parts(first->second, sizes);
+    if (changed.empty())
+      return;
+    has_warned_of_parts = true;
+    log.warning(study_case.name() + ": " + changed +
+                " in an earlier run, so runs are not of the same body: limits "
+                "of 'Selections' should be where all meshes have sides of "
+                "cells");
   }
 
   StudyCase
@@ -55,6 +77,7 @@ namespace corotet
                                            command.overrides,
                                            finer_case(),
                                            comm);
+        compare_parts(*finer, finer_case());
         // Its end is kept for a restart: the runs that are left need it again.
         result =
           finer->compute(directory + "/rows/finer_run", command.restart, true);

@@ -113,6 +113,21 @@ class Studies(ProgramTest):
         self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2", "--set", "Output/Overwrite = true")
         self.assertNotEqual(float(self.rows()[0]["L2_error"]), 0.125)
 
+    def test_bodies_that_change(self):
+        """What is selected by place may be another part of the body on finer meshes: said once, for the first such run. Cuboids of 1/2 have a side at
+        x = 0.5, and none at 0.4."""
+        for limit, expected in ((0.5, None), (0.4, ("the boundary 'patch' has 0.035 m^2 and had 0.01", "the region 'core' has"))):
+            with self.subTest(limit=limit):
+                run = self.study(EXACT, "--set", "Output/Overwrite = true", "--set", f"Selections/Regions = core: box -1 -1 -1 {limit} 2 2",
+                                 "--set", f"Selections/Boundaries = patch: box -1 -1 -1 {limit} 2 1e-3 or x-max")
+                log = (self.folder / "out" / "log.txt").read_text(encoding="utf-8")
+                warnings = [line for line in log.splitlines() if "not of the same body" in line]
+                self.assertEqual(len(warnings), 1 if expected else 0, log)
+                for text in expected or ():
+                    self.assertIn(text, warnings[0])
+                    self.assertTrue(warnings[0].startswith("warning: degree_1_refinements_1: "), warnings[0])
+                self.assertEqual((run.stdout + run.stderr).count("not of the same body"), len(warnings))
+
     def test_restart_of_another_study(self):
         """What is run again and again belongs to the study; its lists, and entries that they replace, do not."""
         self.run_small("Loads/Gravity = 0; 0; 0")

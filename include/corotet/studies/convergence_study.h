@@ -10,6 +10,7 @@
 #include <corotet/studies/study_run.h>
 #include <corotet/studies/transferred_field.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,6 +63,10 @@ namespace corotet
     /// From its file, or by running it.
     StudyResult
     result_of(const StudyCase &study_case);
+    /// Warns of parts of the body that are not what they were in the first run
+    /// of this degree: what is selected by place changes with the mesh.
+    void
+    compare_parts(const StudyRun &run, const StudyCase &study_case);
     /// Runs the case that others are compared with, if it is not done yet.
     /// Null if it has failed.
     const StudyRun *
@@ -97,6 +102,10 @@ namespace corotet
     FieldNorms                             finer_norms;
     /// Empty if it has not failed.
     std::string failure_of_finer_run;
+    /// Sizes of the body's parts in the first run of each degree, and parts
+    /// that have had a warning.
+    std::map<unsigned int, std::map<std::string, double>> first_sizes;
+    bool has_warned_of_parts = false;
     /// Of the runs that were not kept from an earlier start.
     unsigned int n_computed = 0;
   };

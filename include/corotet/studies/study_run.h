@@ -12,6 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -80,6 +81,11 @@ namespace corotet
     /// problem by. Collective.
     nlohmann::ordered_json
     fingerprint() const;
+
+    /// Volumes of regions [m^3] and areas of boundaries [m^2] at rest, by what
+    /// they are called. Collective.
+    std::map<std::string, double>
+    sizes_of_parts() const;
 
     /**
      * Runs it, with its log in @p path.log and its checkpoints in the folder
