@@ -238,7 +238,7 @@ namespace corotet::selections
           if (selected.is_member[i])
             {
               chosen.push_back(i);
-              n_chosen += members.is_counted[i];
+              n_chosen += members.is_counted[i] ? 1 : 0;
             }
         n_chosen = dealii::Utilities::MPI::sum(n_chosen, members.communicator);
         if (n_chosen == 0)

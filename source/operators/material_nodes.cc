@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/exceptions.h>
 #include <corotet/operators/material_nodes.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace corotet
@@ -45,6 +49,23 @@ namespace corotet
     }
   } // namespace
 
+  void
+  MaterialNodes::check_number(const std::uint64_t n_copies)
+  {
+    constexpr std::uint64_t most =
+      std::numeric_limits<global_dof_index>::max() / 6;
+    if (n_copies > most)
+      throw InputError(
+        "Output/Stress",
+        fmt::format("found {} nodes, for each material of a node "
+                    "one; allowed are up to {} for recovered "
+                    "stress, whose numbers deal.II counts by {} "
+                    "bits here",
+                    n_copies,
+                    most,
+                    8 * sizeof(global_dof_index)));
+  }
+
   MaterialNodes::MaterialNodes(
     const Discretization                                  &discretization,
     const unsigned int                                     n_materials,
@@ -60,9 +81,12 @@ namespace corotet
       ++n_owned;
 
     const MPI_Comm comm = discretization.communicator();
-    const auto [first, n_global] =
-      dealii::Utilities::MPI::partial_and_total_sum<global_dof_index>(n_owned,
-                                                                      comm);
+    const auto [n_before, n_all] =
+      dealii::Utilities::MPI::partial_and_total_sum<std::uint64_t>(n_owned,
+                                                                   comm);
+    check_number(n_all);
+    const auto first    = static_cast<global_dof_index>(n_before);
+    const auto n_global = static_cast<global_dof_index>(n_all);
     // Global numbers of ghosts, material by material, travel in a vector of
     // the discretization; doubles hold them exactly.
     std::vector<global_dof_index> global(found.size());

@@ -15,7 +15,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <map>
+#include <regex>
 #include <string_view>
 
 namespace corotet
@@ -115,6 +117,57 @@ namespace corotet
              x == y;
     }
 
+    // Whether all formulas that have the table have it of the time itself.
+    bool
+    is_function_of_time(const std::string                        &table,
+                        const std::map<std::string, std::string> &entries)
+    {
+      const std::regex call("\\b" + table + "\\s*\\("),
+        call_of_time("\\b" + table + "\\s*\\(\\s*t\\s*\\)");
+      const auto n_calls = [](const std::string &text,
+                              const std::regex  &wanted) {
+        return std::distance(
+          std::sregex_iterator(text.begin(), text.end(), wanted), {});
+      };
+      return std::all_of(entries.begin(),
+                         entries.end(),
+                         [&](const auto &entry) {
+                           return n_calls(entry.second, call) ==
+                                  n_calls(entry.second, call_of_time);
+                         });
+    }
+
+    // What is wrong with rows that have been added to a table since the
+    // checkpoint at @p time, when it had @p n_before; empty if nothing is.
+    std::string
+    refused_rows(const std::string   &name,
+                 const TableFunction &table,
+                 const std::size_t    n_before,
+                 const double         time,
+                 const Json          &parameters)
+    {
+      const std::vector<double> &arguments = table.rows();
+      if (n_before == arguments.size())
+        return "";
+      std::map<std::string, std::string> entries;
+      flatten(parameters, "", entries);
+      if (!is_function_of_time(name, entries))
+        return fmt::format("formulas have it of something else than t, so they "
+                           "may change what the run has done");
+      // A new row changes the slope at the last one before it, and where
+      // supports move, their velocity there.
+      const double last = arguments[n_before - (table.is_cubic() ? 2 : 1)];
+      const bool   moves_supports =
+        entries["Boundary conditions/Displacement"].find(name) !=
+        std::string::npos;
+      if (time < last || (time == last && !moves_supports))
+        return "";
+      return fmt::format("they change it from {} on, and the run has come to "
+                         "t = {}",
+                         last,
+                         time);
+    }
+
     // Whether two texts are the same but for the way to write numbers, and for
     // blanks around the items of lists.
     bool
@@ -164,9 +217,25 @@ namespace corotet
     std::string text;
     checkpoint.transfer("tables", text);
     std::vector<std::string> changed;
+    std::string              name, refused;
     try
       {
-        changed = changed_tables(Json::parse(text), body.tables);
+        const Json before = Json::parse(text);
+        changed           = changed_tables(before, body.tables);
+        if (changed.empty())
+          for (const auto &[known, table] : body.tables)
+            // Checkpoints of older versions do not have the time.
+            if (before.contains(known) && before.at(known).contains("time"))
+              if (refused = refused_rows(known,
+                                         *table,
+                                         before.at(known).at("rows"),
+                                         before.at(known).at("time"),
+                                         values);
+                  !refused.empty())
+                {
+                  name = known;
+                  break;
+                }
       }
     catch (const Json::exception &)
       {
@@ -174,14 +243,22 @@ namespace corotet
                          directory + ": damaged: found '" + shortened(text) +
                            "' as checksums of tables");
       }
-    if (changed.empty())
+    if (changed.empty() && refused.empty())
       return;
-    const std::string &name  = changed.front();
-    std::string        entry = "Tables/Linear";
+    if (!changed.empty())
+      name = changed.front();
+    std::string entry = "Tables/Linear";
     for (const std::string &item : dealii::Utilities::split_string_list(
            values.at("Tables").at("Cubic").get<std::string>(), ','))
       if (dealii::Utilities::split_string_list(item, ':').front() == name)
         entry = "Tables/Cubic";
+    if (changed.empty())
+      throw InputError(entry,
+                       fmt::format("--restart: found new rows in the table "
+                                   "'{}': {}; allowed: the rows that it began "
+                                   "with",
+                                   name,
+                                   refused));
     throw InputError(
       entry,
       fmt::format(

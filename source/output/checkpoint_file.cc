@@ -278,10 +278,20 @@ namespace corotet
       content["parameters"]       = parameters;
       content["values"]           = values;
       content["checksum"] = checkpoint_checksum::of_text(content.dump());
-      write_whole_file(path + ".json",
-                       content.dump(1) + "\n",
-                       "the checkpoint",
-                       durable);
+      try
+        {
+          write_whole_file(path + ".json",
+                           content.dump(1) + "\n",
+                           "the checkpoint",
+                           durable);
+        }
+      catch (const MachineError &)
+        {
+          // Which is of no use alone, and takes the room of the next one.
+          std::error_code error;
+          std::filesystem::remove(path + ".h5", error);
+          throw;
+        }
     });
   }
 

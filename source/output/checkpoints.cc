@@ -245,6 +245,7 @@ namespace corotet
         if (step > written_step)
           for (const char *suffix : {".json", ".h5"})
             fs::remove(path_of(step) + suffix);
+      remove_unfinished();
     });
   }
 
@@ -315,8 +316,11 @@ namespace corotet
     if (durable)
       on_all_ranks(comm, [&] { sync_file_system(directory); });
     CheckpointWriter writer(path_of(step), discretization, order_of_nodes());
-    std::int64_t     log_size = log.size();
-    std::string      tables   = table_checksums(body.tables).dump();
+    std::int64_t     log_size  = log.size();
+    Json             checksums = table_checksums(body.tables);
+    for (Json &table : checksums)
+      table["time"] = simulation.time();
+    std::string tables = checksums.dump();
     writer.transfer("log_size", log_size);
     writer.transfer("tables", tables);
     simulation.save_state(writer);
@@ -326,11 +330,31 @@ namespace corotet
   }
 
   void
+  Checkpoints::remove_unfinished() const
+  {
+    const std::regex      name(R"((step_\d{6,10})\.(h5|h5\.tmp|json\.tmp))");
+    std::vector<fs::path> unfinished;
+    std::error_code       error;
+    for (const auto &entry : fs::directory_iterator(directory, error))
+      {
+        std::smatch       match;
+        const std::string file = entry.path().filename().string();
+        if (std::regex_match(file, match, name) &&
+            (match[2] != "h5" ||
+             !fs::exists(fmt::format("{}/{}.json", directory, match[1].str()))))
+          unfinished.push_back(entry.path());
+      }
+    for (const fs::path &path : unfinished)
+      fs::remove(path, error);
+  }
+
+  void
   Checkpoints::remove_old() const
   {
     const std::vector<unsigned int> all = steps();
     for (std::size_t i = parameters.keep; i < all.size(); ++i)
       for (const char *suffix : {".json", ".h5"})
         fs::remove(path_of(all[i]) + suffix);
+    remove_unfinished();
   }
 } // namespace corotet

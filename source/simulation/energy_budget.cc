@@ -29,7 +29,6 @@ namespace corotet
   EnergyBudget::EnergyBudget(EquationOfMotion &equation,
                              const State      &initial_state,
                              const double      time,
-                             const double      load_factor,
                              const double      staggered_step)
     : equation(equation)
     , body(equation.body)
@@ -46,7 +45,6 @@ namespace corotet
     last.velocity.resize(n_prescribed);
     if (equation.is_dynamic)
       body.discretization.initialize_vector(momentum);
-    equation.evaluate(initial_state, time, load_factor);
     end_step(initial_state);
     initial_changing_energy =
       force_terms.changing_energy(equation.motion(time));

@@ -13,6 +13,15 @@
 
 namespace corotet
 {
+  namespace
+  {
+    bool
+    is_moved(const StepRecord &record)
+    {
+      return record.max_displacement > 0;
+    }
+  } // namespace
+
   Simulation::Simulation(const SimulationParameters &parameters,
                          const std::string          &folder,
                          const MPI_Comm              comm,
@@ -49,9 +58,8 @@ namespace corotet
     if (motions.empty())
       return;
     const bool        is_made = the_body.problem.makes_data();
-    const std::string remedy  = is_made ? "boundaries" :
-                                springs ? "Fixed, Displacement and Supports" :
-                                          "Fixed and Displacement";
+    const std::string entries =
+      springs ? "Fixed, Displacement and Supports" : "Fixed and Displacement";
     throw InputError(is_made ? "Exact solution/Displacement boundary" :
                                "Boundary conditions/Fixed",
                      fmt::format("statics needs a body that cannot move "
@@ -59,7 +67,7 @@ namespace corotet
                                  "such that nothing of this "
                                  "is left, or another Time integration/Type",
                                  motions,
-                                 remedy));
+                                 is_made ? "boundaries" : entries));
   }
 
   void
@@ -86,9 +94,17 @@ namespace corotet
                       last_record.step + (stepper.has_partial_step() ? 0 : 1),
                       stepper.time(),
                       error.what());
-        if (is_started)
-          save();
-        finish("failed", message);
+        // If the machine fails now, too, the reason of the run's end is known.
+        try
+          {
+            if (is_started)
+              save();
+            finish("failed", message);
+          }
+        catch (const MachineError &failure)
+          {
+            throw MachineError(message + "; and then: " + failure.what());
+          }
         throw ComputationError(message);
       }
   }
@@ -100,6 +116,7 @@ namespace corotet
     this->observers = &observers;
     guarded([&] {
       last_record           = stepper.start(recording);
+      has_moved             = is_moved(last_record);
       is_started            = true;
       last_record.wall_time = seconds();
       report_inversions();
@@ -120,6 +137,8 @@ namespace corotet
     transfer(archive);
     archive.within("time_loop",
                    [&] { stepper.resume(recording, archive, last_record); });
+    // Before the checkpoint it has if something has done work since.
+    has_moved  = is_moved(last_record) || last_record.external_work != 0;
     is_started = true;
     system.equation().set_state(stepper.state());
     ScopedTimer timer(wall_times.output);
@@ -171,6 +190,7 @@ namespace corotet
     guarded([&] {
       if (!stepper.next(last_record, is_interrupted))
         return;
+      has_moved             = has_moved || is_moved(last_record);
       stress_is_present     = false;
       last_record.wall_time = seconds();
       report_inversions();
@@ -269,7 +289,7 @@ namespace corotet
       {
         summary.errors                      = errors();
         summary.largest_rotation_difference = rotation_difference();
-        if (status == "done" && last_record.max_displacement == 0)
+        if (status == "done" && !has_moved)
           log.warning("the displacement is zero everywhere: no load, no motion "
                       "of supports and no initial condition moves the body");
       }

@@ -17,11 +17,13 @@ namespace corotet
   {
     recording = wanted;
     integrator->reset();
+    system.equation().evaluate(present,
+                               parameters.start_time,
+                               integrator->load_factor(0.));
     budget =
       std::make_unique<EnergyBudget>(system.equation(),
                                      present,
                                      parameters.start_time,
-                                     integrator->load_factor(0.),
                                      integrator->is_staggered() ? 1. : 0.);
     double end_time = 0, time_step = 0;
     archive.transfer("end_time", end_time);
@@ -29,6 +31,7 @@ namespace corotet
     const unsigned int n_equal = n_steps;
     const double       planned = step_length;
     transfer(archive);
+    largest_energy = energy_supply;
     if (!is_between_records)
       {
         keep_state();

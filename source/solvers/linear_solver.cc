@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace corotet
 {
@@ -203,7 +204,12 @@ namespace corotet
       largest_number(is_new || (J == nullptr && A.version() == built_version),
                      J != nullptr);
     const auto change_it = [&](const double expected) {
-      if (!preconditioner->change(A, J, displacement, done, expected))
+      // If that throws, there is none.
+      const bool was_built = std::exchange(is_built, false);
+      const bool is_other =
+        preconditioner->change(A, J, displacement, done, expected);
+      is_built = was_built;
+      if (!is_other)
         return;
       done_before_change = done;
       most               = std::min(parameters.max_iterations,
@@ -233,8 +239,13 @@ namespace corotet
                                                          failure.last_residual);
             // As if the residual went on falling as it did; it may not have
             // begun to.
-            const double digits = std::log(norm(b) / failure.last_residual) /
-                                  std::log(norm(b) / wanted);
+            double digits = std::log(norm(b) / failure.last_residual) /
+                            std::log(norm(b) / wanted);
+            if (!std::isfinite(digits))
+              {
+                x      = 0;
+                digits = 0;
+              }
             change_it(done / std::clamp(digits, 0.1, 1.));
           }
       }

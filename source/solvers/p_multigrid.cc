@@ -203,7 +203,7 @@ namespace corotet
       }
     update(A);
     estimate_eigenvalues(A.discretization());
-    vertex_level->build(A, stiffness_unit, scale, displacement);
+    vertex_level->build(A, scale, displacement);
   }
 
   void
@@ -234,7 +234,12 @@ namespace corotet
   void
   PMultigrid::update(const EffectiveOperator &A)
   {
-    scale = A.stiffness_factor() * stiffness_unit;
+    const double stiffness = A.stiffness_factor() * stiffness_unit;
+    const double mass      = A.mass_factor() * mass_unit;
+    // In steps so short that there is nothing but mass, that must not leave the
+    // range of single precision.
+    constexpr double largest = 1e20;
+    scale                    = std::max(stiffness, mass / largest);
     if (levels.empty())
       return;
     const auto  &cells  = A.elasticity().coefficients();
@@ -262,9 +267,9 @@ namespace corotet
             level.surface->set(*A.surface(), 1 / scale);
           }
         level.A.set_surface(level.surface.get());
-        level.A.set_terms(1,
+        level.A.set_terms(stiffness / scale,
                           coefficients.data(),
-                          A.mass_factor() * mass_unit / scale,
+                          mass / scale,
                           masses.data(),
                           // Mass is lumped on the finest level only: that comes
                           // closer to what the coarser ones must correct.

@@ -132,7 +132,6 @@ namespace corotet
 
   void
   VertexLevel::assemble(const EffectiveOperator &A,
-                        const double             stiffness_unit,
                         const double             scale,
                         const Vector            &displacement)
   {
@@ -147,7 +146,8 @@ namespace corotet
       }
     const auto  &cells  = A.elasticity().coefficients();
     const auto  &masses = A.mass().cell_masses();
-    const double c_K = 1 / stiffness_unit, c_M = A.mass_factor() / scale;
+    const double c_K    = A.stiffness_factor() / scale,
+                 c_M    = A.mass_factor() / scale;
     if (!motions)
       {
         assembled->update(c_K, cells, c_M, masses, nullptr, surface.get());
@@ -176,7 +176,6 @@ namespace corotet
 
   void
   VertexLevel::build(const EffectiveOperator &A,
-                     const double             stiffness_unit,
                      const double             scale,
                      const Vector            &displacement)
   {
@@ -184,7 +183,7 @@ namespace corotet
     // read makes room.
     if (solver.empty() && A.discretization().n_owned_nodes() > many_nodes)
       release_library_pages();
-    assemble(A, stiffness_unit, scale, displacement);
+    assemble(A, scale, displacement);
     const BlockMatrix &level_matrix = matrix(A);
     solver                          = parameters.coarse_type;
     if (solver == "automatic")

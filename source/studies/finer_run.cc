@@ -59,6 +59,13 @@ namespace corotet
           finest.time_step = std::min(*finest.time_step, *one.time_step);
       }
     finest.refinements += parameters.further_refinements;
+    // Of a run with the same step the error in time would be the same.
+    const bool varies_time =
+      std::any_of(cases.begin(), cases.end(), [&](const StudyCase &one) {
+        return one.time_step != finest.time_step;
+      });
+    if (finest.time_step && varies_time)
+      *finest.time_step /= 4;
     // With the file's own.
     finest.mass.reset();
     finest.rotation.reset();

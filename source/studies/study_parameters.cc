@@ -103,7 +103,8 @@ namespace corotet
       study_references,
       "What fields are compared with: 'exact solution', that of section Exact "
       "solution; 'finer run', one of the highest degree on the finest mesh, "
-      "refined further, with the shortest time step; 'none', only Quantities "
+      "refined further, with the shortest time step, or where 'Time steps' has "
+      "several a quarter of that; 'none', only Quantities "
       "are looked at.");
     prm.add_parameter("Further refinements",
                       further_refinements,

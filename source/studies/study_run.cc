@@ -228,6 +228,19 @@ namespace corotet
 
   StudyRun::~StudyRun() = default;
 
+  std::string
+  describe(const StudyResult &result)
+  {
+    std::string text = fmt::format("{} cells, {} unknowns, {:.2f} s",
+                                   result.cells,
+                                   result.unknowns,
+                                   result.total_wall_time);
+    if (result.errors)
+      text += fmt::format(", L2 error {:.3e}", result.errors->error.L2);
+    return result.status == "done" ? text :
+                                     text + ", failed: " + result.message;
+  }
+
   Json
   StudyRun::fingerprint() const
   {

@@ -208,6 +208,22 @@ class Checkpoints(ProgramTest):
                 self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
                 shutil.rmtree(run.folder)
 
+    def test_unfinished_checkpoints_are_removed(self):
+        """What a run that was killed while it saved has left would be there for ever: vectors without the rest, files under way. Others' files stay."""
+        run = Run(self.folder / "run", "generalized-alpha", 1)
+        self.stop_at(run, 24)
+        folder = run.output / "checkpoint"
+        kept = sorted(path.name for path in folder.iterdir())
+        for name in ("step_000007.h5", "step_000009.h5.tmp", "step_000009.json.tmp", "notes.h5"):
+            (folder / name).write_bytes(b"unfinished")
+        status, out, errors = run.finish("--restart")
+        self.assertEqual((status, errors), (0, ""), out)
+        names = {path.name for path in folder.iterdir()}
+        self.assertIn("notes.h5", names)
+        self.assertEqual({name.split(".")[0] for name in names if name.endswith(".h5")} - {"notes"},
+                         {name.split(".")[0] for name in names if name.endswith(".json")})
+        self.assertFalse([name for name in names if name.endswith(".tmp")], kept)
+
     def test_no_checkpoint_that_is_good(self):
         # Of a run that was killed: what it has must not be lost, as with a program of another version.
         run = Run(self.folder / "unusable", "static", 1)

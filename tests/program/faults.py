@@ -91,6 +91,19 @@ class Faults(ProgramTest):
             self.sample(mode, 1, 9)
             self.sample(mode, 2, 3)
 
+    def test_failed_step(self):
+        """Of a step that fails, and then a file that cannot be written, both are said: who makes room knows what is to come."""
+        case = {**CASE, "Newton/Maximum iterations": "1", "Loads/Gravity": "0; 0; -1e12"}
+        (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in case.items() if value}), encoding="utf-8")
+        for ranks in (1, 2):
+            status, errors = self.start(ranks, LD_PRELOAD=os.environ["COROTET_FAILING_FILES"], COROTET_TEST_RANK="all", COROTET_TEST_FROM=1,
+                                        COROTET_TEST_FILES="/results/summary.json", COROTET_TEST_MODE="from",
+                                        ASAN_OPTIONS="verify_asan_link_order=0")
+            messages = MESSAGE.findall(errors)
+            self.assertEqual((status, len(messages)), (3, 1), errors)
+            self.assertRegex(messages[0], r"^step 1 \(t = 0\): Newton's method did not converge .*; and then: .*summary\.json.*cannot be written")
+            shutil.rmtree(self.folder / "results")
+
 
 def try_all(modes, ranks):
     test = Faults()

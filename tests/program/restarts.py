@@ -56,8 +56,42 @@ class Restarts(ProgramTest):
                 self.check_refused(before, self.run_entries(swapped, "--restart", status=1),
                                    f"Tables/{other}: --restart: found other rows or another interpolation in the table 'rise'")
                 table.write_text(rows + "0.3, 3\n", encoding="utf-8")
-                self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3")
+                longer = ("--restart", "--set", "Time integration/End time = 0.3")
+                if kind == "Cubic":
+                    # The last interval becomes another one.
+                    self.check_refused(before, self.run_entries(entries, *longer, status=1),
+                                       r"Tables/Cubic: --restart: found new rows in the table 'rise': they change it from 0\.1 on, and the run has come to "
+                                       r"t = 0\.2; allowed: the rows that it began with")
+                    continue
+                self.run_entries(entries, *longer)
                 self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.3, delta=1e-12)
+
+    def test_rows_behind_a_table(self):
+        """They may be added as long as what the run has had stays as it is: the run that goes on is the one that had them from its start."""
+        table = self.folder / "rise.csv"
+        few, more = "0, 0\n0.125, 1\n0.1875, 2\n0.25, 1\n", "0.375, 3\n0.5, 2\n"
+        force, support = ("Loads/Gravity", "0; 0; -10 * rise({})"), ("Boundary conditions/Displacement", "x-max: 0; 0; 1e-2 * rise({})")
+        for (entry, formula), argument, kind, reached, from_here in (
+                (force, "t", "Linear", 0.25, None), (force, "t", "Linear", 0.265625, "0.25"), (force, " t ", "Cubic", 0.1875, None),
+                (force, "t", "Cubic", 0.25, "0.1875"), (support, "t", "Linear", 0.1875, None), (support, "t", "Linear", 0.25, "0.25"),
+                (force, "2 * t", "Linear", 0.125, "something else than t")):
+            with self.subTest(entry=entry, argument=argument, kind=kind, reached=reached):
+                shutil.rmtree(self.folder / "run", ignore_errors=True)
+                entries = {**SHORT, entry: formula.format(argument), f"Tables/{kind}": "rise: rise.csv", "Time integration/Time step": "0.015625"}
+                table.write_text(few, encoding="utf-8")
+                self.run_entries(entries, "--set", f"Time integration/End time = {reached}")
+                before = contents(self.folder / "run")
+                table.write_text(few + more, encoding="utf-8")
+                longer = ("--set", "Time integration/End time = 0.5")
+                if from_here:
+                    expected = from_here if "t" in from_here else f"they change it from {from_here} on"
+                    self.check_refused(before, self.run_entries(entries, "--restart", *longer, status=1), f"new rows in the table 'rise': .*{expected}")
+                    continue
+                self.run_entries(entries, "--restart", *longer)
+                rows = rows_without_time(self.folder / "run")
+                shutil.rmtree(self.folder / "run")
+                self.run_entries(entries, *longer)
+                self.assertEqual(rows, rows_without_time(self.folder / "run"))
 
     def test_after_single_precision_has_failed(self):
         """Factors of a slender beam are in single precision for short steps, whose mass makes matrices definite, and in double from the first

@@ -63,6 +63,10 @@ class Statics(ProgramTest):
                     out = self.run_cube({"Boundary conditions/Fixed": "z-min", "Time integration/Type": kind,
                                          "Loads/Gravity": gravity}).stdout
                     self.assertEqual(out.count(warning), warned)
+        # What comes back to where it was has moved.
+        out = self.run_cube({"Boundary conditions/Displacement": "z-min: 0; 0; pulse(t, 0.2, 0.7)", "Time integration/Type": "static",
+                             "Time integration/static/Load steps": "4", "Time integration/static/Proportional loading": "false"}).stdout
+        self.assertEqual(out.count(warning), 0)
 
     def test_preconditioner_of_another_shape(self):
         """

@@ -224,6 +224,20 @@ class Studies(ProgramTest):
                 self.assertAlmostEqual(float(other["elastic_energy"]) / float(row["elastic_energy"]), 1, delta=1e-9)
                 self.assertGreater(float(other["elastic_energy_error"]), 0)
 
+    def test_finer_run_in_time(self):
+        """Errors in time are those against a step that is a fourth of the shortest. Where BDF2's are c dt^2, those that are seen are c (dt^2 - dt_0^2), so
+        orders are log2(255 / 63) and log2(63 / 15); with the shortest step itself as dt_0 the last error would be round-off."""
+        moving = {"Time integration/Type": "BDF2", "Exact solution/Displacement": "", "Convergence study/Reference": "finer run",
+                  "Convergence study/Quantities": "elastic_energy", "Loads/Gravity": "0; 0; -10 * smooth_step(t, 0, 1)", "Boundary conditions/Fixed": "x-min",
+                  "Time integration/End time": "1", "Convergence study/Time steps": "0.04, 0.02, 0.01", "Convergence study/Degrees": "1",
+                  "Convergence study/Refinements": "0", "Convergence study/Further refinements": "0", "Material/Young's modulus": "1e4"}
+        self.study(EXACT, *(word for entry, value in moving.items() for word in ("--set", f"{entry} = {value}")))
+        log = (self.folder / "out" / "log.txt").read_text(encoding="utf-8")
+        self.assertIn("time_step_0.0025", log)
+        orders = [row["L2_order_in_time"] for row in self.rows()]
+        for order, expected in zip(orders[1:], (math.log2(255 / 63), math.log2(63 / 15))):
+            self.assertAlmostEqual(float(order), expected, delta=0.1)
+
     def test_modes(self):
         """Frequencies against a given one: of a clamped bar that cannot strain laterally, c / (4 L), orders 2 p."""
         frequency = math.sqrt(1e6 * (1 - 0.3) / (1.3 * 0.4) / 1e3) / 4

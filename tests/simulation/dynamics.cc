@@ -30,7 +30,7 @@ namespace
     integrator.reset();
     body.system.prescribe(body.state, 0., 1.);
     body.system.solve_acceleration(body.state, 0.);
-    EnergyBudget budget(body.system.equation(), body.state, 0., 1.);
+    EnergyBudget budget(body.system.equation(), body.state, 0.);
     StepRecord   record = budget.initial_record();
     for (unsigned int i = 0; i < n; ++i)
       {

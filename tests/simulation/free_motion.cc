@@ -53,7 +53,7 @@ namespace
     integrator.spectral_radius = 1;
     const double end           = 1;
     body.system.solve_acceleration(body.state, 0.);
-    EnergyBudget     budget(body.system.equation(), body.state, 0., 1.);
+    EnergyBudget     budget(body.system.equation(), body.state, 0.);
     const StepRecord start  = budget.initial_record();
     StepRecord       record = start;
     Drift            drift;

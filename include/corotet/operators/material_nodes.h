@@ -33,6 +33,11 @@ namespace corotet
       const unsigned int                                     n_materials,
       const std::function<unsigned int(const unsigned int)> &material_of_cell);
 
+    /// Throws InputError if so many copies, of all ranks, have more numbers
+    /// than deal.II counts.
+    static void
+    check_number(const std::uint64_t n_copies);
+
     /// Local numbers of the nodes of a local cell, for its material.
     dealii::ArrayView<const unsigned int>
     cell_nodes(const unsigned int cell) const

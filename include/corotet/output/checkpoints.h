@@ -121,6 +121,10 @@ namespace corotet
     requests();
     void
     write(Simulation &simulation, const bool durable);
+    /// Removes what is left of checkpoints that were never finished. On rank 0,
+    /// while none is being written.
+    void
+    remove_unfinished() const;
     /// Removes checkpoints but for the newest ones. On rank 0.
     void
     remove_old() const;

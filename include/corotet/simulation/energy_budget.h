@@ -33,13 +33,13 @@ namespace corotet
   class EnergyBudget
   {
   public:
-    /// @p staggered_step: if not zero, the step [s] of an integrator that keeps
-    /// the kinetic energy v_-1/2 . M v_1/2 / 2 = v . M v / 2 - dt^2 a . M a / 8
-    /// with the velocities half a step before and after.
+    /// Of @p equation that has been evaluated at @p initial_state: forces of
+    /// the start are those. @p staggered_step: if not zero, the step [s] of an
+    /// integrator that keeps the kinetic energy v_-1/2 . M v_1/2 / 2 = v . M v
+    /// / 2 - dt^2 a . M a / 8 with the velocities half a step before and after.
     EnergyBudget(EquationOfMotion &equation,
                  const State      &initial_state,
                  const double      time,
-                 const double      load_factor,
                  const double      staggered_step = 0);
 
     /**

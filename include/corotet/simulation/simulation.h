@@ -210,6 +210,8 @@ namespace corotet
     std::unique_ptr<StressField> stress;
     bool                         stress_is_present = false;
     /// Of the last report.
+    /// Whether a record has had a displacement.
+    bool         has_moved           = false;
     unsigned int reported_inverted   = 0;
     unsigned int reported_degenerate = 0;
     unsigned int reported_clamped    = 0;

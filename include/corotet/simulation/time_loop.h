@@ -221,6 +221,10 @@ namespace corotet
     /// acceleration at the start. Throws ComputationError.
     StageReport
     solve_first_acceleration();
+    /// The same for explicit methods: what the velocity changes by in the first
+    /// half step of length @p half [s], over that.
+    StageReport
+    solve_first_half_step(const double half);
     /// Makes several steps.
     void
     advance_explicitly(StepRecord &record);
@@ -308,6 +312,8 @@ namespace corotet
     double n_planned  = 0;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
+    /// Largest energy so far [J], after a restart no less than the supply.
+    double largest_energy = 0;
   };
 } // namespace corotet
 

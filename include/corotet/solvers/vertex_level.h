@@ -42,13 +42,10 @@ namespace corotet
                 const std::vector<unsigned char> &is_prescribed,
                 std::vector<unsigned int>         finest_nodes);
 
-    /// Takes over A over @p scale, in single precision that of its stiffness
-    /// over @p stiffness_unit. @p displacement: that of the finest nodes
-    /// [m].
-    /// Collective.
+    /// Takes over A over @p scale. @p displacement: that of the finest nodes
+    /// [m]. Collective.
     void
     build(const EffectiveOperator &A,
-          const double             stiffness_unit,
           const double             scale,
           const Vector            &displacement);
 
@@ -119,7 +116,6 @@ namespace corotet
     matrix(const EffectiveOperator &A) const;
     void
     assemble(const EffectiveOperator &A,
-             const double             stiffness_unit,
              const double             scale,
              const Vector            &displacement);
     /// Owned entries, of float or double; @p size is about that of @p from.

@@ -51,6 +51,10 @@ namespace corotet
     std::size_t peak_memory_bytes = 0;
   };
 
+  /// For the log: its size, what it took, and how it ended.
+  std::string
+  describe(const StudyResult &result);
+
   nlohmann::ordered_json
   result_to_json(const StudyResult &result);
 

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// One step of a time loop: explicit ones, several at once; ones that are halved
+// if they fail; ones that follow their error.
+
+#include <corotet/base/exceptions.h>
+#include <corotet/simulation/time_loop.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corotet
+{
+  namespace
+  {
+    // So that a run that is to stop need not wait long.
+    constexpr unsigned int most_steps_together = 1000;
+  } // namespace
+
+  void
+  TimeLoop::keep_state()
+  {
+    if (integrator->is_explicit())
+      good_state.u = present.u;
+    good_state.v = present.v;
+    good_state.a = present.a;
+  }
+
+  void
+  TimeLoop::restore_state()
+  {
+    present.u =
+      integrator->is_explicit() ? good_state.u : budget->last_displacement();
+    present.v = good_state.v;
+    present.a = good_state.a;
+  }
+
+  void
+  TimeLoop::advance_explicitly(StepRecord &record)
+  {
+    // If the work of many steps is as easy to tell as that of one: all steps up
+    // to one that is recorded or that an estimate follows.
+    unsigned int n  = 1;
+    double       to = end_of_step(record.step);
+    while (
+      n < most_steps_together && system.acceleration_solver().can_step_many() &&
+      !is_recorded(record.step, from, to) && !is_stable_step_due(record.step))
+      {
+        ++record.step;
+        ++n;
+        from = to;
+        to   = end_of_step(record.step, n);
+      }
+    integrate(done, to, record, n);
+    account(done, to, record, n);
+    budget->end_step(present);
+    if (is_recorded(record.step, from, done))
+      {
+        complete(record);
+        check_growth(record);
+        keep_state();
+        good_done = done;
+      }
+  }
+
+  void
+  TimeLoop::advance(const double       from,
+                    const double       to,
+                    const unsigned int halvings,
+                    StepRecord        &record)
+  {
+    keep_state();
+    bool is_made = false;
+    try
+      {
+        integrate(from, to, record);
+        finish_step(from, to, record);
+        is_made = true;
+      }
+    catch (const ComputationError &error)
+      {
+        const double middle = time(0.5 * (from + to));
+        // In motion there are no halves that round-off of the time swallows.
+        const bool is_swallowed = integrator->is_dynamic() &&
+                                  !(time(from) < middle && middle < time(to));
+        const bool is_final =
+          is_unstable || is_singular_for_good(error) || is_swallowed;
+        restore_state();
+        if (halvings == 0 || is_final)
+          {
+            if (parameters.max_halvings == 0 || is_final)
+              throw;
+            throw ComputationError(
+              fmt::format("{}; the step has been halved {} times",
+                          error.what(),
+                          parameters.max_halvings));
+          }
+        announce_half(to, error);
+      }
+    if (is_made)
+      return;
+    const double middle = 0.5 * (from + to);
+    advance(from, middle, halvings - 1, record);
+    advance(middle, to, halvings - 1, record);
+  }
+
+  void
+  TimeLoop::advance_adaptively(StepRecord &record)
+  {
+    const double duration = parameters.end_time - parameters.start_time;
+    keep_state();
+    // Of the steps that were rejected, the end of the shortest one.
+    double rejected = std::numeric_limits<double>::infinity();
+    for (;;)
+      {
+        const double to = end_of_step(record.step);
+        const double dt = (to - done) * duration;
+        // Half of one unit of round-off may be rounded to that unit again.
+        if (!(to > done && to < rejected))
+          throw ComputationError(
+            fmt::format("found a step of {:.6g} s, which round-off of the time "
+                        "swallows",
+                        adaptive->length()));
+        const AdaptiveStep known = *adaptive;
+        try
+          {
+            integrate(done, to, record);
+            acceleration_change = present.a;
+            acceleration_change -= good_state.a;
+            const double error = integrator->error_constant() * dt * dt *
+                                 body.root_mean_square(acceleration_change);
+            if (adaptive->accept(dt, error, body.root_mean_square(present.u)))
+              {
+                finish_step(done, to, record);
+                record.rejected_steps = adaptive->n_rejected();
+                return;
+              }
+          }
+        catch (const ComputationError &error)
+          {
+            // A step that was accepted may have failed after that.
+            adaptive = std::make_unique<AdaptiveStep>(known);
+            if (is_unstable || !adaptive->reduce(dt))
+              {
+                restore_state();
+                throw;
+              }
+            announce_half(to, error);
+          }
+        rejected = to;
+        restore_state();
+        warn_of_steps(record.step + (1 - done) * duration / adaptive->length(),
+                      adaptive->length());
+      }
+  }
+
+  void
+  TimeLoop::integrate(const double       from,
+                      const double       to,
+                      StepRecord        &record,
+                      const unsigned int n)
+  {
+    TimeStep first = {time(from), duration((to - from) / n), to};
+    if (n == 1)
+      first.end = time(to);
+    StageReport report;
+    try
+      {
+        report = integrator->steps(system, first, n, present);
+      }
+    // Of supports, which only some times have been tried for before the start.
+    catch (const InputError &error)
+      {
+        throw ComputationError((error.entry.empty() ? "" : error.entry + ": ") +
+                               error.what());
+      }
+    record.newton_iterations += report.newton_iterations;
+    record.linear_iterations += report.linear_iterations;
+  }
+
+  void
+  TimeLoop::account(const double       from,
+                    const double       to,
+                    StepRecord        &record,
+                    const unsigned int n)
+  {
+    const double dt = duration((to - from) / n);
+    budget->add_work(present, time(to), dt);
+    done = to;
+    record.dt += dt;
+    ++record.parts;
+  }
+
+  void
+  TimeLoop::finish_step(const double from, const double to, StepRecord &record)
+  {
+    StepRecord finished = record;
+    account(from, to, finished);
+    try
+      {
+        complete(finished);
+        if (integrator->is_dynamic())
+          check_growth(finished);
+      }
+    catch (const ComputationError &)
+      {
+        budget->take_back();
+        done = from;
+        throw;
+      }
+    budget->end_step(present);
+    record = finished;
+  }
+
+  void
+  TimeLoop::check_growth(const StepRecord &record)
+  {
+    // Far more than the errors of a stable step may make of what was put in,
+    // and no noise of a body at rest. Implicit steps may be long.
+    const double factor = integrator->is_explicit() ? 100. : 1e4;
+    // The kinetic energy between steps may be negative where it is unstable.
+    const double energy =
+      std::abs(record.kinetic_energy) + record.elastic_energy;
+    const bool is_visible = record.max_displacement >
+                            1e-3 * std::cbrt(budget->initial_record().volume);
+    energy_supply = std::max(energy_supply,
+                             std::abs(record.external_work) +
+                               std::abs(budget->kinetic_energy_of_supports()));
+    is_unstable   = is_visible && energy > factor * energy_supply;
+    // Work of follower pressures grows faster than the energy of a motion that
+    // is unstable.
+    constexpr double lost = 1e8;
+    largest_energy =
+      std::max(largest_energy, energy + std::abs(record.dissipated_energy));
+    if (is_visible && std::abs(record.energy_balance) > lost * largest_energy)
+      {
+        is_unstable = true;
+        throw ComputationError(fmt::format(
+          "the motion is unstable: loads have done work of {:.3g} J, and the "
+          "energy is {:.3g} J; the time step is too long",
+          record.external_work,
+          energy));
+      }
+    if (is_unstable)
+      throw ComputationError(fmt::format(
+        "the motion is unstable: the energy is {:.3g} J, and {:.3g} "
+        "J have been put in; the time step is too long",
+        energy,
+        energy_supply));
+  }
+} // namespace corotet
