@@ -102,8 +102,8 @@ namespace corotet
     FieldNorms                             finer_norms;
     /// Empty if it has not failed.
     std::string failure_of_finer_run;
-    /// Sizes of the body's parts in the first run of each degree, and parts
-    /// that have had a warning.
+    /// Sizes of the body's parts in the first run of each degree, and whether
+    /// they have been warned of.
     std::map<unsigned int, std::map<std::string, double>> first_sizes;
     bool has_warned_of_parts = false;
     /// Of the runs that were not kept from an earlier start.
