@@ -237,10 +237,11 @@ namespace corotet
           name_of_part(parts, part, discretization.mesh().regions()));
     if (n_bodies > max_parts)
       words.push_back(fmt::format("{} more", n_bodies - max_parts));
-    return fmt::format("there are {} bodies that touch nowhere, and each moves "
-                       "on its own: {}",
-                       n_bodies,
-                       enumeration(words));
+    return fmt::format(
+      "there are {} bodies without a common node, and each moves "
+      "on its own: {}",
+      n_bodies,
+      enumeration(words));
   }
 
   std::string

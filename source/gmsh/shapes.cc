@@ -7,8 +7,12 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <map>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "sewing.h"
 
@@ -99,14 +103,98 @@ namespace corotet::gmsh_program
 
 
 
+    void
+    add(std::string &remark, const std::string &more)
+    {
+      remark += (remark.empty() ? "" : "; ") + more;
+    }
+
+
+
+    // What a STEP file has and OpenCASCADE has made no solid of, as where
+    // something is missing in it. Copies of solids may be more than the file
+    // has, so some of it may go unnoticed.
+    void
+    remark_lost_shapes(const GmshRequest      &request,
+                       const gmsh::vectorpair &solids,
+                       std::string            &remark)
+    {
+      if (request.format != "step")
+        return;
+      std::ifstream file(request.path);
+      std::size_t   n_solids = 0, n_surfaces = 0;
+      const auto    has = [](const std::string &text, const char *const word) {
+        const std::size_t place = text.find(word);
+        return place != std::string::npos && place > 0 &&
+               std::string("=( \n").find(text[place - 1]) != std::string::npos;
+      };
+      for (std::string entity; std::getline(file, entity, ';');)
+        if (has(entity, "MANIFOLD_SOLID_BREP(") ||
+            has(entity, "BREP_WITH_VOIDS(") || has(entity, "FACETED_BREP("))
+          ++n_solids;
+        else if (has(entity, "SHELL_BASED_SURFACE_MODEL("))
+          ++n_surfaces;
+      if (n_solids > solids.size())
+        add(remark,
+            "of " + std::to_string(n_solids) + " solids in the file " +
+              std::to_string(solids.size()) +
+              " could be read, the others are left out: is a part of them "
+              "missing?");
+      if (n_surfaces > 0)
+        add(remark,
+            "beside its solids the file has surfaces, which are left out: " +
+              std::to_string(n_surfaces));
+    }
+
+
+
+    // What belongs to several solids is cut from all but the first.
+    void
+    remark_overlaps(const gmsh::vectorpair              &solids,
+                    const std::vector<gmsh::vectorpair> &parts,
+                    const std::map<Entity, std::string> &names,
+                    std::string                         &remark)
+    {
+      const auto name = [&](const std::size_t i) {
+        const auto found = names.find(solids[i]);
+        return found != names.end() ?
+                 "'" + found->second + "'" :
+                 "solid " + std::to_string(solids[i].second);
+      };
+      std::map<Entity, std::size_t>                         owners;
+      std::map<std::pair<std::size_t, std::size_t>, double> overlaps;
+      for (std::size_t i = 0; i < solids.size(); ++i)
+        for (const Entity &part : parts[i])
+          if (const auto [owner, is_new] = owners.emplace(part, i); !is_new)
+            {
+              double volume = 0;
+              gmsh::model::occ::getMass(part.first, part.second, volume);
+              overlaps[{owner->second, i}] += volume;
+            }
+      for (const auto &[pair, volume] : overlaps)
+        {
+          char text[32];
+          std::snprintf(text, sizeof(text), "%.4g", volume);
+          add(remark,
+              name(pair.first) + " and " + name(pair.second) +
+                " overlap: a volume of " + text + " is that of " +
+                name(pair.first) + " alone");
+        }
+    }
+
+
+
     // Lets solids share their faces. Names go from what was cut to its parts.
     void
-    glue(const gmsh::vectorpair &solids, std::map<Entity, std::string> &names)
+    glue(const gmsh::vectorpair        &solids,
+         std::map<Entity, std::string> &names,
+         std::string                   &remark)
     {
       gmsh::vectorpair              all;
       std::vector<gmsh::vectorpair> parts;
       gmsh::model::occ::fragment(solids, {}, all, parts);
       gmsh::model::occ::synchronize();
+      remark_overlaps(solids, parts, names, remark);
       std::map<Entity, std::string> names_of_parts;
       for (std::size_t i = 0; i < solids.size(); ++i)
         if (const auto name = names.find(solids[i]); name != names.end())
@@ -164,8 +252,10 @@ namespace corotet::gmsh_program
     std::map<Entity, std::string> names  = names_of_solids(solids);
     if (solids.empty())
       solids = sew_solids(request, remark);
+    else
+      remark_lost_shapes(request, solids, remark);
     if (solids.size() > 1)
-      glue(solids, names);
+      glue(solids, names, remark);
     std::vector<GmshModel::Group> groups;
     add_groups(groups, 3, "solid", names);
     // Surfaces may be others now. They have colours, but no names of their own.

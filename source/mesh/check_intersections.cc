@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -23,12 +24,18 @@ namespace corotet
     using BoundingBox = dealii::BoundingBox<3>;
     using Vector      = dealii::Tensor<1, 3>;
 
-    // What is less than this part of the lengths involved is round-off.
+    // What is less than this part of the lengths involved is round-off, in
+    // double precision and in the extended one.
     constexpr double crossing_tolerance = 1e-13;
+    constexpr auto   extended_tolerance =
+      8 * std::numeric_limits<long double>::epsilon();
 
 
 
-    // Six times the signed volume of a tetrahedron, zero within round-off.
+    // Six times the signed volume of a tetrahedron, zero within round-off of
+    // the extended precision. Corners of plane faces are rounded, mostly to
+    // single precision, so that faces are not plane any more: of what hardly
+    // is, signs must be right, or triangles side by side seem to touch.
     double
     volume(const Point<3> &a,
            const Point<3> &b,
@@ -36,27 +43,42 @@ namespace corotet
            const Point<3> &d)
     {
       const Vector ab = b - a, ac = c - a, ad = d - a;
+      const double size   = ab.norm() * ac.norm() * ad.norm();
       const double result = dealii::cross_product_3d(ab, ac) * ad;
-      return std::abs(result) <=
-                 crossing_tolerance * ab.norm() * ac.norm() * ad.norm() ?
+      if (std::abs(result) > crossing_tolerance * size)
+        return result;
+      std::array<long double, 3> x, y, z;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const long double origin = a[i];
+          x[i]                     = b[i] - origin;
+          y[i]                     = c[i] - origin;
+          z[i]                     = d[i] - origin;
+        }
+      const long double exact = (x[1] * y[2] - x[2] * y[1]) * z[0] +
+                                (x[2] * y[0] - x[0] * y[2]) * z[1] +
+                                (x[0] * y[1] - x[1] * y[0]) * z[2];
+      return std::abs(exact) <= extended_tolerance * size ?
                0. :
-               result;
+               static_cast<double>(exact / size);
     }
 
 
 
+    // Twice the signed area of a triangle, in the same way.
     double
     area(const std::array<double, 2> &a,
          const std::array<double, 2> &b,
          const std::array<double, 2> &c)
     {
-      const double x1 = b[0] - a[0], y1 = b[1] - a[1], x2 = c[0] - a[0],
-                   y2     = c[1] - a[1];
-      const double result = x1 * y2 - x2 * y1;
-      return std::abs(result) <=
-                 crossing_tolerance * std::hypot(x1, y1) * std::hypot(x2, y2) ?
+      const long double x0 = a[0], y0 = a[1];
+      const long double x1 = b[0] - x0, y1 = b[1] - y0, x2 = c[0] - x0,
+                        y2     = c[1] - y0;
+      const long double result = x1 * y2 - x2 * y1;
+      const long double size   = std::hypot(x1, y1) * std::hypot(x2, y2);
+      return std::abs(result) <= extended_tolerance * size ?
                0. :
-               result;
+               static_cast<double>(result / size);
     }
 
 

@@ -33,7 +33,7 @@ namespace corotet
   {
     if (has_warned_of_parts)
       return;
-    const auto sizes = run.sizes_of_parts();
+    const auto sizes = run.sizes_of_selected_parts();
     // Curved bodies have other sizes with another degree.
     const auto [first, is_new] = first_sizes.emplace(study_case.degree, sizes);
     const std::string changed =

@@ -3,8 +3,10 @@
 
 #include "sizes_of_parts.h"
 
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/operators/surface.h>
+#include <corotet/studies/study_run.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,10 +18,16 @@
 namespace corotet
 {
   std::map<std::string, double>
-  sizes_of_parts(const Discretization   &discretization,
-                 const ReferenceElement &reference)
+  StudyRun::sizes_of_selected_parts() const
   {
-    const Mesh                    &mesh = discretization.mesh();
+    const SelectionParameters &selections =
+      parameters.simulation.mesh.selections;
+    if (!selections.are_given())
+      return {};
+    const Body &body = simulated ? simulated->body() : analysis->body();
+    const Discretization          &discretization = body.discretization;
+    const ReferenceElement        &reference      = body.reference;
+    const Mesh                    &mesh           = discretization.mesh();
     std::map<unsigned int, double> volumes, areas;
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       volumes[discretization.region(c)] += discretization.geometry(c).volume;
@@ -36,19 +44,21 @@ namespace corotet
     std::vector<double>      sizes;
     const auto               add = [&](const std::string                    &kind,
                          const MeshNames                      &known,
+                         const std::string                    &selected,
                          const std::map<unsigned int, double> &of_ids) {
-      for (const auto &[name, ids] : known.known_with_ids())
+      for (const auto &[item, selection] : named_values(selected, "", ""))
         {
-          double sum = 0;
-          for (const unsigned int id : ids)
+          const std::string name = without_quotes(item);
+          double            sum  = 0;
+          for (const unsigned int id : known.find(name))
             if (const auto found = of_ids.find(id); found != of_ids.end())
               sum += found->second;
           names.push_back(fmt::format("the {} '{}'", kind, name));
           sizes.push_back(sum);
         }
     };
-    add("region", mesh.regions(), volumes);
-    add("boundary", mesh.boundaries(), areas);
+    add("region", mesh.regions(), selections.regions, volumes);
+    add("boundary", mesh.boundaries(), selections.boundaries, areas);
     dealii::Utilities::MPI::sum(sizes, discretization.communicator(), sizes);
     std::map<std::string, double> result;
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -60,8 +70,9 @@ namespace corotet
   describe_changed_parts(const std::map<std::string, double> &before,
                          const std::map<std::string, double> &now)
   {
-    // Areas of curved faces have an error of quadrature.
-    constexpr double         tolerance = 1e-3;
+    // What is curved has another size where vertices are put on a geometry
+    // anew.
+    constexpr double         tolerance = 2e-2;
     std::vector<std::string> changed;
     for (const auto &[name, size] : now)
       if (const auto found = before.find(name);

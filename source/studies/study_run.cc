@@ -22,8 +22,6 @@
 #include <limits>
 #include <numbers>
 
-#include "sizes_of_parts.h"
-
 namespace corotet
 {
   using Json = nlohmann::ordered_json;
@@ -249,13 +247,6 @@ namespace corotet
     result["mesh_checksum"] = mesh_checksum(body.mesh);
     result["tables"]        = table_checksums(body.tables);
     return result;
-  }
-
-  std::map<std::string, double>
-  StudyRun::sizes_of_parts() const
-  {
-    const Body &body = simulated ? simulated->body() : analysis->body();
-    return corotet::sizes_of_parts(body.discretization, body.reference);
   }
 
   StudyResult

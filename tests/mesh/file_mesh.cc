@@ -75,6 +75,48 @@ TEST(FileMesh, SolidsThatTouch)
   EXPECT_EQ(mesh.remarks, Known());
 }
 
+// What solids have in common is cut from all but the first, and what was no
+// solid is left out; both is said. A file whose second box has lost its shell,
+// one with a loose surface, and boxes that overlap.
+TEST(FileMesh, SolidsThatAreCutOrLost)
+{
+  const TemporaryFolder folder;
+  write_shapes(folder / "overlap.step", [] {
+    gmsh::model::occ::addBox(0, 0, 0, 2, 1, 1);
+    gmsh::model::occ::addBox(1, 0, 0, 2, 1, 1);
+  });
+  const SerialMesh overlapping = read_file(folder / "overlap.step", "0.5");
+  EXPECT_NEAR(total(region_volumes(overlapping)), 3, 1e-12);
+  ASSERT_EQ(overlapping.remarks.size(), 1u);
+  EXPECT_NE(overlapping.remarks[0].find("overlap: a volume of 1 is that of"),
+            std::string::npos)
+    << overlapping.remarks[0];
+
+  write_shapes(folder / "two.step", [] {
+    gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    gmsh::model::occ::addBox(3, 0, 0, 1, 1, 1);
+  });
+  std::string       text  = folder.read("two.step");
+  const std::size_t brep  = text.rfind("MANIFOLD_SOLID_BREP(");
+  const std::size_t shell = text.find('#', brep);
+  ASSERT_NE(brep, std::string::npos);
+  text.insert(shell + 1, "99");
+  const SerialMesh rest = read_file(folder.write("lost.step", text), "0.5");
+  EXPECT_NEAR(total(region_volumes(rest)), 1, 1e-12);
+  EXPECT_EQ(rest.remarks,
+            Known{
+              "of 2 solids in the file 1 could be read, the others are left "
+              "out: is a part of them missing?"});
+
+  write_shapes(folder / "loose.step", [] {
+    gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    gmsh::model::occ::addRectangle(3, 0, 0, 1, 1);
+  });
+  EXPECT_EQ(
+    read_file(folder / "loose.step", "0.5").remarks,
+    Known{"beside its solids the file has surfaces, which are left out: 1"});
+}
+
 // IGES files have surfaces that share nothing, not even their edges, which
 // differ where one is a circle and the other a spline: they are sewn. A plate
 // with a hole, a cone, which ends in a point, a solid that touches the plate,

@@ -153,6 +153,58 @@ namespace
 
 
 
+  // Plane sides of a box that is turned a little: in single precision they are
+  // not plane any more, by the last digits of small numbers, and triangles side
+  // by side cross each other as little as they did before. With a second box
+  // that reaches into the first one by as little they do.
+  TEST_F(SurfaceMesh, SidesThatAreHardlyPlane)
+  {
+    for (const double degrees : {1e-5, 1e-3, 30.})
+      for (const unsigned int n : {1u, 2u, 3u})
+        {
+          const double angle  = degrees * dealii::numbers::PI / 180;
+          const auto   turned = [&](const Triangles &triangles) {
+            Triangles result = triangles;
+            for (Corners &t : result)
+              for (auto &x : t)
+                x = Point<3>(std::cos(angle) * x[0] - std::sin(angle) * x[1],
+                             std::sin(angle) * x[0] + std::cos(angle) * x[1],
+                             x[2]);
+            return result;
+          };
+          Triangles box = box_triangles({0, 0, 0}, {0.1, 0.02, 0.01});
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              Triangles finer;
+              for (const Corners &t : box)
+                {
+                  Corners m;
+                  for (unsigned int i = 0; i < 3; ++i)
+                    m.push_back(t[i] + (t[(i + 1) % 3] - t[i]) / 2);
+                  finer.push_back({t[0], m[0], m[2]});
+                  finer.push_back({m[0], t[1], m[1]});
+                  finer.push_back({m[2], m[1], t[2]});
+                  finer.push_back({m[0], m[1], m[2]});
+                }
+              box = finer;
+            }
+          // Single precision.
+          EXPECT_NEAR(mesh_quality(mesh_of(stl_bytes(turned(box)))).volume,
+                      2e-5,
+                      1e-11)
+            << degrees << ' ' << n;
+          const Triangles other =
+            box_triangles({0.1 - 1e-7, 0.005, 0.002}, {0.2, 0.015, 0.008});
+          EXPECT_NE(refusal([&] {
+                      mesh_of(stl_bytes(turned(box + other)));
+                    }).find("the surface crosses or touches itself"),
+                    std::string::npos)
+            << degrees << ' ' << n;
+        }
+  }
+
+
+
   TEST_F(SurfaceMesh, Refusals)
   {
     const std::string text = stl_text(sphere_triangles(1));

@@ -114,7 +114,7 @@ TEST(Supports, UnconnectedParts)
   };
   EXPECT_EQ(
     found(dealii::Tensor<1, 3>({3., 0., 0.})),
-    "there are 2 bodies that touch nowhere, and each moves on its own: "
+    "there are 2 bodies without a common node, and each moves on its own: "
     "the part at (0.5, 0.5, 0.5) of region 'body' and the part at (3.5, "
     "0.5, 0.5) of region 'second'");
   for (const double z : {0., 1.})

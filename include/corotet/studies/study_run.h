@@ -86,10 +86,10 @@ namespace corotet
     nlohmann::ordered_json
     fingerprint() const;
 
-    /// Volumes of regions [m^3] and areas of boundaries [m^2] at rest, by what
-    /// they are called. Collective.
+    /// Volumes of regions [m^3] and areas of boundaries [m^2] at rest that are
+    /// selected by place, by what they are called. Collective.
     std::map<std::string, double>
-    sizes_of_parts() const;
+    sizes_of_selected_parts() const;
 
     /**
      * Runs it, with its log in @p path.log and its checkpoints in the folder
