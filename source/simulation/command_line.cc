@@ -105,6 +105,13 @@ namespace corotet
       };
     }
 
+    // A variable of the shell that is not set is no name.
+    std::string
+    name_check(const std::string &text)
+    {
+      return text.empty() ? "found ''; allowed is a name" : "";
+    }
+
     // Those of a run; returns --print-parameters.
     const CLI::Option *
     add_run_options(CLI::App &app, CommandLine &command_line)
@@ -125,9 +132,11 @@ namespace corotet
                     "(repeatable)")
         ->type_name("TEXT")
         ->allow_extra_args(false);
-      app.add_option("--output",
-                     command_line.output_directory,
-                     "Override the output directory");
+      app
+        .add_option("--output",
+                    command_line.output_directory,
+                    "Override the output directory")
+        ->check(name_check, "");
       app.add_flag("--validate",
                    command_line.validate,
                    "Read and check everything, the mesh included, run nothing");
@@ -198,6 +207,7 @@ namespace corotet
                      mesh.out,
                      "Write the mesh to this file: .msh for gmsh, .h5 for runs "
                      "on many ranks")
+        ->check(name_check, "")
         ->type_name("FILE");
       return command;
     }

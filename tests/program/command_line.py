@@ -167,6 +167,8 @@ class CommandLine(ProgramTest):
                          "corotet: error: 'no_where/x.msh' cannot be written: there is no folder 'no_where'; allowed is a name in a folder that is there\n")
         for words, allowed in ((("--size", "nan"), "a number > 0"), (("--feature-angle", "nan"), "a number from 1 to 180")):
             self.assertEqual(self.run_program("mesh", mesh, *words, status=1).stderr, f"corotet: error: command line: {words[0]}: found 'nan'; allowed is {allowed}\n")
+        for words in (("mesh", mesh, "--out", ""), (ROOT / "parameters" / "cantilever.prm", "--validate", "--output", "")):
+            self.assertEqual(self.run_program(*words, status=1).stderr, f"corotet: error: command line: {words[-2]}: found ''; allowed is a name\n")
 
     def test_answers_to_a_full_disk(self):
         """What nobody gets is no answer."""
