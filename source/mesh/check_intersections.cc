@@ -32,21 +32,33 @@ namespace corotet
 
 
 
-    // Six times the signed volume of a tetrahedron, zero within round-off of
-    // the extended precision. Corners of plane faces are rounded, mostly to
-    // single precision, so that faces are not plane any more: of what hardly
-    // is, signs must be right, or triangles side by side seem to touch.
-    double
-    volume(const Point<3> &a,
-           const Point<3> &b,
-           const Point<3> &c,
-           const Point<3> &d)
+    // The sign of a number, zero up to a size that is round-off.
+    int
+    sign(const long double value, const long double round_off)
+    {
+      if (std::abs(value) <= round_off)
+        return 0;
+      return value > 0 ? 1 : -1;
+    }
+
+
+
+    // The orientation of four points, the sign of the tetrahedron's volume:
+    // zero in one plane, within round-off of the extended precision. Corners of
+    // plane faces are rounded, mostly to single precision, so that faces are
+    // not plane any more: of what hardly is, signs must be right, or triangles
+    // side by side seem to touch.
+    int
+    orientation(const Point<3> &a,
+                const Point<3> &b,
+                const Point<3> &c,
+                const Point<3> &d)
     {
       const Vector ab = b - a, ac = c - a, ad = d - a;
       const double size   = ab.norm() * ac.norm() * ad.norm();
-      const double result = dealii::cross_product_3d(ab, ac) * ad;
-      if (std::abs(result) > crossing_tolerance * size)
-        return result;
+      const double volume = dealii::cross_product_3d(ab, ac) * ad;
+      if (const int known = sign(volume, crossing_tolerance * size); known != 0)
+        return known;
       std::array<long double, 3> x, y, z;
       for (unsigned int i = 0; i < 3; ++i)
         {
@@ -55,30 +67,25 @@ namespace corotet
           y[i]                     = c[i] - origin;
           z[i]                     = d[i] - origin;
         }
-      const long double exact = (x[1] * y[2] - x[2] * y[1]) * z[0] +
-                                (x[2] * y[0] - x[0] * y[2]) * z[1] +
-                                (x[0] * y[1] - x[1] * y[0]) * z[2];
-      return std::abs(exact) <= extended_tolerance * size ?
-               0. :
-               static_cast<double>(exact / size);
+      return sign((x[1] * y[2] - x[2] * y[1]) * z[0] +
+                    (x[2] * y[0] - x[0] * y[2]) * z[1] +
+                    (x[0] * y[1] - x[1] * y[0]) * z[2],
+                  extended_tolerance * size);
     }
 
 
 
-    // Twice the signed area of a triangle, in the same way.
-    double
-    area(const std::array<double, 2> &a,
-         const std::array<double, 2> &b,
-         const std::array<double, 2> &c)
+    // The same of three points in a plane: the sign of the triangle's area.
+    int
+    orientation(const std::array<double, 2> &a,
+                const std::array<double, 2> &b,
+                const std::array<double, 2> &c)
     {
       const long double x0 = a[0], y0 = a[1];
       const long double x1 = b[0] - x0, y1 = b[1] - y0, x2 = c[0] - x0,
-                        y2     = c[1] - y0;
-      const long double result = x1 * y2 - x2 * y1;
-      const long double size   = std::hypot(x1, y1) * std::hypot(x2, y2);
-      return std::abs(result) <= extended_tolerance * size ?
-               0. :
-               static_cast<double>(result / size);
+                        y2 = c[1] - y0;
+      return sign(x1 * y2 - x2 * y1,
+                  extended_tolerance * std::hypot(x1, y1) * std::hypot(x2, y2));
     }
 
 
@@ -103,8 +110,9 @@ namespace corotet
       const std::array<Flat, 3> t{
         {flat(corners[0]), flat(corners[1]), flat(corners[2])}};
       const auto is_inside = [&](const Flat &x) {
-        const double a = area(t[0], t[1], x), b = area(t[1], t[2], x),
-                     c = area(t[2], t[0], x);
+        const int a = orientation(t[0], t[1], x),
+                  b = orientation(t[1], t[2], x),
+                  c = orientation(t[2], t[0], x);
         return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
       };
       if (is_inside(p) || is_inside(q))
@@ -113,8 +121,8 @@ namespace corotet
       for (unsigned int i = 0; i < 3; ++i)
         {
           const Flat &a = t[i], &b = t[(i + 1) % 3];
-          if (area(a, b, p) * area(a, b, q) < 0 &&
-              area(p, q, a) * area(p, q, b) < 0)
+          if (orientation(a, b, p) * orientation(a, b, q) < 0 &&
+              orientation(p, q, a) * orientation(p, q, b) < 0)
             return true;
         }
       return false;
@@ -127,15 +135,15 @@ namespace corotet
     touch(const std::array<Point<3>, 2> &segment,
           const std::array<Point<3>, 3> &corners)
     {
-      const double p = volume(corners[0], corners[1], corners[2], segment[0]);
-      const double q = volume(corners[0], corners[1], corners[2], segment[1]);
+      const int p = orientation(corners[0], corners[1], corners[2], segment[0]);
+      const int q = orientation(corners[0], corners[1], corners[2], segment[1]);
       if (p == 0 && q == 0)
         return touch_in_plane(segment, corners);
       if ((p > 0 && q > 0) || (p < 0 && q < 0))
         return false;
-      const double a = volume(segment[0], segment[1], corners[0], corners[1]);
-      const double b = volume(segment[0], segment[1], corners[1], corners[2]);
-      const double c = volume(segment[0], segment[1], corners[2], corners[0]);
+      const int a = orientation(segment[0], segment[1], corners[0], corners[1]);
+      const int b = orientation(segment[0], segment[1], corners[1], corners[2]);
+      const int c = orientation(segment[0], segment[1], corners[2], corners[0]);
       return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
     }
 

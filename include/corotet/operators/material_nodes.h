@@ -10,6 +10,7 @@
 
 #include <deal.II/base/array_view.h>
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -33,8 +34,9 @@ namespace corotet
       const unsigned int                                     n_materials,
       const std::function<unsigned int(const unsigned int)> &material_of_cell);
 
-    /// Throws InputError if so many copies, of all ranks, have more numbers
-    /// than deal.II counts.
+    /// Throws InputError if @p n_copies nodes of all ranks, one for each
+    /// material, with six numbers each, have more numbers than deal.II's index
+    /// type counts.
     static void
     check_number(const std::uint64_t n_copies);
 

@@ -209,9 +209,9 @@ namespace corotet
 
     std::unique_ptr<StressField> stress;
     bool                         stress_is_present = false;
-    /// Of the last report.
     /// Whether a record has had a displacement.
-    bool         has_moved           = false;
+    bool has_moved = false;
+    /// Of the last report.
     unsigned int reported_inverted   = 0;
     unsigned int reported_degenerate = 0;
     unsigned int reported_clamped    = 0;
