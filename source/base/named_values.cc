@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -95,9 +94,15 @@ namespace corotet
       {
         if (!value)
           throw InputError(entry,
-                           fmt::format("found '{}'; allowed: {}",
+                           fmt::format("found '{}'; allowed: {}{}",
                                        shortened(name),
-                                       allowed));
+                                       allowed,
+                                       allowed.starts_with("'boundary") &&
+                                           (name == "free" ||
+                                            parse_number(name)) ?
+                                         "; components of a value are "
+                                         "separated by ';'" :
+                                         ""));
         pairs.emplace_back(name, *value);
       }
     return pairs;
@@ -122,10 +127,10 @@ namespace corotet
       {
         if (n == 3)
           return {};
-        const char *end          = word.data() + word.size();
-        const auto [stop, error] = std::from_chars(word.data(), end, point[n]);
-        if (error != std::errc() || stop != end || !std::isfinite(point[n]))
+        const auto number = parse_number(word);
+        if (!number)
           return {};
+        point[n] = *number;
       }
     if (n != 3)
       return {};

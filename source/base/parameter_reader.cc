@@ -108,6 +108,10 @@ namespace corotet
             if (continued)
               line.pop_back();
             concatenated += line;
+            if (continued && concatenated.find('#') != std::string::npos)
+              refuse_statement(fmt::format("{}:{}", path, number),
+                               "a comment ends with '\\', which would make the "
+                               "next line a part of it");
             if (continued)
               continue;
             statement(concatenated, path, first_number, outer_depth, depth);

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -19,21 +18,6 @@ namespace corotet
 {
   namespace
   {
-    // A finite number, whatever the locale; nothing if @p text is none.
-    std::optional<double>
-    number(const std::string &text)
-    {
-      const std::size_t sign  = text.starts_with('+') ? 1 : 0;
-      const char *const end   = text.data() + text.size();
-      double            value = 0;
-      const auto [stop, error] =
-        std::from_chars(text.data() + sign, end, value);
-      if (error != std::errc() || stop != end || !std::isfinite(value) ||
-          text.starts_with("+-"))
-        return {};
-      return value;
-    }
-
     std::vector<std::string>
     fields(const std::string &line)
     {
@@ -51,7 +35,7 @@ namespace corotet
     double
     checked_number(const std::string &text, const std::string &place)
     {
-      const std::optional<double> value = number(text);
+      const std::optional<double> value = parse_number(text);
       if (!value)
         throw InputError("",
                          fmt::format("{}: a table consists of finite numbers, "
@@ -115,7 +99,7 @@ namespace corotet
         const bool                     is_header =
           may_be_header &&
           std::none_of(texts.begin(), texts.end(), [](const std::string &text) {
-            return number(text).has_value();
+            return parse_number(text).has_value();
           });
         may_be_header = false;
         if (is_header)

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <string_view>
@@ -92,14 +94,34 @@ namespace corotet
     }
   } // namespace
 
+  std::optional<double>
+  parse_number(std::string_view word)
+  {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-')
+      word.remove_prefix(1);
+    std::string with_e;
+    if (const std::size_t d = word.find_first_of("dD");
+        d != std::string_view::npos)
+      {
+        with_e    = word;
+        with_e[d] = 'e';
+        word      = with_e;
+      }
+    double     number        = 0;
+    const auto end           = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, number);
+    if (error != std::errc() || stop != end || !std::isfinite(number))
+      return {};
+    return number;
+  }
+
   void
   skip_byte_order_mark(std::istream &file)
   {
-    const std::string mark = "\xEF\xBB\xBF";
-    std::string       start(mark.size(), '\0');
+    std::string start(byte_order_mark.size(), '\0');
     file.read(start.data(), start.size());
     file.clear();
-    file.seekg(start == mark ? mark.size() : 0);
+    file.seekg(start == byte_order_mark ? byte_order_mark.size() : 0);
   }
 
   std::string

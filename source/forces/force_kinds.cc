@@ -90,6 +90,7 @@ namespace corotet
             }))
           kind->add_to(terms, context);
       }
+    terms.leave_out_damping();
     return terms;
   }
 } // namespace corotet

@@ -5,7 +5,7 @@
 #include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/discretization/nearby_cells.h>
-#include <corotet/discretization/point_search.h>
+#include <corotet/discretization/nearest_point.h>
 #include <corotet/forces/point_forces.h>
 
 #include <deal.II/base/mpi.h>
@@ -28,28 +28,6 @@ namespace corotet
   namespace
   {
     const std::string point_forces_entry = "Loads/Point forces";
-
-    // Whether an owned cell has the point, or is so near that it may be meant:
-    // a point on the surface of a curved body is a little outside of its cells.
-    bool
-    is_at_owned_cell(const Discretization &discretization,
-                     const NearbyCells    &nearby,
-                     const Point<3>       &x)
-    {
-      // In heights of the cell.
-      constexpr double  near = 0.2;
-      const PointSearch search(discretization);
-      return std::ranges::any_of(
-        nearby.cells(x, near), [&](const unsigned int c) {
-          const Point<3> &origin =
-            discretization.node_position(discretization.cell_nodes(c)[0]);
-          const Tensor<1, 3> xi =
-            discretization.geometry(c).inverse_jacobian * (x - origin);
-          return std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >
-                   -near ||
-                 search.find(c, x);
-        });
-    }
 
     // Of the nodes at that distance, but for round-off, the one with the lowest
     // coordinates, which is the same on any number of ranks: an owned one, or
@@ -107,8 +85,7 @@ namespace corotet
                                           discretization.node_position(node) :
                                           Point<3>(),
                                         owner);
-    const bool is_at_body = is_at_owned_cell(discretization, nearby, target);
-    if (dealii::Utilities::MPI::max(is_at_body ? 1 : 0, comm) == 0)
+    if (!nearest_point(discretization, nearby, target))
       throw InputError(
         point_forces_entry,
         fmt::format(

@@ -128,10 +128,11 @@ namespace corotet
   {
     const bool follow = !context.elasticity.law().is_linear();
     for (const auto &load : context.conditions.pressures)
-      terms.add(std::make_unique<Pressure>(
-                  context.discretization, context.reference, load, follow),
-                on_boundary(context,
-                            "Boundary conditions/Pressure",
-                            load.boundary));
+      if (!load.value.is_zero())
+        terms.add(std::make_unique<Pressure>(
+                    context.discretization, context.reference, load, follow),
+                  on_boundary(context,
+                              "Boundary conditions/Pressure",
+                              load.boundary));
   }
 } // namespace corotet

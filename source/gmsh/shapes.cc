@@ -3,6 +3,8 @@
 
 #include "shapes.h"
 
+#include <corotet/base/text.h>
+
 #include <gmsh.h>
 
 #include <cmath>
@@ -226,6 +228,12 @@ namespace corotet::gmsh_program
       gmsh::vectorpair entities;
       gmsh::model::getEntities(entities, dimension);
       std::map<std::string, std::size_t> known;
+      std::set<std::string>              of_file;
+      for (const auto &[entity, name] : names)
+        of_file.insert(name);
+      const auto is_taken = [&](const std::string &name) {
+        return of_file.contains(name);
+      };
       for (const Entity &entity : entities)
         {
           const auto found = names.find(entity);
@@ -233,8 +241,10 @@ namespace corotet::gmsh_program
               is_between_solids(entity))
             continue;
           const std::string name =
-            found == names.end() ? kind + ' ' + std::to_string(entity.second) :
-                                   found->second;
+            found == names.end() ?
+              unused_name(kind + ' ' + std::to_string(entity.second),
+                          is_taken) :
+              found->second;
           const auto [place, is_new] = known.emplace(name, groups.size());
           if (is_new)
             groups.push_back({dimension, entity.second, name, {}});

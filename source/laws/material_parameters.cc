@@ -59,13 +59,16 @@ namespace corotet
           for (const unsigned int id : regions.ids(region, entry))
             if (!values.emplace(id, value).second)
               throw InputError(entry,
-                               fmt::format("region '{}' has two values",
+                               fmt::format("region '{}' has two values; "
+                                           "allowed is one, by names that "
+                                           "share no cells",
                                            regions.name(id)));
         }
       for (const auto &[id, name] : regions.all())
         if (!values.contains(id))
           throw InputError(entry,
-                           fmt::format("region '{}' has no value",
+                           fmt::format("region '{}' has no value; needed is "
+                                       "one for each region",
                                        regions.name(id)));
       return values;
     }

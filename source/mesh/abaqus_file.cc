@@ -47,6 +47,7 @@ namespace corotet::abaqus
   Reader::mesh() const
   {
     ImportedMesh result = imported_mesh(model, scopes, path);
+    result.remarks.insert(result.remarks.end(), remarks.begin(), remarks.end());
     if (!ignored.empty())
       result.remarks.push_back(
         "left out, as corotet reads the mesh only: " +

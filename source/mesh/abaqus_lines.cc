@@ -150,22 +150,10 @@ namespace corotet::abaqus
   double
   number(const std::string &text, const Place &place)
   {
-    std::string digits = text;
-    std::replace_if(
-      digits.begin(),
-      digits.end(),
-      [](const char c) { return c == 'd' || c == 'D'; },
-      'e');
-    const char *begin = digits.data();
-    if (!digits.empty() && digits[0] == '+')
-      ++begin;
-    double      result = 0;
-    const char *end    = digits.data() + digits.size();
-    const auto  parsed = std::from_chars(begin, end, result);
-    if (begin == end || parsed.ec != std::errc() || parsed.ptr != end ||
-        !std::isfinite(result))
+    const auto result = parse_number(text);
+    if (!result)
       place.refuse(
         fmt::format("found '{}'; allowed is a finite number", shortened(text)));
-    return result;
+    return *result;
   }
 } // namespace corotet::abaqus

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <regex>
 #include <set>
-#include <typeinfo>
 
 #include "abaqus_lines.h"
 
@@ -34,18 +33,7 @@ namespace corotet::abaqus
       for (const Element &element : model.elements)
         if (element.kind.shape == Shape::tetrahedron)
           ++n_of_kind[element.kind.n_nodes];
-      if (!model.others.empty())
-        {
-          std::vector<std::string> found;
-          for (const auto &[type, n] : model.others)
-            found.push_back(fmt::format("{} of the type '{}'", n, type));
-          throw InputError(
-            "",
-            mesh.origin + ": cells other than tetrahedra: found " +
-              shortened(join(found), 300) +
-              "; allowed are C3D4 and C3D10 with their variants, and triangles "
-              "and lines, which give their names to faces and nodes");
-        }
+      model.check_other_cells(mesh.origin);
       if (n_of_kind.empty())
         throw InputError("", mesh.origin + ": the mesh has no tetrahedra");
       if (n_of_kind.size() > 1)
@@ -104,13 +92,14 @@ namespace corotet::abaqus
       }
 
     private:
-      // Which scopes have sets of a name: one may have several kinds of them.
+      // Which scopes have sets of a name: one may have several kinds of them,
+      // of which some become names of the same kind.
       template <typename Set>
       void
       count(const Scope &scope, const Named<Set> &named)
       {
         for (const auto &[key, set] : named.sets)
-          scopes_with[{&typeid(Set), key}].insert(&scope);
+          scopes_with[key].insert(&scope);
       }
 
       template <typename Set>
@@ -118,8 +107,7 @@ namespace corotet::abaqus
       name(const Scope &scope, const Named<Set> &named, const std::string &key)
       {
         const std::string &own = named.spelling.at(key);
-        return scope.name.empty() ||
-                   scopes_with[{&typeid(Set), key}].size() == 1 ?
+        return scope.name.empty() || scopes_with[key].size() == 1 ?
                  own :
                  scope.name + "." + own;
       }
@@ -198,13 +186,11 @@ namespace corotet::abaqus
         return n_cells_of_face.at(key(nodes, number)) == 1;
       }
 
-      ImportedMesh                  &mesh;
-      const Model                   &model;
-      const std::vector<std::size_t> numbers;
-      std::map<std::pair<const std::type_info *, std::string>,
-               std::set<const Scope *>>
-                                                 scopes_with;
-      std::map<ImportedMesh::Face, unsigned int> n_cells_of_face;
+      ImportedMesh                                  &mesh;
+      const Model                                   &model;
+      const std::vector<std::size_t>                 numbers;
+      std::map<std::string, std::set<const Scope *>> scopes_with;
+      std::map<ImportedMesh::Face, unsigned int>     n_cells_of_face;
     };
   } // namespace
 
@@ -262,17 +248,34 @@ namespace corotet::abaqus
 
 
 
+  void
+  Model::check_other_cells(const std::string &path) const
+  {
+    if (!others.empty())
+      {
+        std::vector<std::string> found;
+        for (const auto &[type, n] : others)
+          found.push_back(fmt::format("{} of the type '{}'", n, type));
+        throw InputError(
+          "",
+          path + ": cells other than tetrahedra: found " +
+            shortened(join(found), 300) +
+            "; allowed are C3D4 and C3D10 with their variants, and triangles "
+            "and lines, which give their names to faces and nodes");
+      }
+  }
+
+
+
   Scope
-  Model::add_copy(
-    const Model                                                     &part,
-    const Scope                                                     &scope,
-    const std::function<dealii::Point<3>(const dealii::Point<3> &)> &move)
+  Model::add_copy(const Model                         &part,
+                  const Scope                         &scope,
+                  const std::vector<dealii::Point<3>> &places)
   {
     const std::size_t first_node    = nodes.size();
     const std::size_t first_element = elements.size();
     const std::size_t first_of_all  = element_nodes.size();
-    for (const dealii::Point<3> &x : part.nodes)
-      nodes.push_back(move(x));
+    nodes.insert(nodes.end(), places.begin(), places.end());
     for (Element element : part.elements)
       {
         element.first += first_of_all;
@@ -298,6 +301,22 @@ namespace corotet::abaqus
       for (FaceOfElement &face : set)
         face.element += first_element;
     return copy;
+  }
+
+
+
+  std::vector<std::uint32_t>
+  Model::quadratic_tetrahedra() const
+  {
+    std::vector<std::uint32_t> result;
+    for (const Element &element : elements)
+      if (element.kind.shape == Shape::tetrahedron &&
+          element.kind.n_nodes == 10)
+        {
+          const auto first = element_nodes.begin() + element.first;
+          result.insert(result.end(), first, first + 10);
+        }
+    return result;
   }
 
 

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -90,13 +89,20 @@ namespace corotet::abaqus
     /// How many elements of each type cannot be computed.
     std::map<std::string, std::size_t> others;
 
-    /// Adds a copy of @p part, with its nodes moved, and returns the scope of
-    /// the copy.
+    /// Throws InputError if there are elements that cannot be computed.
+    void
+    check_other_cells(const std::string &path) const;
+
+    /// Adds a copy of @p part with its nodes at other places, and returns the
+    /// scope of the copy.
     Scope
-    add_copy(
-      const Model                                                     &part,
-      const Scope                                                     &scope,
-      const std::function<dealii::Point<3>(const dealii::Point<3> &)> &move);
+    add_copy(const Model                         &part,
+             const Scope                         &scope,
+             const std::vector<dealii::Point<3>> &places);
+
+    /// Nodes of the tetrahedra with ten nodes.
+    std::vector<std::uint32_t>
+    quadratic_tetrahedra() const;
   };
 
   /// The tetrahedra of a model and the sets of all its scopes. Throws

@@ -4,6 +4,7 @@
 // The parts and instances of files of Abaqus.
 
 #include <corotet/base/text.h>
+#include <corotet/mesh/curved_cells.h>
 
 #include <deal.II/physics/transformations.h>
 
@@ -116,11 +117,18 @@ namespace corotet::abaqus
       }
     const Model &part = instance->part->model;
     spend(part.nodes.size() + part.element_nodes.size(), instance->place);
-    Scope copy =
-      model.add_copy(part, instance->part->scope, [&](const Point<3> &x) {
-        return centre + turn * (x + shift - centre);
-      });
-    copy.name = instance->name;
+    std::vector<Point<3>> places = part.nodes;
+    // Now, as the digits of moved nodes tell nothing about those of the file.
+    if (const std::string remark =
+          straighten_written_cells(places, part.quadratic_tetrahedra(), 2);
+        !remark.empty())
+      remarks.push_back("instance '" + shortened(instance->name) +
+                        "': " + remark);
+    if (!motion.empty())
+      for (Point<3> &x : places)
+        x = centre + turn * (x + shift - centre);
+    Scope copy = model.add_copy(part, instance->part->scope, places);
+    copy.name  = instance->name;
     scopes.push_back(std::move(copy));
     instance->is_placed = true;
   }

@@ -156,6 +156,8 @@ namespace corotet::abaqus
     /// The first one is that of the file, then those of the instances.
     std::vector<Scope>    scopes;
     std::set<std::string> ignored;
+    /// What the user should know.
+    std::vector<std::string> remarks;
   };
 } // namespace corotet::abaqus
 

@@ -137,6 +137,8 @@ namespace corotet::abaqus
     if (const auto number = whole_number(name))
       {
         const auto found = known.find(*number);
+        if (found == known.end() && of_elements)
+          current_model().check_other_cells(path);
         if (found == known.end())
           place.refuse(fmt::format("there is no {} {} before this line",
                                    what,

@@ -297,8 +297,13 @@ namespace corotet
       }
     if (begin >= text.size() || text.compare(begin, format.size(), format) != 0)
       throw InputError("",
-                       path + ": is no gmsh mesh: it must start with "
-                              "'$MeshFormat'");
+                       path +
+                         ": is no gmsh mesh: it must start with "
+                         "'$MeshFormat'" +
+                         (text.starts_with(byte_order_mark) ?
+                            ", not with a byte order mark, which some editors "
+                            "write" :
+                            ""));
     for (const std::string section : {"MeshFormat", "Nodes", "Elements"})
       for (const std::string start : {"\n$", "\n$End"})
         if (section != "MeshFormat" || start != "\n$")

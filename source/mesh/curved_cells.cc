@@ -15,8 +15,6 @@
 #include <cmath>
 #include <limits>
 
-#include "written_digits.h"
-
 namespace corotet
 {
   using dealii::Point;
@@ -24,104 +22,6 @@ namespace corotet
 
   namespace
   {
-    // How far a node may lie off the straight position, in lengths of the
-    // cell's longest edge: more than the round-off of coordinates in files,
-    // less than matters to any error of discretization.
-    constexpr double round_off = 1e-10;
-
-
-
-    double
-    longest_edge(const Point<3> *vertices)
-    {
-      double length = 0;
-      for (unsigned int i = 0; i < 4; ++i)
-        for (unsigned int j = 0; j < i; ++j)
-          length = std::max(length, vertices[i].distance(vertices[j]));
-      return length;
-    }
-
-
-
-    // Whether no node is off the straight position by more than @p part of the
-    // longest edge and, in each direction, by more than @p by.
-    bool
-    is_straight(const Point<3>              *nodes,
-                const std::vector<Point<3>> &points,
-                const double                 part,
-                const dealii::Tensor<1, 3>  &by)
-    {
-      const double tolerance = part * longest_edge(nodes);
-      for (unsigned int i = 4; i < points.size(); ++i)
-        {
-          Point<3> x = nodes[0];
-          for (unsigned int k = 0; k < 3; ++k)
-            x += points[i][k] * (nodes[k + 1] - nodes[0]);
-          if (!(x.distance(nodes[i]) <= tolerance))
-            return false;
-          for (unsigned int a = 0; a < 3; ++a)
-            if (!(std::abs(x[a] - nodes[i][a]) <= by[a]))
-              return false;
-        }
-      return true;
-    }
-
-    bool
-    is_straight(const Point<3> *nodes, const std::vector<Point<3>> &points)
-    {
-      dealii::Tensor<1, 3> anything;
-      for (unsigned int a = 0; a < 3; ++a)
-        anything[a] = std::numeric_limits<double>::infinity();
-      return is_straight(nodes, points, round_off, anything);
-    }
-
-    // Whether rounding to so many digits may be all that keeps a cell from
-    // being straight. Where it moves nodes by more than a part of an edge, the
-    // file is too coarse to be sure.
-    bool
-    is_straight(const Point<3>              *nodes,
-                const std::vector<Point<3>> &points,
-                const WrittenDigits         &digits)
-    {
-      constexpr double     most = 2e-3;
-      dealii::Tensor<1, 3> by;
-      for (unsigned int a = 0; a < 3; ++a)
-        {
-          double size = 0;
-          for (unsigned int i = 0; i < points.size(); ++i)
-            size = std::max(size, std::abs(nodes[i][a]));
-          // And the round-off of the comparison.
-          by[a] = (1 + 1e-6) * digits.last_digit(size) + 1e-14 * size;
-        }
-      return is_straight(nodes, points, most, by);
-    }
-
-    template <typename IsStraight>
-    unsigned int
-    remove_maps(MeshCells                   &mesh,
-                const std::vector<Point<3>> &points,
-                const IsStraight            &is_straight)
-    {
-      unsigned int          n_removed = 0;
-      std::vector<Point<3>> kept;
-      for (MeshCells::Cell &cell : mesh.cells)
-        if (cell.curve != MeshCells::straight)
-          {
-            const Point<3> *nodes = curved_nodes(mesh, cell);
-            cell.curve            = MeshCells::straight;
-            if (is_straight(nodes))
-              {
-                ++n_removed;
-                continue;
-              }
-            cell.curve = kept.size() / points.size();
-            kept.insert(kept.end(), nodes, nodes + points.size());
-          }
-      mesh.curved_nodes = std::move(kept);
-      if (mesh.curved_nodes.empty())
-        mesh.geometry_degree = 1;
-      return n_removed;
-    }
 
 
 
@@ -264,41 +164,6 @@ namespace corotet
   curved_nodes(const MeshCells &mesh, const MeshCells::Cell &cell)
   {
     return &mesh.curved_nodes[std::size_t(mesh.n_map_nodes()) * cell.curve];
-  }
-
-
-
-  void
-  remove_straight_maps(MeshCells &mesh)
-  {
-    if (mesh.geometry_degree == 1)
-      return;
-    const std::vector<Point<3>> points = map_points(mesh.geometry_degree);
-    remove_maps(mesh, points, [&](const Point<3> *nodes) {
-      return is_straight(nodes, points);
-    });
-  }
-
-  std::string
-  remove_written_straight_maps(MeshCells &mesh)
-  {
-    remove_straight_maps(mesh);
-    if (mesh.curved_nodes.empty())
-      return "";
-    const WrittenDigits digits(mesh.curved_nodes);
-    if (digits.n_significant() == 0)
-      return "";
-    const std::vector<Point<3>> points = map_points(mesh.geometry_degree);
-    const unsigned int          n =
-      remove_maps(mesh, points, [&](const Point<3> *nodes) {
-        return is_straight(nodes, points, digits);
-      });
-    return n == 0 ? "" :
-                    fmt::format("{} cells are straight but for the {} digits "
-                                "that the file has of coordinates: they are "
-                                "taken as straight",
-                                n,
-                                digits.n_significant());
   }
 
 

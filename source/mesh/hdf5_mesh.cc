@@ -9,10 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hdf5_mesh_version.h"
+#include "hdf5_mesh_description.h"
 
 namespace corotet
 {
+  using namespace hdf5_mesh;
+
   namespace
   {
     using nlohmann::json;
@@ -20,18 +22,6 @@ namespace corotet
     // The attribute that says what the file is.
     constexpr const char *mark_of_mesh = "corotet_mesh";
 
-
-
-    json
-    to_json(const NamedSets &named)
-    {
-      json names = json::array(), sets = json::object();
-      for (const auto &[id, name] : named.names)
-        names.push_back({id, name});
-      for (const auto &[name, ids] : named.sets)
-        sets[name] = ids;
-      return {{"names", names}, {"sets", sets}};
-    }
   } // namespace
 
 
@@ -96,7 +86,7 @@ namespace corotet
     std::string text;
     try
       {
-        text = json{{"corotet mesh", hdf5_mesh_version},
+        text = json{{"corotet mesh", hdf5_mesh::version},
                     {"geometry degree", local.geometry_degree},
                     {"regions", to_json(names.regions)},
                     {"boundaries", to_json(names.boundaries)},
@@ -112,7 +102,7 @@ namespace corotet
                                 "with other letters; a .msh file keeps it");
       }
     Hdf5File file(path, MPI_COMM_SELF);
-    file.write_number_attribute("/", mark_of_mesh, {hdf5_mesh_version});
+    file.write_number_attribute("/", mark_of_mesh, {hdf5_mesh::version});
     file.write_from_root("description",
                          std::vector<std::uint8_t>(text.begin(), text.end()));
     file.write_from_root("vertices", coordinates(local.vertices), 3);

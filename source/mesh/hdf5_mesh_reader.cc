@@ -20,20 +20,16 @@
 #include <optional>
 #include <utility>
 
-#include "hdf5_mesh_version.h"
+#include "hdf5_mesh_description.h"
 
 namespace corotet
 {
+  using namespace hdf5_mesh;
+
   namespace
   {
     namespace MPI = dealii::Utilities::MPI;
     using nlohmann::json;
-
-    [[noreturn]] void
-    refuse(const std::string &path, const std::string &message)
-    {
-      throw InputError("", path + ": " + message + ": is the file damaged?");
-    }
 
     // Of all rows, those of this rank if they are shared out evenly.
     Hdf5Rows
@@ -54,18 +50,6 @@ namespace corotet
       while (n * (rank + 1) / ranks <= i)
         ++rank;
       return rank;
-    }
-
-    NamedSets
-    from_json(const json &text)
-    {
-      NamedSets named;
-      for (const json &entry : text.at("names"))
-        named.names[entry.at(0).get<unsigned int>()] =
-          entry.at(1).get<std::string>();
-      for (const auto &[name, ids] : text.at("sets").items())
-        named.sets[name] = ids.get<std::vector<unsigned int>>();
-      return named;
     }
 
     // What a rank reads: its rows of all tables, and their sizes.
@@ -146,17 +130,17 @@ namespace corotet
         {
           const json text  = json::parse(bytes.begin(), bytes.end());
           const int  found = text.at("corotet mesh").get<int>();
-          if (found != hdf5_mesh_version)
+          if (found != hdf5_mesh::version)
             throw InputError("",
                              fmt::format("{}: found version {} of corotet's "
                                          "mesh files; {} is allowed",
                                          path,
                                          found,
-                                         hdf5_mesh_version));
-          mesh.names.regions    = from_json(text.at("regions"));
-          mesh.names.boundaries = from_json(text.at("boundaries"));
-          mesh.names.edges      = from_json(text.at("edges"));
-          mesh.names.corners    = from_json(text.at("corners"));
+                                         hdf5_mesh::version));
+          mesh.names.regions    = from_json(text.at("regions"), path);
+          mesh.names.boundaries = from_json(text.at("boundaries"), path);
+          mesh.names.edges      = from_json(text.at("edges"), path);
+          mesh.names.corners    = from_json(text.at("corners"), path);
           mesh.part.geometry_degree =
             text.at("geometry degree").get<unsigned int>();
           // Files of the first programs do not have it.
@@ -195,7 +179,8 @@ namespace corotet
         refuse(tables.path, "found nodes of half a curved cell");
       const auto vertices =
         tables.integers("cells", rows, 0, tables.n_vertices);
-      const auto regions = tables.integers("regions", list, 0, 1ull << 32);
+      const auto regions =
+        tables.integers("regions", list, 0, unnamed_boundary);
       const auto curves =
         tables.integers("curves", list, -1, has_curves ? n_curves : 0);
 
@@ -291,7 +276,7 @@ namespace corotet
           const std::uint64_t number = numbers[i + 1];
           const std::uint64_t id     = numbers[i + 2];
           if (cell >= tables.n_cells || number >= n_in_cell ||
-              id >= 1ull << 32 || !named.names.contains(id))
+              id >= unnamed_boundary || !named.names.contains(id))
             refuse(
               tables.path,
               fmt::format("table '{}': found number {} of cell {} with the "

@@ -338,7 +338,10 @@ namespace corotet
     for (std::string line; std::getline(file, line);)
       {
         ++number;
-        const std::string word = first_word(line);
+        std::string word = first_word(line);
+        // A comment, which may stand behind the end.
+        if (format == MeshFormat::medit && word.starts_with('#'))
+          word.clear();
         if (format == MeshFormat::nastran && word == "INCLUDE")
           throw InputError("",
                            fmt::format("{}:{}: other files are not read: found "

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -83,18 +82,6 @@ namespace corotet::selections
                    words,
                    "are " + join(allowed),
                    entry);
-    }
-
-
-
-    // Of a whole word, finite.
-    bool
-    parse(const std::string &word, double &number)
-    {
-      const auto [end, error] =
-        std::from_chars(word.data(), word.data() + word.size(), number);
-      return error == std::errc() && end == word.data() + word.size() &&
-             std::isfinite(number);
     }
 
 
@@ -274,8 +261,8 @@ namespace corotet::selections
       refuse_shape(what, words, "is '" + kind.allowed + "'", entry);
     };
     for (std::size_t i = 1; i < words.size(); ++i)
-      if (double number = 0; parse(words[i], number))
-        n.push_back(number);
+      if (const auto number = parse_number(words[i]))
+        n.push_back(*number);
       else
         refuse("a shape has a word that is no number");
     if (n.size() < kind.n_numbers ||

@@ -20,10 +20,9 @@ namespace corotet::surface_files
   {
     constexpr std::string_view blanks = " \t\r\v\f";
 
-    // The number that a whole word is.
-    template <typename Number>
+    // The whole number that a word is.
     bool
-    parse(std::string_view word, Number &number)
+    parse(std::string_view word, long long &number)
     {
       // Which some programs write.
       if (word.size() > 1 && word[0] == '+')
@@ -184,14 +183,14 @@ namespace corotet::surface_files
   double
   Lines::number(const std::size_t i) const
   {
-    double result = 0;
     if (i >= present.size())
       refuse(fmt::format("a number is missing after '{}'",
                          shortened(std::string(line), 40)));
-    if (!parse(present[i], result) || !std::isfinite(result))
+    const auto result = parse_number(present[i]);
+    if (!result)
       refuse(fmt::format("a number is expected: found '{}'",
                          shortened(std::string(present[i]), 40)));
-    return result;
+    return *result;
   }
 
 
@@ -254,11 +253,12 @@ namespace corotet::surface_files
 
 
   void
-  check_number_of_vertices(const TriangleSurface &surface)
+  check_number_of_vertices(const TriangleSurface &surface,
+                           const std::size_t      more)
   {
     // Those of STL are three for each triangle.
     constexpr std::size_t most = 2'000'000'000;
-    if (surface.vertices.size() > most)
+    if (surface.vertices.size() + more > most)
       throw InputError("",
                        fmt::format("{}: too many vertices: found more than {}",
                                    surface.origin,

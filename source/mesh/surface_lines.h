@@ -91,9 +91,11 @@ namespace corotet::surface_files
               const std::vector<unsigned int> &corners,
               const unsigned int               group);
 
-  /// Checks that vertices of a file can have the numbers that are used here.
+  /// Checks that vertices of a file, and so many @p more, can have the numbers
+  /// that are used here.
   void
-  check_number_of_vertices(const TriangleSurface &surface);
+  check_number_of_vertices(const TriangleSurface &surface,
+                           const std::size_t      more = 0);
 } // namespace corotet::surface_files
 
 #endif

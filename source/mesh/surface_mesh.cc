@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
 #include <corotet/base/whole_file.h>
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
@@ -110,7 +111,8 @@ namespace corotet
 
 
     // Adds groups of entities with one dimension for the names that each
-    // entity has; an entity's own name is @p kind and its number.
+    // entity has; an entity's own name is @p kind and its number, or another
+    // one if the file has that.
     void
     add_groups(GmshModel                                   &model,
                const int                                    dimension,
@@ -120,13 +122,17 @@ namespace corotet
       int next = static_cast<int>(names.size());
       std::map<std::string, std::vector<int>> entities;
       for (std::size_t i = 0; i < names.size(); ++i)
-        {
-          const int entity = static_cast<int>(i) + 1;
-          model.groups.push_back(
-            {dimension, entity, kind + ' ' + std::to_string(entity), {entity}});
-          for (const std::string &name : names[i])
-            entities[name].push_back(entity);
-        }
+        for (const std::string &name : names[i])
+          entities[name].push_back(static_cast<int>(i) + 1);
+      const auto is_taken = [&](const std::string &name) {
+        return entities.contains(name);
+      };
+      for (int entity = 1; entity <= next; ++entity)
+        model.groups.push_back(
+          {dimension,
+           entity,
+           unused_name(kind + ' ' + std::to_string(entity), is_taken),
+           {entity}});
       for (const auto &[name, of_name] : entities)
         model.groups.push_back({dimension, ++next, name, of_name});
     }

@@ -101,11 +101,15 @@ namespace corotet::surface_files
         const long long   number = std::strtoll(text.c_str(), &end, 10);
         const long long   index  = number < 0 ? n + number : number - 1;
         if (text.empty() || *end != '\0' || index < 0 || index >= n)
-          lines.refuse(fmt::format("no such vertex: found '{}'; allowed are 1 "
-                                   "to {} and -1 to -{}",
-                                   shortened(std::string(word), 40),
-                                   n,
-                                   n));
+          lines.refuse(
+            n == 0 ? fmt::format("found the vertex '{}' before any vertices; "
+                                 "they must come before what they belong to",
+                                 shortened(std::string(word), 40)) :
+                     fmt::format("no such vertex: found '{}'; allowed are 1 to "
+                                 "{} and -1 to -{}",
+                                 shortened(std::string(word), 40),
+                                 n,
+                                 n));
         return static_cast<unsigned int>(index);
       }
     };

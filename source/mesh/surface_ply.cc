@@ -341,9 +341,11 @@ namespace corotet::surface_files
         if (!is_there)
           refuse(element,
                  i,
-                 fmt::format("no such vertex: found {}; allowed are 0 to {}",
-                             value,
-                             n - 1));
+                 n == 0 ?
+                   "a face before any vertices; they must come first" :
+                   fmt::format("no such vertex: found {}; allowed are 0 to {}",
+                               value,
+                               n - 1));
         return static_cast<unsigned int>(value);
       }
     };

@@ -162,7 +162,7 @@ namespace corotet::surface_files
       AsciiReader(bytes, surface).read();
     else if (bytes.size() == size)
       {
-        check_number_of_vertices(surface);
+        check_number_of_vertices(surface, 3 * std::size_t(n));
         read_binary(bytes, surface);
       }
     else

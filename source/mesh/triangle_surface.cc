@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/text.h>
 #include <corotet/mesh/triangle_surface.h>
 
 #include <algorithm>
@@ -110,7 +111,11 @@ namespace corotet
     std::ifstream file(path, std::ios::binary);
     if (!file)
       throw MachineError(path + ": cannot be read (permission?)");
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    // Text has no zeros.
+    if (bytes.starts_with(byte_order_mark) &&
+        bytes.find('\0') == std::string::npos)
+      bytes.erase(0, byte_order_mark.size());
     if (format == MeshFormat::stl)
       surface_files::read_stl(bytes, surface);
     else if (format == MeshFormat::ply)

@@ -250,7 +250,10 @@ namespace corotet
             const int group = groups.size();
             groups.push_back(lines.trimmed());
             if (groups.back().empty())
-              groups.back() = "group " + (*head)[0];
+              {
+                unnamed_groups.insert(group);
+                groups.back() = "group " + (*head)[0];
+              }
             while (n > 0)
               {
                 const auto         of_line   = lines.needed_words();
@@ -308,10 +311,23 @@ namespace corotet
             shortened(lines.trimmed(), 80)));
       }
 
+      // Groups without a name get another one if the file has that.
+      void
+      name_unnamed_groups()
+      {
+        for (const std::size_t group : unnamed_groups)
+          groups[group] =
+            unused_name(groups[group], [&](const std::string &name) {
+              return std::ranges::count(groups, name) >
+                     (name == groups[group] ? 1 : 0);
+            });
+      }
+
       // Which numbers are those of a group, after all datasets.
       void
       add_numbers()
       {
+        name_unnamed_groups();
         int first = 1;
         for (const Numbers &numbers : numbers_of)
           for (const std::int64_t number : numbers)
@@ -367,6 +383,7 @@ namespace corotet
       std::unordered_map<std::int64_t, std::size_t> elements;
       std::vector<Numbers>                          numbers_of;
       std::vector<std::string>                      groups;
+      std::set<std::size_t>                         unnamed_groups;
       std::vector<Member>                           members;
       std::map<std::int64_t, std::size_t>           n_others;
       std::size_t                                   n_unknown = 0;

@@ -17,6 +17,15 @@ namespace corotet
     // Fewer digits are those of round numbers, which are exact, and what more
     // of them leave is as small as other round-off.
     constexpr int least_digits = 5, most_digits = 12;
+
+    bool
+    is_of_floats(const dealii::Point<3> &x)
+    {
+      const auto is_float = [](const double value) {
+        return value == static_cast<double>(static_cast<float>(value));
+      };
+      return is_float(x[0]) && is_float(x[1]) && is_float(x[2]);
+    }
   } // namespace
 
   WrittenDigits::WrittenDigits(const std::vector<dealii::Point<3>> &nodes)
@@ -39,7 +48,12 @@ namespace corotet
           const std::size_t      e = number.find('e');
           const int n_digits       = e == 1 ? 1 : static_cast<int>(e) - 1;
           if (n_digits > most_digits)
-            return;
+            {
+              is_single_precision = std::ranges::all_of(nodes, is_of_floats);
+              if (is_single_precision)
+                significant = std::numeric_limits<float>::digits10 + 1;
+              return;
+            }
           // Without the sign of positive exponents, which is no number's.
           int         exponent = 0;
           const char *first    = text.begin() + e + 1;
@@ -56,6 +70,8 @@ namespace corotet
   {
     if (significant == 0 || !(size > 0))
       return 0;
+    if (is_single_precision)
+      return std::numeric_limits<float>::epsilon() * size;
     const int exponent = static_cast<int>(std::floor(std::log10(size)));
     return std::pow(10., std::max(-decimals, exponent - significant + 1));
   }

@@ -14,7 +14,8 @@ namespace corotet
    * How many digits a file has of coordinates: with six or nine of them, as
    * many programs write, nodes in the middle of straight edges are off by what
    * rounding leaves. Told by the numbers themselves: the shortest decimal
-   * number that is the same double has no more digits than the file.
+   * number that is the same double has no more digits than the file. Numbers
+   * of single precision, as files of bytes may have, have seven.
    */
   class WrittenDigits
   {
@@ -37,7 +38,8 @@ namespace corotet
   private:
     int significant = 0;
     /// Behind the decimal point.
-    int decimals = 0;
+    int  decimals            = 0;
+    bool is_single_precision = false;
   };
 } // namespace corotet
 

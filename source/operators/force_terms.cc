@@ -90,6 +90,18 @@ namespace corotet
   }
 
   void
+  ForceTerms::leave_out_damping()
+  {
+    names_left_out = names_of_damping();
+    for (std::size_t i = terms.size(); i-- > 0;)
+      if (terms[i]->role() == Role::damping)
+        {
+          terms.erase(terms.begin() + i);
+          names.erase(names.begin() + i);
+        }
+  }
+
+  void
   ForceTerms::external_force(Vector       &f,
                              const Motion &motion,
                              const double  load_factor) const
@@ -261,53 +273,6 @@ namespace corotet
     surface_matrix(*S, time, 1., 0.);
     return S;
   }
-
-  std::vector<std::string>
-  ForceTerms::names_without_effect(const std::vector<Motion> &motions,
-                                   const PrescribedMotion    &supports) const
-  {
-    std::vector<std::string> result;
-    Vector                   f;
-    discretization.initialize_vector(f);
-    for (std::size_t i = 0; i < terms.size(); ++i)
-      {
-        if (names[i].empty())
-          continue;
-        double     on_all = 0, on_free = 0;
-        const auto has_effect = [&] {
-          // Squares of what round-off leaves beside a face.
-          return on_free > 1e-24 * on_all;
-        };
-        for (const Motion &motion : motions)
-          {
-            f = 0;
-            terms[i]->add_force(f, motion);
-            f.compress(dealii::VectorOperation::add);
-            on_all += f.norm_sqr();
-            supports.set_zero(f);
-            on_free += f.norm_sqr();
-            if (has_effect())
-              break;
-          }
-        if (on_all > 0 && !has_effect())
-          result.push_back(names[i]);
-      }
-    return result;
-  }
-
-
-
-  std::vector<std::string>
-  ForceTerms::names_of_damping() const
-  {
-    std::vector<std::string> result;
-    for (std::size_t i = 0; i < terms.size(); ++i)
-      if (terms[i]->role() == Role::damping && !names[i].empty())
-        result.push_back(names[i]);
-    return result;
-  }
-
-
 
   bool
   ForceTerms::is_linear() const

@@ -139,12 +139,15 @@ namespace corotet
     if (!archive.is_reading())
       saved_size = file.tellp();
     archive.transfer("history_size", saved_size);
+    // The state of a checkpoint may be a later one.
+    std::string text = row->dump();
+    archive.transfer("history_row", text);
+    *row = nlohmann::ordered_json::parse(text);
   }
 
   void
   HistoryWriter::resume(const Snapshot &state)
   {
-    make_row(state);
     on_root(state.discretization.communicator(),
             [&] { continue_file(path, saved_size, "the history", file); });
   }

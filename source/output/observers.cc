@@ -24,12 +24,12 @@ namespace corotet
     if (const auto points = parameters.stress_probe_points(); !points.empty())
       stress_probes.emplace(points,
                             discretization,
-                            parameters.raw_stress_at_probes);
-    auto history =
-      std::make_unique<HistoryWriter>(directory,
-                                      Probes(parameters.probe_points(),
-                                             discretization),
-                                      stress_probes);
+                            parameters.raw_stress_at_probes,
+                            &log);
+    auto history = std::make_unique<HistoryWriter>(
+      directory,
+      Probes(parameters.probe_points(), discretization, &log),
+      stress_probes);
     auto summary =
       std::make_unique<SummaryWriter>(directory,
                                       *history,

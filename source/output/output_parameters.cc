@@ -129,7 +129,9 @@ namespace corotet
       probes,
       "Points of the undeformed body [m] whose displacement goes into "
       "history.csv: NAME: X Y Z, separated by commas, for example "
-      "'tip: 1 0.05 0.05, middle: 0.5 0.05 0.05'.",
+      "'tip: 1 0.05 0.05, middle: 0.5 0.05 0.05'. Those a little outside, as "
+      "points of a curved surface are outside of its cells, are taken at the "
+      "nearest point of these, which the log says.",
       dealii::Patterns::Anything());
     add_enumeration<StressOutput>(
       prm,

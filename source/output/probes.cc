@@ -3,7 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
-#include <corotet/discretization/nearby_cells.h>
+#include <corotet/discretization/nearest_point.h>
 #include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 
@@ -72,28 +72,44 @@ namespace corotet
     }
   } // namespace
 
-  void
-  throw_outside_of_body(const std::string    &entry,
-                        const std::string    &name,
-                        const Point<3>       &x,
-                        const Discretization &discretization)
+  Point<3>
+  nearest_point_to_probe(const ProbePoint     &probe,
+                         const std::string    &entry,
+                         const Discretization &discretization,
+                         const NearbyCells    &nearby,
+                         Log *const            log)
   {
-    throw InputError(
-      entry,
-      fmt::format("probe '{}' at ({}, {}, {}) lies outside the "
-                  "body, {:.3g} m from its nearest node; the "
-                  "body has {} (m)",
-                  shortened(name),
-                  x[0],
-                  x[1],
-                  x[2],
-                  mpi::min(NearbyCells(discretization).distance_to_nodes(x),
-                           discretization.communicator()),
-                  extents(discretization)));
+    const auto &[name, x] = probe;
+    if (log != nullptr)
+      if (const auto nearest = nearest_point(discretization, nearby, x))
+        {
+          log->line(
+            fmt::format("{}: '{}' is {:.3g} m outside the body: taken "
+                        "at ({:.9g}, {:.9g}, {:.9g}), the nearest point",
+                        entry,
+                        shortened(name),
+                        x.distance(*nearest),
+                        (*nearest)[0],
+                        (*nearest)[1],
+                        (*nearest)[2]));
+          return *nearest;
+        }
+    throw InputError(entry,
+                     fmt::format("probe '{}' at ({}, {}, {}) lies outside the "
+                                 "body, {:.3g} m from its nearest node; the "
+                                 "body has {} (m)",
+                                 shortened(name),
+                                 x[0],
+                                 x[1],
+                                 x[2],
+                                 mpi::min(nearby.distance_to_nodes(x),
+                                          discretization.communicator()),
+                                 extents(discretization)));
   }
 
   Probes::Probes(const std::vector<ProbePoint> &points,
-                 const Discretization          &discretization)
+                 const Discretization          &discretization,
+                 Log *const                     log)
     : comm(discretization.communicator())
   {
     if (points.empty())
@@ -103,12 +119,19 @@ namespace corotet
     const auto        &fe     = discretization.finite_element().base_element(0);
     const PointSearch  search(discretization);
     const NearbyCells  nearby(discretization);
-    for (const auto &[name, x] : points)
+    for (const ProbePoint &point : points)
       {
-        const Location location = locate(x, search, nearby);
-        const double   outside  = mpi::max(location.outside, comm);
+        Location location = locate(point.position, search, nearby);
+        double   outside  = mpi::max(location.outside, comm);
         if (outside == far_outside)
-          throw_outside_of_body("Output/Probes", name, x, discretization);
+          {
+            location =
+              locate(nearest_point_to_probe(
+                       point, "Output/Probes", discretization, nearby, log),
+                     search,
+                     nearby);
+            outside = mpi::max(location.outside, comm);
+          }
         const unsigned int owner =
           mpi::min(location.outside == outside ? rank : nobody, comm);
         if (owner == rank)
@@ -123,7 +146,7 @@ namespace corotet
               }
             located.push_back(probe);
           }
-        probe_names.push_back(name);
+        probe_names.push_back(point.name);
       }
   }
 

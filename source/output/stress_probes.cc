@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/discretization/nearby_cells.h>
 #include <corotet/discretization/point_search.h>
 #include <corotet/output/probes.h>
 #include <corotet/output/stress_probes.h>
@@ -17,7 +16,8 @@ namespace corotet
 
   StressProbes::StressProbes(const std::vector<ProbePoint> &points,
                              const Discretization          &discretization,
-                             const bool                     raw)
+                             const bool                     raw,
+                             Log *const                     log)
     : comm(discretization.communicator())
     , raw(raw)
   {
@@ -26,24 +26,22 @@ namespace corotet
     const auto       &fe = discretization.finite_element().base_element(0);
     const PointSearch search(discretization);
     const NearbyCells nearby(discretization);
-    for (const auto &[name, x] : points)
+    // Returns the number of cells, of all ranks.
+    const auto locate = [&](const dealii::Point<3> &x) {
+      const std::size_t n_before = located.size();
+      for (const unsigned int c : nearby.cells(x))
+        if (const auto xi = search.find(c, x))
+          located.push_back({static_cast<unsigned int>(probe_names.size()),
+                             c,
+                             ReferenceElement::tabulate(fe, {*xi}, {1.})});
+      return mpi::sum(located.size() - n_before, comm);
+    };
+    for (const ProbePoint &point : points)
       {
-        const std::size_t n_before = located.size();
-        for (const unsigned int c : nearby.cells(x))
-          {
-            const auto xi = search.find(c, x);
-            if (!xi)
-              continue;
-            located.push_back({static_cast<unsigned int>(probe_names.size()),
-                               c,
-                               ReferenceElement::tabulate(fe, {*xi}, {1.})});
-          }
-        if (mpi::max(located.size() - n_before, comm) == 0)
-          throw_outside_of_body("Output/Stress probes",
-                                name,
-                                x,
-                                discretization);
-        probe_names.push_back(name);
+        if (locate(point.position) == 0)
+          locate(nearest_point_to_probe(
+            point, "Output/Stress probes", discretization, nearby, log));
+        probe_names.push_back(point.name);
       }
     std::set<unsigned int> each;
     for (const StressProbeInCell &probe : located)

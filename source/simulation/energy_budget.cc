@@ -49,6 +49,19 @@ namespace corotet
     initial_changing_energy =
       force_terms.changing_energy(equation.motion(time));
     record(initial, initial_state, time);
+    if (!equation.is_dynamic && initial.max_displacement > 0)
+      begin_unloaded();
+  }
+
+  void
+  EnergyBudget::begin_unloaded()
+  {
+    began_unloaded          = true;
+    is_unloaded             = true;
+    initial_changing_energy = 0;
+    // Of supports these are the forces of the body.
+    for (const unsigned int i : body.motion.unknowns())
+      last.external.local_element(i) = 0;
   }
 
   double
@@ -76,6 +89,7 @@ namespace corotet
     for (unsigned int i = 0; i < state.u.locally_owned_size(); ++i)
       last.external.local_element(i) = external(i);
     last.displacement = state.u;
+    is_unloaded       = false;
     if (force_terms.has_damping())
       last.damping = equation.last_forces().damping;
     const auto &prescribed = body.motion.unknowns();
@@ -119,6 +133,8 @@ namespace corotet
     archive.transfer("work", work);
     archive.transfer("dissipation", dissipation);
     archive.transfer("initial_changing_energy", initial_changing_energy);
+    archive.transfer("began_unloaded", began_unloaded);
+    archive.transfer("is_unloaded", is_unloaded);
     archive.within("initial", [&] { initial.transfer(archive); });
     archive.within("last", [&] { transfer_forces(archive, last); });
   }
@@ -135,7 +151,8 @@ namespace corotet
              (1 - c) * last.damping.local_element(i);
     };
     const auto du = [&](const unsigned int i) {
-      return state.u.local_element(i) - last.displacement.local_element(i);
+      return state.u.local_element(i) -
+             (is_unloaded ? 0. : last.displacement.local_element(i));
     };
     // Which asks all terms.
     const bool         has_damping = force_terms.has_damping();
@@ -271,7 +288,8 @@ namespace corotet
     record.external_work     = external_work;
     record.dissipated_energy = dissipation;
     record.energy_balance    = record.kinetic_energy + record.elastic_energy +
-                            dissipation - external_work -
-                            initial.kinetic_energy - initial.elastic_energy;
+                            dissipation - external_work;
+    if (!began_unloaded)
+      record.energy_balance -= initial.kinetic_energy + initial.elastic_energy;
   }
 } // namespace corotet

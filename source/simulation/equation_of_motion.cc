@@ -18,8 +18,11 @@ namespace corotet
     {
       // What was noted before belongs to others.
       take_not_finite(body.discretization.communicator());
-      return parameters.forces.make(
-        body.force_context(log, parameters.start_time));
+      ForceTerms terms =
+        parameters.forces.make(body.force_context(log, parameters.start_time));
+      if (!parameters.time_integrator.selected().is_dynamic())
+        terms.leave_out_damping();
+      return terms;
     }
   } // namespace
 

@@ -163,6 +163,7 @@ namespace corotet
                  equation.terms.has_elastic() ? &forces.elastic : nullptr}});
     residual_norm  = sizes[0];
     external_force = sizes[1];
+    inertia_force  = sizes[4];
     force_scale    = *std::max_element(sizes.begin() + 1, sizes.end());
     // Forces at a guess may be of any size; what round-off leaves of them
     // counts, for a linear problem whose solution has none.
@@ -173,6 +174,40 @@ namespace corotet
             std::max(stage_scale, force_scale),
             noise.sure,
             noise.most};
+  }
+
+  NewtonProblem::Norm
+  ImplicitSolver::improve_guess(Vector &r, const Norm &at_guess)
+  {
+    // Without the acceleration the forces of inertia are missing, and some of
+    // them may be there twice: what is as small as that is as good.
+    const double fair = std::max({inertia_force, external_force, solved_scale});
+    Norm         best = at_guess;
+    const auto is_fair = [&] { return best.is_finite() && best.value <= fair; };
+    if (is_linear() || stage.start == nullptr || is_fair())
+      return best;
+    const auto try_without = [&](Vector &part) {
+      body.motion.set_zero(part);
+      add(-1., part);
+      // What is hardly less may be farther from the solution.
+      const Norm without = residual(r);
+      if (without.value < 0.5 * best.value || !best.is_finite())
+        {
+          best = without;
+          return;
+        }
+      add(1., part);
+      best = residual(r);
+    };
+    Vector part(stage.start->a);
+    part *= stage.guess_factor;
+    try_without(part);
+    if (is_fair())
+      return best;
+    part = stage_state->u;
+    part -= stage.start->u;
+    try_without(part);
+    return best;
   }
 
   bool

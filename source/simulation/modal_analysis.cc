@@ -86,13 +86,17 @@ namespace corotet
     if (parameters.modes.number > solver.max_eigenvalues())
       throw InputError(
         "Modes/Number",
-        fmt::format(
-          "found {}; allowed: at most {} with the {} unknowns that are "
-          "not prescribed (a quarter of them; none of fewer than "
-          "16)",
-          parameters.modes.number,
-          solver.max_eigenvalues(),
-          solver.n_free_unknowns()));
+        solver.max_eigenvalues() == 0 ?
+          fmt::format("found {}; the {} unknowns that are not prescribed are "
+                      "too few for modes: needed are 16",
+                      parameters.modes.number,
+                      solver.n_free_unknowns()) :
+          fmt::format("found {}; allowed: at most {} with the {} unknowns that "
+                      "are not prescribed (a quarter of them; none of fewer "
+                      "than 16)",
+                      parameters.modes.number,
+                      solver.max_eigenvalues(),
+                      solver.n_free_unknowns()));
     check_shift();
     the_body.describe(log);
     note_what_is_ignored();

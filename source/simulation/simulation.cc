@@ -57,9 +57,12 @@ namespace corotet
         .description();
     if (motions.empty())
       return;
-    const bool        is_made = the_body.problem.makes_data();
-    const std::string entries =
-      springs ? "Fixed, Displacement and Supports" : "Fixed and Displacement";
+    const bool is_made = the_body.problem.makes_data();
+    const bool has_supports =
+      springs || !system.equation().terms.names_of_damping().empty();
+    const std::string entries = has_supports ?
+                                  "Fixed, Displacement and Supports" :
+                                  "Fixed and Displacement";
     throw InputError(is_made ? "Exact solution/Displacement boundary" :
                                "Boundary conditions/Fixed",
                      fmt::format("statics needs a body that cannot move "
@@ -89,11 +92,14 @@ namespace corotet
       }
     catch (const ComputationError &error)
       {
-        const std::string message =
-          fmt::format("step {} (t = {:.6g}): {}",
-                      last_record.step + (stepper.has_partial_step() ? 0 : 1),
-                      stepper.time(),
-                      error.what());
+        TimeLoop::Failure failure = stepper.last_failure();
+        if (failure.step == 0)
+          failure = {last_record.step + (stepper.has_partial_step() ? 0 : 1),
+                     stepper.time()};
+        const std::string message = fmt::format("step {} (t = {:.6g}): {}",
+                                                failure.step,
+                                                failure.time,
+                                                error.what());
         // If the machine fails now, too, the reason of the run's end is known.
         try
           {

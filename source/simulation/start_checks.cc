@@ -188,6 +188,12 @@ namespace corotet
           ": has no effect in statics, where nothing moves";
         for (const std::string &name : equation.terms.names_of_damping())
           log.warning(name + nothing_moves);
+        if (parameters.time_integrator.selected().load_factor(0.5) != 1)
+          for (const std::string &name :
+               equation.terms.names_of_loads_in_time())
+            log.line(name + ": depends on t, and the part of the load steps "
+                            "that is done multiplies it, too, unless "
+                            "'Proportional loading = false'");
         const std::string entry = "Initial conditions/Velocity";
         if (!Expression(parameters.initial_velocity, 3, entry, body.tables)
                .is_zero())
@@ -205,10 +211,18 @@ namespace corotet
         u.local_element(i)    = size * (0.5 + multiple - std::floor(multiple));
       }
     u.update_ghost_values();
+    // At more times for loads that may act for a short while.
+    constexpr unsigned int n_between = 100;
+    std::vector<Motion>    motions{{parameters.start_time, u, u},
+                                   {parameters.end_time, u, u}};
+    for (unsigned int k = 1; k < n_between; ++k)
+      motions.push_back(
+        {parameters.start_time +
+           (parameters.end_time - parameters.start_time) * k / n_between,
+         u,
+         u});
     for (const std::string &name :
-         equation.terms.names_without_effect({{parameters.start_time, u, u},
-                                              {parameters.end_time, u, u}},
-                                             body.motion))
+         equation.terms.names_without_effect(motions, body.motion))
       log.warning(name + ": has no effect but on reactions, as the "
                          "displacement is prescribed wherever it acts");
   }

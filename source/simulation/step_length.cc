@@ -129,6 +129,10 @@ namespace corotet
       system.equation().terms.damping_shares().stiffness);
     if (n_steps == 0)
       {
+        if (!std::isfinite(stable))
+          throw ComputationError(
+            "found 0, the stable step, which there is none of, as nothing "
+            "that is free can swing; allowed is a number above 0");
         step_length = control.safety_factor * stable;
         if (done == 0)
           log.line(fmt::format("Stable step: {:.6g} s; steps of {:.6g} s",

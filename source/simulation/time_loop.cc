@@ -179,6 +179,7 @@ namespace corotet
           {
             if (integrator->is_explicit())
               {
+                failure = {next.step, time(from)};
                 restore_state();
                 done = good_done;
               }

@@ -222,6 +222,13 @@ namespace corotet
     // Far more than the errors of a stable step may make of what was put in,
     // and no noise of a body at rest. Implicit steps may be long.
     const double factor = integrator->is_explicit() ? 100. : 1e4;
+    const auto   cause  = [&] {
+      return integrator->is_explicit() ?
+                  "the time step is too long, or what makes the body stiffer "
+                  "comes between two estimates of the stable step: let 'Steps "
+                  "between estimates' be smaller" :
+                  "the time step is too long";
+    };
     // The kinetic energy between steps may be negative where it is unstable.
     const double energy =
       std::abs(record.kinetic_energy) + record.elastic_energy;
@@ -241,15 +248,17 @@ namespace corotet
         is_unstable = true;
         throw ComputationError(fmt::format(
           "the motion is unstable: loads have done work of {:.3g} J, and the "
-          "energy is {:.3g} J; the time step is too long",
+          "energy is {:.3g} J; {}",
           record.external_work,
-          energy));
+          energy,
+          cause()));
       }
     if (is_unstable)
       throw ComputationError(fmt::format(
         "the motion is unstable: the energy is {:.3g} J, and {:.3g} "
-        "J have been put in; the time step is too long",
+        "J have been put in; {}",
         energy,
-        energy_supply));
+        energy_supply,
+        cause()));
   }
 } // namespace corotet

@@ -49,7 +49,7 @@ namespace corotet
     run()
     {
       n_expected            = std::exchange(newton.n_last, 0);
-      residual              = problem.residual(r);
+      residual              = problem.improve_guess(r, problem.residual(r));
       report.first_residual = report.final_residual = relative_residual();
       if (!residual.is_finite())
         throw ComputationError("the forces are not finite in Newton iteration "

@@ -349,7 +349,7 @@ namespace corotet
       summary["dealii_version"] = DEAL_II_PACKAGE_VERSION;
       summary["ranks"]          = dealii::Utilities::MPI::n_mpi_processes(comm);
       summary["runs"]           = cases.size();
-      summary["finished_runs"]  = results.size();
+      summary["finished_runs"]  = results.size() - n_failed;
       summary["failed_runs"]    = n_failed;
       double        wall_time   = 0;
       std::uint64_t peak_memory = 0;

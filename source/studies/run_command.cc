@@ -303,7 +303,10 @@ namespace corotet
         if (!parameters.output.overwrite && is_filled(directory, comm))
           log.warning("the output directory '" + directory +
                       "' holds results: a run takes another one, or needs "
-                      "Output/Overwrite = true or --restart");
+                      "Output/Overwrite = true" +
+                      (parameters.simulation.type == RunType::modes ?
+                         "" :
+                         " or --restart"));
       }
 
       // Computes, and checks the table that comes out.

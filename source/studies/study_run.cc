@@ -276,10 +276,12 @@ namespace corotet
     std::vector<std::unique_ptr<Observer>> observers;
     observers.push_back(std::make_unique<LastRow>(
       Probes(parameters.output.probe_points(),
-             simulated->body().discretization),
+             simulated->body().discretization,
+             &log),
       StressProbes(parameters.output.stress_probe_points(),
                    simulated->body().discretization,
-                   parameters.output.raw_stress_at_probes)));
+                   parameters.output.raw_stress_at_probes,
+                   &log)));
     const auto &last = static_cast<const LastRow &>(*observers.front());
     // Iterations are those of all steps; explicit ones have none to speak of.
     const bool is_explicit =

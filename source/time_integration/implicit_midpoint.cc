@@ -26,8 +26,13 @@ namespace corotet
     middle.u.sadd(0.5, 0.5, state.u);
     middle.v.sadd(0.5, 0.5, state.v);
 
-    const StageReport report =
-      system.solve_stage(middle, {step.time + 0.5 * dt, 2 / dt, 4 / (dt * dt)});
+    const StageReport report = system.solve_stage(middle,
+                                                  {step.time + 0.5 * dt,
+                                                   2 / dt,
+                                                   4 / (dt * dt),
+                                                   1.,
+                                                   &state,
+                                                   0.25 * dt * dt});
 
     state.u.sadd(-1., 2., middle.u);
     state.v.sadd(-1., 2., middle.v);

@@ -76,7 +76,13 @@ namespace corotet
     const double      c_v = gamma / (beta * dt);
     const double      c_a = (1 - alpha_m) / ((1 - alpha_f) * beta * dt * dt);
     const StageReport report =
-      system.solve_stage(stage, {step.end - alpha_f * dt, c_v, c_a});
+      system.solve_stage(stage,
+                         {step.end - alpha_f * dt,
+                          c_v,
+                          c_a,
+                          1.,
+                          &state,
+                          (1 - alpha_f) * 0.5 * dt * dt});
 
     // And back to the end of the step.
     const auto extrapolate = [&](Vector &end, const Vector &middle) {

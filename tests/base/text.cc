@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace corotet;
 
 TEST(Text, NearestFindsTheFewestChanges)
@@ -35,6 +37,38 @@ TEST(Text, NearestIsEmptyIfNothingIsNear)
   EXPECT_EQ(nearest("anything", {}), "");
   // Two of three characters are too many.
   EXPECT_EQ(nearest("abc", {"axy"}), "");
+}
+
+TEST(Text, NumbersOfFiles)
+{
+  EXPECT_EQ(parse_number("-1.5e-3"), -1.5e-3);
+  EXPECT_EQ(parse_number("+1"), 1.);
+  EXPECT_EQ(parse_number("+1.D-3"), 1e-3);
+  EXPECT_EQ(parse_number("2d2"), 200.);
+  for (const char *word : {"",
+                           "+",
+                           "+-1",
+                           "++1",
+                           "1x",
+                           "1 ",
+                           "1,5",
+                           "d",
+                           "1dd2",
+                           "inf",
+                           "nan",
+                           "1e999"})
+    EXPECT_EQ(parse_number(word), std::nullopt) << word;
+}
+
+TEST(Text, UnusedNames)
+{
+  const std::vector<std::string> names{"a", "b", "b (2)"};
+  const auto                     is_taken = [&](const std::string &name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  EXPECT_EQ(unused_name("c", is_taken), "c");
+  EXPECT_EQ(unused_name("a", is_taken), "a (2)");
+  EXPECT_EQ(unused_name("b", is_taken), "b (3)");
 }
 
 TEST(Text, Join)

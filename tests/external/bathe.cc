@@ -26,9 +26,11 @@ Bathe::step(corotet::SecondOrderSystem &system,
   middle.v.add(h, state.a);
   middle.a = state.a;
   system.prescribe(middle, step.time + h, 1.);
-  // The last two numbers say how v_1 and a_1 change with u_1.
-  const corotet::StageReport first =
-    system.solve_stage(middle, {step.time + h, 2 / h, 4 / (h * h)});
+  // How v_1 and a_1 change with u_1; and what the guess goes on from, with
+  // which part of the acceleration: Newton's method starts without where that
+  // is better.
+  const corotet::StageReport first = system.solve_stage(
+    middle, {step.time + h, 2 / h, 4 / (h * h), 1., &state, 0.5 * h * h});
 
   // v_2 = (u_0 - 4 u_1 + 3 u_2) / dt,  a_2 = (v_0 - 4 v_1 + 3 v_2) / dt.
   end.u = middle.u;
@@ -40,8 +42,8 @@ Bathe::step(corotet::SecondOrderSystem &system,
   end.a *= 3 / dt;
   end.a.add(-4 / dt, middle.v, 1 / dt, state.v);
   system.prescribe(end, step.end, 1.);
-  corotet::StageReport report =
-    system.solve_stage(end, {step.end, 3 / dt, 9 / (dt * dt)});
+  corotet::StageReport report = system.solve_stage(
+    end, {step.end, 3 / dt, 9 / (dt * dt), 1., &middle, 0.5 * h * h});
   state = end;
 
   report.newton_iterations += first.newton_iterations;

@@ -118,9 +118,12 @@ TEST(MaterialParameters, Refusals)
             "Material/Young's modulus: found 0 for region 'steel'; allowed: a "
             "positive number of Pa");
   EXPECT_EQ(material_refusal("Young's modulus", "steel: 1"),
-            "Material/Young's modulus: region 'rubber' has no value");
-  EXPECT_EQ(material_refusal("Young's modulus", "steel: 1, 1: 2, rubber: 2"),
-            "Material/Young's modulus: region 'steel' has two values");
+            "Material/Young's modulus: region 'rubber' has no value; needed is "
+            "one for each region");
+  EXPECT_EQ(
+    material_refusal("Young's modulus", "steel: 1, 1: 2, rubber: 2"),
+    "Material/Young's modulus: region 'steel' has two values; allowed is "
+    "one, by names that share no cells");
   EXPECT_EQ(material_refusal("Young's modulus", "hard"),
             "Material/Young's modulus: 'hard' is not a number; allowed: a "
             "number, or 'region: number, ...'");

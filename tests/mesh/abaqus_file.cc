@@ -5,7 +5,6 @@
 // cannot be used are refused.
 
 #include <corotet/base/text.h>
-#include <corotet/mesh/abaqus_file.h>
 #include <corotet/mesh/check_mesh.h>
 
 #include <gtest/gtest.h>
@@ -13,55 +12,10 @@
 #include <numeric>
 #include <set>
 
-#include "mesh/tools.h"
-#include "mesh/two_cubes.h"
+#include "abaqus.h"
 
 using namespace corotet;
 using namespace corotet::tests;
-
-namespace
-{
-  using Known = std::vector<std::string>;
-
-  class AbaqusFile : public testing::Test
-  {
-  protected:
-    SerialMesh
-    read(const std::string &text, const std::string &name = "part.inp") const
-    {
-      return serial_mesh(read_abaqus_file(folder.write(name, text)));
-    }
-
-    // Without the folder.
-    std::string
-    message(const std::string &text) const
-    {
-      const std::string found = refusal([&] { read(text); });
-      const std::size_t file  = found.find("part.inp");
-      return file == std::string::npos ? found : found.substr(file);
-    }
-
-    TemporaryFolder folder;
-  };
-
-  // Two tetrahedra that share a face, with sparse numbers.
-  const std::string nodes = "*Node\n"
-                            "  10, 0., 0., 0.\n"
-                            " 20, 1.D0, 0, 0\n"
-                            "30,0,+1e0,0\n"
-                            "40, 0, 0, 1.\n"
-                            "** a comment\n"
-                            "50, 1, 1, 1\n";
-  const std::string cells = "*ELEMENT, type=C3D4, ELSET=Body\n"
-                            "7, 10, 20, 30, 40\n"
-                            "9, 20, 30, 40, 50\n";
-
-  Known
-  known_regions(const SerialMesh &mesh)
-  {
-    return MeshNames("region", mesh.regions).known();
-  }
-} // namespace
 
 // Sets by every way there is; they overlap.
 TEST_F(AbaqusFile, SetsAndSurfaces)
@@ -145,54 +99,6 @@ TEST_F(AbaqusFile, EdgeInsideOfTheBody)
   EXPECT_TRUE(mesh.edges.empty());
 }
 
-// Instances are moved and turned copies; sets of the assembly look into them.
-TEST_F(AbaqusFile, PartsAndInstances)
-{
-  const SerialMesh mesh =
-    read("*PART, NAME=block\n" + nodes + cells +
-         "*NSET, NSET=foot\n10, 20, 30\n*END\t PART\n"
-         "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one, PART=BLOCK\n*END INSTANCE\n"
-         "*INSTANCE, NAME=two, PART=block\n10., 0, 0\n10, 0, 0, 10, 0, 1, 90\n"
-         "*END INSTANCE\n"
-         "*NSET, NSET=held, INSTANCE=two\nfoot\n"
-         "*NSET, NSET=numbers, INSTANCE=two\n10, 20, 30\n"
-         "*ELSET, ELSET=first, INSTANCE=one\n7\n"
-         "*SURFACE, NAME=face\ntwo.body, S2\n"
-         "*ELSET, ELSET=_f, INTERNAL, INSTANCE=one\n9\n"
-         "*SURFACE, NAME=other\n_f, S2\n"
-         "*END ASSEMBLY\n");
-  ASSERT_EQ(mesh.cells.size(), 4u);
-  EXPECT_EQ(known_regions(mesh), (Known{"first", "one.Body", "two.Body"}));
-  EXPECT_NEAR(volume(mesh, "first"), 1 / 6., 1e-15);
-  EXPECT_NEAR(volume(mesh, "two.Body"), 0.5, 1e-14);
-  EXPECT_NEAR(area(mesh, "held"), 0.5, 1e-14);
-  EXPECT_NEAR(area(mesh, "numbers"), 0.5, 1e-14);
-  EXPECT_NEAR(area(mesh, "one.foot"), 0.5, 1e-15);
-  EXPECT_NEAR(area(mesh, "face"), std::sqrt(0.75) + 0.5, 1e-14);
-  EXPECT_NEAR(area(mesh, "other"), std::sqrt(0.75), 1e-14);
-  EXPECT_NEAR(area(mesh, "two.foot"), 0.5, 1e-14);
-  // (1, 0, 0) goes to (10, 1, 0).
-  EXPECT_LT(mesh.vertices[6].distance(dealii::Point<3>(10, 1, 0)), 1e-14);
-}
-
-// As Abaqus/CAE writes them: sets of nodes and of elements with one name, of
-// one instance. With two, they have its name, too.
-TEST_F(AbaqusFile, NamesOfInstances)
-{
-  const std::string part = "*PART, NAME=block\n" + nodes + cells +
-                           "*NSET, NSET=Set-1\n10, 20, 30\n"
-                           "*ELSET, ELSET=Set-1\n7\n*END PART\n"
-                           "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one, "
-                           "PART=block\n*END INSTANCE\n";
-  const SerialMesh mesh = read(part + "*END ASSEMBLY\n");
-  EXPECT_EQ(known_regions(mesh), (Known{"Body", "Set-1"}));
-  EXPECT_NEAR(volume(mesh, "Set-1"), 1 / 6., 1e-15);
-  EXPECT_NEAR(area(mesh, "Set-1"), 0.5, 1e-15);
-  EXPECT_EQ(known_regions(read(part + "*INSTANCE, NAME=two, PART=block\n"
-                                      "9, 0, 0\n*END INSTANCE\n")),
-            (Known{"one.Body", "one.Set-1", "two.Body", "two.Set-1"}));
-}
-
 // Names in quotes may have commas.
 TEST_F(AbaqusFile, NamesWithCommas)
 {
@@ -206,29 +112,6 @@ TEST_F(AbaqusFile, NamesWithCommas)
             (Known{"5\" pipe", "my set, left", "my set, right"}));
   EXPECT_NEAR(volume(mesh, "my set, left"), 1 / 6., 1e-15);
   EXPECT_NEAR(volume(mesh, "5\" pipe"), 0.5, 1e-15);
-}
-
-// "instance.member", also where a set of the assembly has a point in its name.
-TEST_F(AbaqusFile, MembersOfInstances)
-{
-  const std::string start =
-    "*PART, NAME=block\n" + nodes + cells +
-    "*NSET, NSET=foot-1\n10, 20, 30\n*END PART\n"
-    "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one, PART=block\n*END INSTANCE\n"
-    "*INSTANCE, NAME=two, PART=block\n10., 0, 0\n*END INSTANCE\n";
-  const SerialMesh mesh =
-    read(start + "*NSET, NSET=held\none.foot-1, Two.20, TWO.30, two.10\n"
-                 "*NSET, NSET=one.foot-1\ntwo.foot-1, two.50\n"
-                 "*NSET, NSET=again\none.foot-1\n"
-                 "*ELSET, ELSET=both\none.7, two.Body\n");
-  EXPECT_NEAR(area(mesh, "held"), 1, 1e-14);
-  EXPECT_NEAR(area(mesh, "again"), 0.5 + std::sqrt(0.75), 1e-14);
-  EXPECT_NEAR(volume(mesh, "both"), 1 / 6. + 0.5, 1e-14);
-  EXPECT_EQ(message(start + "*NSET, NSET=a\ntwo.12\n"),
-            "part.inp:22: there is no node two.12 before this line");
-  EXPECT_EQ(message(start + "*NSET, NSET=a\ntwo.hand\n"),
-            "part.inp:22: there is no node and no set of nodes 'two.hand' "
-            "before this line");
 }
 
 // A set of the nodes of elements.

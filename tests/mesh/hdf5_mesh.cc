@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 
@@ -179,6 +180,59 @@ namespace
     H5Fclose(id);
   }
 } // namespace
+
+// Ids that are no one's, and one that stands for none.
+TEST(Hdf5Mesh, WrongIds)
+{
+  using nlohmann::json;
+  const SharedFolder folder;
+  const auto         refused = [&](const std::function<void(json &)> &edit) {
+    const std::string file = folder.write("body.h5", body_with_everything());
+    if (folder.folder)
+      {
+        const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        hid_t       data  = H5Dopen2(id, "description", H5P_DEFAULT);
+        hid_t       space = H5Dget_space(data);
+        std::string text(H5Sget_simple_extent_npoints(space), ' ');
+        H5Dread(
+          data, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
+        H5Sclose(space);
+        H5Dclose(data);
+        json description = json::parse(text);
+        edit(description);
+        text            = description.dump();
+        const hsize_t n = text.size();
+        H5Ldelete(id, "description", H5P_DEFAULT);
+        space = H5Screate_simple(1, &n, nullptr);
+        data  = H5Dcreate2(id,
+                          "description",
+                          H5T_STD_U8LE,
+                          space,
+                          H5P_DEFAULT,
+                          H5P_DEFAULT,
+                          H5P_DEFAULT);
+        H5Dwrite(
+          data, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
+        H5Sclose(space);
+        H5Dclose(data);
+        H5Fclose(id);
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
+    return refusal([&] { read(file); });
+  };
+  const auto expect = [&](const std::string                 &words,
+                          const std::function<void(json &)> &edit) {
+    const std::string found = refused(edit);
+    EXPECT_NE(found.find(words), std::string::npos) << found;
+  };
+  EXPECT_EQ(refused([](json &) {}), "nothing was refused");
+  expect("found the id 77 in the set 'gone', which is not there",
+         [](json &text) { text["boundaries"]["sets"]["gone"] = {77}; });
+  expect("found the id 4294967294 of a name; 0 to 4294967293 are allowed",
+         [](json &text) {
+           text["regions"]["names"].push_back({4294967294u, "last"});
+         });
+}
 
 TEST(Hdf5Mesh, DamagedFiles)
 {

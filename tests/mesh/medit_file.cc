@@ -111,7 +111,7 @@ TEST_F(MeditFile, TenNodes)
     "MeshVersionFormatted 2\nDimension 3\nVertices\n10\n0 0 0 0\n1 0 0 0\n"
     "0 1 0 0\n0 0 1 0\n.5 -.1 0 0\n.5 .5 0 0\n0 .5 0 0\n0 0 .5 0\n.5 0 .5 0\n"
     "0 .5 .5 0\nTetrahedraP2\n1\n1 2 3 4 5 6 7 8 9 10 7\nTrianglesP2\n1\n"
-    "1 2 3 5 6 7 4\nEnd\n");
+    "1 2 3 5 6 7 4\nEnd\n# written by hand\n");
   ASSERT_EQ(mesh.cells.size(), 1u);
   ASSERT_EQ(mesh.geometry_degree, 2u);
   EXPECT_EQ(mesh.curved_nodes[4], dealii::Point<3>(.5, -.1, 0));

@@ -105,6 +105,20 @@ namespace
 
 
 
+  // Names of the file that look like those of what has none.
+  TEST_F(SurfaceMesh, NamesLikeNumbers)
+  {
+    std::string text = obj_text(box_triangles({0, 0, 0}, {1, 1, 1}));
+    text.insert(text.find("f "), "g surface 4\n");
+    text.insert(text.find("f ", text.find("f ") + 1), "g others\n");
+    const SerialMesh mesh = mesh_of(text);
+    EXPECT_NEAR(tests::area(mesh, "surface 4"), 0.5, 1e-12);
+    EXPECT_NEAR(tests::area(mesh, "others"), 5.5, 1e-12);
+    EXPECT_NEAR(tests::area(mesh, "surface 4 (2)"), 1, 1e-12);
+  }
+
+
+
   // A body is called what all of its surface is called, and by no more: here an
   // object of two materials.
   TEST_F(SurfaceMesh, ObjectOfSeveralMaterials)

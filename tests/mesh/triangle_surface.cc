@@ -59,6 +59,8 @@ namespace
   TEST_F(SurfaceFiles, Formats)
   {
     const Triangles box = box_triangles({-0.1, 0.25, 1. / 3}, {0.7, 1.5, 2});
+    // Of UTF-8.
+    const std::string                        mark = "\xEF\xBB\xBF";
     const std::map<std::string, std::string> files{
       {"stl", stl_text(box, "a box")},
       {"stl binary", stl_bytes(box)},
@@ -68,7 +70,11 @@ namespace
       {"ply little", ply_bytes(box, "binary_little_endian")},
       {"ply big", ply_bytes(box, "binary_big_endian")},
       {"obj", obj_text(box)},
-      {"off", off_text(box)}};
+      {"off", off_text(box)},
+      {"stl with a mark", mark + stl_text(box, "a box")},
+      {"ply with a mark", mark + ply_bytes(box, "ascii")},
+      {"obj with a mark", mark + obj_text(box)},
+      {"off with a mark", mark + off_text(box)}};
     for (const auto &[name, bytes] : files)
       {
         SCOPED_TRACE(name);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "../curved_mesh.h"
@@ -66,6 +67,32 @@ TEST(WrittenDigits, StraightCellsAreTold)
               << remark;
           }
       }
+}
+
+// Of files of bytes with numbers of single precision.
+TEST(WrittenDigits, SinglePrecision)
+{
+  const auto single = [](SerialMesh mesh) {
+    const auto round = [](Point<3> &x) {
+      for (unsigned int a = 0; a < 3; ++a)
+        x[a] = static_cast<float>(x[a]);
+    };
+    std::ranges::for_each(mesh.vertices, round);
+    std::ranges::for_each(mesh.curved_nodes, round);
+    return mesh;
+  };
+  for (const unsigned int degree : {2, 3})
+    {
+      SerialMesh        mesh   = single(straight_box(degree));
+      const std::string remark = remove_written_straight_maps(mesh);
+      EXPECT_TRUE(mesh.curved_nodes.empty());
+      EXPECT_NE(remark.find("the 7 digits"), std::string::npos) << remark;
+
+      const SerialMesh exact  = half_curved_box(degree);
+      SerialMesh       curved = single(exact);
+      remove_written_straight_maps(curved);
+      EXPECT_EQ(curved.curved_nodes.size(), exact.curved_nodes.size());
+    }
 }
 
 // What is curved by more than the last digit stays, as in half of this box; the

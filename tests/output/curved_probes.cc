@@ -57,6 +57,50 @@ TEST(Probes, CurvedCells)
     }
 }
 
+// A probe that is a little off a curved surface, z = 1 + x^2 / 5, is taken at
+// the point below it: that to 1e-12, as Newton's method for it ends below. Of
+// the straight surfaces at x = 0 and, beyond the edge, y = 0 as well.
+TEST(Probes, BesideTheSurface)
+{
+  const auto affine = [](const Point<3> &x) {
+    return Tensor<1, 3>({1 + x[0] - 2 * x[1], x[2] - 3 * x[0], x[1] + x[2]});
+  };
+  for (const unsigned int degree : {2u, 3u})
+    {
+      const SerialMesh mesh =
+        curved(box("2, 1, 1", "4, 2, 2"), degree, [](const Point<3> &x) {
+          return Point<3>(x[0], x[1], x[2] + x[0] * x[0] / 5);
+        });
+      std::vector<ProbePoint> points;
+      std::vector<Point<3>>   nearest;
+      const auto add = [&](const Point<3> &foot, const Tensor<1, 3> &normal) {
+        nearest.push_back(foot);
+        points.push_back({"p" + std::to_string(points.size()),
+                          foot + 0.02 * normal / normal.norm()});
+      };
+      for (const double x : {0.03, 0.5, 0.77, 1.3, 1.9})
+        for (const double y : {0.1, 0.5, 0.83})
+          add({x, y, 1 + x * x / 5}, Tensor<1, 3>({-0.4 * x, 0., 1.}));
+      add({0, 0.3, 0.4}, Tensor<1, 3>({-1., 0., 0.}));
+      add({0, 0, 0.6}, Tensor<1, 3>({-1., -2., 0.}));
+
+      const MovingBody body(mesh, element_text(degree));
+      EXPECT_THROW(Probes(points, body.discretization), InputError);
+      Log          log(MPI_COMM_SELF, true);
+      const Probes probes(points, body.discretization, &log);
+      const auto   values = probes.displacements(body.interpolate(affine));
+      for (unsigned int p = 0; p < points.size(); ++p)
+        EXPECT_LT((values[p] - affine(nearest[p])).norm(), 1e-12)
+          << points[p].position;
+      EXPECT_NO_THROW(StressProbes(points, body.discretization, false, &log));
+      // More than a fifth of a cell away.
+      EXPECT_THROW(Probes({{"far", {-0.2, 0.5, 0.5}}},
+                          body.discretization,
+                          &log),
+                   InputError);
+    }
+}
+
 // All nodes of a thin, strongly curved shell: vertices, on edges, on faces; for
 // stresses as well. Positions, and so displacements, have the round-off of sums
 // of 20 terms of order one.

@@ -151,6 +151,7 @@ class Dynamics(ProgramTest):
         summary = read_summary(directory)
         self.assertEqual(summary["status"], "failed")
         self.assertIn("the motion is unstable", summary["message"])
+        self.assertIn("let 'Steps between estimates' be smaller", summary["message"])
         # The last row is the last one that was good.
         kinetic, work = self.columns(directory, "kinetic_energy", "external_work")
         self.assertGreater(len(kinetic), 2)

@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import ROOT, ProgramTest, limit_files, parameter_text, read_history, run_on
+from support import ROOT, ProgramTest, limit_files, parameter_text, read_history, read_summary, run_on
 from checkpoints import BEAM, rows_without_time
 
 SHORT = {**BEAM, "Discretization/Degree": "1", "Mesh/box/Cells": "4, 1, 1", "Time integration/End time": "0.2", "Time integration/Time step": "0.02",
@@ -65,6 +65,24 @@ class Restarts(ProgramTest):
                     continue
                 self.run_entries(entries, *longer)
                 self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.3, delta=1e-12)
+
+    def test_final_row_between_rows(self):
+        """A run that stops between two rows, as a run with a limit on its time does: what the summary calls final is the last row."""
+        entries = {**SHORT, "Output/Steps between rows": "4", "Output/Probes": "tip: 1 0.1 0.1", "Output/Stress probes": "middle: 0.5 0.05 0.05",
+                   "Checkpoint/Wall time limit": "1e-9"}
+        self.run_entries(entries, status=4)
+        n_runs = 1
+        while n_runs < 20:
+            n_runs += 1
+            run = self.run_entries(entries, "--restart", status=None)
+            final, row = read_summary(self.folder / "run")["final"], read_history(self.folder / "run")[-1]
+            for name in ("step", "tip_x", "tip_z", "max_displacement", "middle_von_mises"):
+                self.assertEqual(final[name], float(row[name]), name)
+            if run.returncode == 0:
+                break
+        self.assertEqual(run.returncode, 0)
+        # Ten steps and three rows: some runs were between two.
+        self.assertGreater(n_runs, 4)
 
     def test_rows_behind_a_table(self):
         """They may be added as long as what the run has had stays as it is: the run that goes on is the one that had them from its start."""

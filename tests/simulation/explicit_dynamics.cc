@@ -363,3 +363,29 @@ TEST(Explicit, DampingByMassTakesVelocitiesToCome)
 {
   expect_rigid_motion(section("Damping", {{"Mass coefficient", 2}}), "1 + 2*t");
 }
+
+// There is no stable step where nothing is free.
+TEST(CentralDifference, NothingIsFree)
+{
+  EXPECT_NE(refusal([] {
+              CompleteRun run(
+                box_mesh("1, 1, 1", "1, 1, 1") + material_text(1e3, 0.3, 1000) +
+                displacements(on_all_sides("0.01 * sin(5 * t); 0; 0")) +
+                steps(1, 0));
+              run.run();
+            })
+              .find("Time integration/Time step: found 0, the stable step, "
+                    "which there is none of"),
+            std::string::npos);
+}
+
+// The step that fails is named, however long ago the last row was.
+TEST(CentralDifference, NamesTheStepThatFails)
+{
+  CompleteRun       run(box_mesh("1, 1, 1", "1, 1, 1") +
+                  material_text(1e3, 0.3, 1000) + fixed("x-min") +
+                  gravity("0; 0; if(t > 0.155 & t < 0.175, 0 / 0, 1)") +
+                  steps(1, 0.01));
+  const std::string found = run.run({1000, 0.});
+  EXPECT_TRUE(found.starts_with("step 16 (t = 0.15): ")) << found;
+}

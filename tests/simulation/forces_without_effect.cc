@@ -104,3 +104,39 @@ TEST(ForcesWithoutEffect, LoadOnNodesThatOthersHold)
                      pressures("z-max: 1") + statics()),
             expected);
 }
+
+// Where the load acts nothing is held but what it pushes at the start and at
+// the end of the run.
+TEST(ForcesWithoutEffect, NotThoseOfAPulse)
+{
+  const auto found = warnings(
+    held_bar(1) + displacements("x-max: free; 0; 0") +
+    section("Loads",
+            {{"Point forces", "2 0 0: if(t > 0.4 & t < 0.43, 1, 0); 5; 0"}}) +
+    time_integration("Newmark", 1, 0.01));
+  if (has_log())
+    {
+      EXPECT_TRUE(found.empty()) << found.front();
+    }
+}
+
+// Damping has no part in statics, but for a warning: dashpots that cannot be
+// are not asked.
+TEST(ForcesWithoutEffect, DampingInStatics)
+{
+  const std::string text =
+    held_bar(2) + material_type("Saint Venant-Kirchhoff") + statics(4);
+  CompleteRun without(text);
+  ASSERT_EQ(without.run(), "");
+  CompleteRun with(
+    text + section("Damping", {{"Stiffness coefficient", "0.1"}}) +
+    supports("", "", "x-max: if(t > 0.4 & t < 0.6, -1, 1); 0; 0"));
+  ASSERT_EQ(with.run(), "");
+  for (unsigned int k = 0; k < 4; ++k)
+    {
+      const StepRecord &a = without.recorder().steps[k],
+                       &b = with.recorder().steps[k];
+      EXPECT_EQ(a.newton_iterations, b.newton_iterations);
+      EXPECT_EQ(a.elastic_energy, b.elastic_energy);
+    }
+}

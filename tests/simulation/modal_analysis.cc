@@ -342,6 +342,6 @@ TEST(ModalAnalysis, Refusals)
     "are not prescribed (a quarter of them; none of fewer than 16)");
   EXPECT_EQ(
     refused(fixed("x-min")),
-    "Modes/Number: found 7; allowed: at most 0 with the 12 unknowns that "
-    "are not prescribed (a quarter of them; none of fewer than 16)");
+    "Modes/Number: found 7; the 12 unknowns that are not prescribed are too "
+    "few for modes: needed are 16");
 }

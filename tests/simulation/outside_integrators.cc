@@ -53,8 +53,8 @@ namespace
       far.v.add(h, state.a);
       far.a = state.a;
       system.prescribe(far, step.time + h, 1.);
-      const StageReport report =
-        system.solve_stage(far, {step.time + h, 3 / h, 6 / (h * h)});
+      const StageReport report = system.solve_stage(
+        far, {step.time + h, 3 / h, 6 / (h * h), 1., &state, 0.5 * h * h});
 
       // The acceleration at the end of the step; displacement and velocity by
       // integration from the start.

@@ -15,6 +15,7 @@
 
 #include "../body.h"
 #include "../wave.h"
+#include "complete_run.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -141,4 +142,26 @@ TEST(Statics, PrescribedStretch)
   EXPECT_NEAR(record.max_displacement, 0.2, 1e-9);
   EXPECT_NEAR(record.min_det_F, 1.1, 1e-7);
   EXPECT_LE(record.reaction.norm(), 1e-6);
+}
+
+// A guess of the first state is no state: a linear body takes up what the load
+// does, to round-off, as without a guess.
+TEST(Statics, AGuessDoesNoWork)
+{
+  for (const unsigned int n : {1u, 3u})
+    {
+      const std::string text = box_mesh("1, 1, 1", "2, 2, 2") +
+                               material_text(1e3) + material_type("linear") +
+                               fixed("x-min") + tractions("x-max: 100; 20; 0") +
+                               statics(n);
+      CompleteRun without(text);
+      ASSERT_EQ(without.run(), "");
+      CompleteRun with(text + section("Initial conditions",
+                                      {{"Displacement", "0.05*x; 0; -0.1*x"}}));
+      ASSERT_EQ(with.run(), "");
+      const StepRecord &a = without.recorder().steps.back(),
+                       &b = with.recorder().steps.back();
+      EXPECT_NEAR(b.external_work, a.external_work, 1e-7 * a.external_work);
+      EXPECT_NEAR(b.energy_balance, 0, 1e-7 * a.external_work);
+    }
 }

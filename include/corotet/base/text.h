@@ -5,6 +5,7 @@
 #define corotet_base_text_h
 
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,26 @@ namespace corotet
   std::string
   upper_case(const std::string_view text);
 
-  /// Skips the mark of UTF-8 that some editors write at the start of a file.
+  /// The name, or if that is taken "NAME (2)", "NAME (3)" and so on.
+  template <typename IsTaken>
+  std::string
+  unused_name(const std::string &name, const IsTaken &is_taken)
+  {
+    std::string result = name;
+    for (unsigned int i = 2; is_taken(result); ++i)
+      result = name + " (" + std::to_string(i) + ")";
+    return result;
+  }
+
+  /// The finite number that a whole word is, whatever the locale; with a plus
+  /// sign, as some programs write, and Fortran's exponents, "1.D-3", too.
+  std::optional<double>
+  parse_number(const std::string_view word);
+
+  /// The mark of UTF-8 that some editors write at the start of a file.
+  inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+  /// Skips it.
   void
   skip_byte_order_mark(std::istream &file);
 

@@ -10,7 +10,9 @@
 #include <deal.II/base/table.h>
 #include <deal.II/fe/fe.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace corotet
 {
@@ -84,6 +86,15 @@ namespace corotet
   /// nothing.
   std::string
   remove_written_straight_maps(MeshCells &mesh);
+
+  /// For @p nodes of a file that are to be moved, which gives them other
+  /// digits: takes those of @p cells that are straight but for the digits of
+  /// the file to their straight positions. Each cell has the nodes of a map of
+  /// degree @p degree. Returns a remark as above.
+  std::string
+  straighten_written_cells(std::vector<dealii::Point<3>>    &nodes,
+                           const std::vector<std::uint32_t> &cells,
+                           const unsigned int                degree);
 
   /**
    * Smallest determinant of the Jacobians of curved cells over its mean in the

@@ -32,6 +32,10 @@ namespace corotet
     void
     add(std::unique_ptr<ForceTerm> term, const std::string &name = "");
 
+    /// For statics and modes: terms of damping go, but for their names.
+    void
+    leave_out_damping();
+
     /// f = load_factor times the loads, and the forces of supports and of those
     /// elastic terms that depend on time.
     void
@@ -109,14 +113,20 @@ namespace corotet
 
     /// Names of the terms whose forces act on unknowns that supports
     /// prescribe, and on no other, in all of these motions, which should move
-    /// every node. Without a name a term is left out.
+    /// every node. Those after the second are for loads that depend on time.
+    /// Without a name a term is left out.
     std::vector<std::string>
     names_without_effect(const std::vector<Motion> &motions,
                          const PrescribedMotion    &supports) const;
 
-    /// Names of the terms that resist motion, if they have one.
+    /// Names of the terms that resist motion, if they have one; also of those
+    /// left out.
     std::vector<std::string>
     names_of_damping() const;
+
+    /// Names of the loads that depend on time, if they have one.
+    std::vector<std::string>
+    names_of_loads_in_time() const;
 
     /// Whether all terms are linear.
     bool
@@ -164,6 +174,8 @@ namespace corotet
     std::vector<std::unique_ptr<ForceTerm>> terms;
     /// Of each term, or empty.
     std::vector<std::string> names;
+    /// Of terms of damping that have been left out.
+    std::vector<std::string> names_left_out;
     /// Sum of the loads that depend on neither time nor motion.
     Vector constant_load;
     /// See zero_vector(); empty before its first call.

@@ -4,7 +4,9 @@
 #ifndef corotet_output_probes_h
 #define corotet_output_probes_h
 
+#include <corotet/base/log.h>
 #include <corotet/discretization/discretization.h>
+#include <corotet/discretization/nearby_cells.h>
 #include <corotet/output/output_parameters.h>
 
 #include <deal.II/base/tensor.h>
@@ -14,13 +16,15 @@
 
 namespace corotet
 {
-  /// Throws the InputError, blamed on @p entry, for a probe at @p x that is
-  /// outside the body. Collective.
-  [[noreturn]] void
-  throw_outside_of_body(const std::string      &entry,
-                        const std::string      &name,
-                        const dealii::Point<3> &x,
-                        const Discretization   &discretization);
+  /// Where a probe is taken that no cell has: the point of the body nearest to
+  /// it, if it is near (nearest_point()) and there is a @p log, which says so.
+  /// Throws the InputError, blamed on @p entry, otherwise. Collective.
+  dealii::Point<3>
+  nearest_point_to_probe(const ProbePoint     &probe,
+                         const std::string    &entry,
+                         const Discretization &discretization,
+                         const NearbyCells    &nearby,
+                         Log *const            log);
 
   /**
    * Points of the undeformed body, anywhere in it, at which a displacement is
@@ -34,10 +38,13 @@ namespace corotet
   class Probes
   {
   public:
-    /// Throws InputError blamed on Output/Probes if a point is outside the
-    /// body (PointSearch). Collective.
+    /// With a @p log, points that are a little outside of the cells
+    /// (PointSearch), as those on a curved surface are, are taken at the
+    /// nearest point of the body. Throws InputError blamed on Output/Probes for
+    /// others. Collective.
     Probes(const std::vector<ProbePoint> &points,
-           const Discretization          &discretization);
+           const Discretization          &discretization,
+           Log *const                     log = nullptr);
 
     const std::vector<std::string> &
     names() const

@@ -24,11 +24,13 @@ namespace corotet
   class StressProbes
   {
   public:
-    /// Throws InputError blamed on Output/Stress probes if a point is outside
-    /// the body (PointSearch). Collective.
+    /// With a @p log, points that are a little outside are taken at the nearest
+    /// point of the body, as those of Probes are. Throws InputError blamed on
+    /// Output/Stress probes for others. Collective.
     StressProbes(const std::vector<ProbePoint> &points,
                  const Discretization          &discretization,
-                 const bool                     raw = false);
+                 const bool                     raw = false,
+                 Log *const                     log = nullptr);
 
     const std::vector<std::string> &
     names() const

@@ -123,6 +123,10 @@ namespace corotet
       std::vector<double> carried, velocity;
     };
 
+    /// In statics the initial state is a guess of the first one: the account
+    /// begins with the body at rest without loads.
+    void
+    begin_unloaded();
     /// Of the last evaluation, of an owned unknown: inertia and damping, and
     /// what works along the displacement.
     double
@@ -146,9 +150,13 @@ namespace corotet
     Vector momentum;
     double work = 0;
     /// Energy of elastic terms that depend on time, at the start [J].
-    double     initial_changing_energy = 0;
-    double     dissipation             = 0;
-    double     energy_of_supports      = 0;
+    double initial_changing_energy = 0;
+    /// Whether the account, and the next step in it, begins at rest without
+    /// loads, whatever was guessed.
+    bool       began_unloaded     = false;
+    bool       is_unloaded        = false;
+    double     dissipation        = 0;
+    double     energy_of_supports = 0;
     StepRecord initial;
     /// What dt, work and dissipation were before work was added.
     std::array<double, 3> before{};

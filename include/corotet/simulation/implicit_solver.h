@@ -65,6 +65,8 @@ namespace corotet
   private:
     Norm
     residual(Vector &r) override;
+    Norm
+    improve_guess(Vector &r, const Norm &at_guess) override;
     unsigned int
     solve_linearized(Vector       &dx,
                      const Vector &r,
@@ -159,6 +161,7 @@ namespace corotet
     double force_scale    = 0;
     double residual_norm  = 0;
     double external_force = 0;
+    double inertia_force  = 0;
     double solved_scale   = 0;
     double stage_scale    = 0;
     /// What round-off may make of the last residual.

@@ -96,6 +96,20 @@ namespace corotet
       return is_partial;
     }
 
+    /// A step that has failed, and the time at its start [s]; step 0: none.
+    struct Failure
+    {
+      unsigned int step;
+      double       time;
+    };
+
+    /// Of explicit steps, which leave an earlier state.
+    Failure
+    last_failure() const
+    {
+      return failure;
+    }
+
     /// Of the last step; @p record is that of the last recorded one.
     unsigned int
     step_number(const StepRecord &record) const
@@ -306,10 +320,12 @@ namespace corotet
     StepRecord unrecorded;
     bool       is_between_records = false;
 
-    bool   is_new     = false;
-    bool   is_partial = false;
-    bool   has_warned = false;
-    double n_planned  = 0;
+    bool is_new     = false;
+    bool is_partial = false;
+    /// See last_failure().
+    Failure failure    = {0, 0.};
+    bool    has_warned = false;
+    double  n_planned  = 0;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
     /// Largest energy so far [J], after a restart no less than the supply.

@@ -45,6 +45,15 @@ namespace corotet
     virtual Norm
     residual(Vector &r) = 0;
 
+    /// Called with the residual at the guess of x, @p r with norm @p at_guess:
+    /// may go to another guess. Leaves the residual there in @p r and returns
+    /// its norm.
+    virtual Norm
+    improve_guess(Vector & /*r*/, const Norm &at_guess)
+    {
+      return at_guess;
+    }
+
     /// Solves J dx = r with an approximation J of -dr/dx at the x of the last
     /// residual. What is left of r may be @p tolerance times r, if that is not
     /// below what the problem asks for itself. Returns the number of linear

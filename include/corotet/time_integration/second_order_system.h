@@ -52,6 +52,13 @@ namespace corotet
     double acceleration_factor;
     /// Multiplies loads and prescribed displacements: 1 but in load stepping.
     double load_factor = 1;
+    /// The state that the guess goes on from, and what its acceleration is
+    /// multiplied by in the guess of u [s^2]. Where loads have just begun to
+    /// act it is that of the nodes that they act on, which neighbours soon hold
+    /// back: the solver takes it back, or all of the motion, where forces are
+    /// nearer to equilibrium so. Null: it takes the guess as it is.
+    const State *start        = nullptr;
+    double       guess_factor = 0;
   };
 
   /**

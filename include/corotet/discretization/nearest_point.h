@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_discretization_nearest_point_h
+#define corotet_discretization_nearest_point_h
+
+#include <corotet/discretization/discretization.h>
+#include <corotet/discretization/nearby_cells.h>
+
+#include <optional>
+
+namespace corotet
+{
+  /**
+   * The point of the body at rest that is nearest to @p x [m], of owned cells
+   * that are so near that their surface may be meant: @p x is outside of a
+   * straight cell with the same vertices by less than a fifth of its heights.
+   * Points on the surface of a curved part are a little outside of its cells.
+   * Nothing if no owned cell is near. Not collective.
+   */
+  std::optional<dealii::Point<3>>
+  nearest_owned_point(const Discretization   &discretization,
+                      const NearbyCells      &nearby,
+                      const dealii::Point<3> &x);
+
+  /// The same of all ranks' cells; of several that are as near, that of the
+  /// lowest rank. Collective.
+  std::optional<dealii::Point<3>>
+  nearest_point(const Discretization   &discretization,
+                const NearbyCells      &nearby,
+                const dealii::Point<3> &x);
+} // namespace corotet
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_mesh_hdf5_mesh_description_h
+#define corotet_mesh_hdf5_mesh_description_h
+
+#include <corotet/mesh/mesh_names.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace corotet::hdf5_mesh
+{
+  /// Of the files that are written, the only one that is read.
+  constexpr int version = 1;
+
+  /// Throws the InputError about a file that cannot be as it is.
+  [[noreturn]] void
+  refuse(const std::string &path, const std::string &message);
+
+  /// Names in the description of a mesh.
+  nlohmann::json
+  to_json(const NamedSets &named);
+
+  /// The same names; refuses ids that cannot be, and sets of others.
+  NamedSets
+  from_json(const nlohmann::json &text, const std::string &path);
+} // namespace corotet::hdf5_mesh
+
+#endif
