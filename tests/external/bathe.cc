@@ -27,8 +27,8 @@ Bathe::step(corotet::SecondOrderSystem &system,
   middle.a = state.a;
   system.prescribe(middle, step.time + h, 1.);
   // How v_1 and a_1 change with u_1; and what the guess goes on from, with
-  // which part of the acceleration: Newton's method starts without where that
-  // is better.
+  // which part of the acceleration: the solver starts without it where that is
+  // better.
   const corotet::StageReport first = system.solve_stage(
     middle, {step.time + h, 2 / h, 4 / (h * h), 1., &state, 0.5 * h * h});
 
