@@ -93,16 +93,16 @@ namespace corotet
     for (const auto &[name, value] : names_and_values(text))
       {
         if (!value)
-          throw InputError(entry,
-                           fmt::format("found '{}'; allowed: {}{}",
-                                       shortened(name),
-                                       allowed,
-                                       allowed.starts_with("'boundary") &&
-                                           (name == "free" ||
-                                            parse_number(name)) ?
-                                         "; components of a value are "
-                                         "separated by ';'" :
-                                         ""));
+          throw InputError(
+            entry,
+            fmt::format("found '{}'; allowed: {}{}",
+                        shortened(name),
+                        allowed,
+                        !pairs.empty() && allowed.starts_with("'boundary") &&
+                            (name == "free" || parse_number(name)) ?
+                          "; components of a value are "
+                          "separated by ';'" :
+                          ""));
         pairs.emplace_back(name, *value);
       }
     return pairs;

@@ -54,6 +54,10 @@ TEST(BoundaryConditions, Refusals)
   EXPECT_EQ(condition_refusal({{"Displacement", "left: 0; 0"}}),
             "Boundary conditions/Displacement: found 2 components for boundary "
             "'left'; allowed: 'x; y; z', three expressions or 'free'");
+  EXPECT_EQ(condition_refusal({{"Displacement", "left: free, 0, 0"}}),
+            "Boundary conditions/Displacement: found '0'; allowed: 'boundary: "
+            "value, boundary: value'; components of a value are separated by "
+            "';'");
   EXPECT_EQ(condition_refusal({{"Pressure", "1e5"}}),
             "Boundary conditions/Pressure: found '1e5'; allowed: 'boundary: "
             "value, boundary: value'");

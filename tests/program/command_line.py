@@ -132,8 +132,11 @@ class CommandLine(ProgramTest):
         (self.folder / "case.prm").write_text(parameter_text({**BEAM, "Type": "modes", "Modes/Number": "1"}), encoding="utf-8")
         self.run_program("case.prm", "--output", "results")
         run = self.run_program("case.prm", "--output", "results", "--validate")
-        self.assertIn("warning: the output directory 'results' holds results: a run takes another one, or needs Output/Overwrite = true or --restart", run.stdout)
+        self.assertIn("warning: the output directory 'results' holds results: a run takes another one, or needs Output/Overwrite = true\n", run.stdout)
         self.assertIn("case.prm: valid", run.stdout)
+        # Modes cannot be gone on with.
+        run = self.run_program("case.prm", "--output", "results", "--validate", "--set", "Type = simulation")
+        self.assertIn("or needs Output/Overwrite = true or --restart\n", run.stdout)
         run = self.run_program("case.prm", "--output", "results", "--validate", "--set", "Boundary conditions/Fixed = nowhere", status=1)
         self.assertIn("no such boundary: found 'nowhere'", run.stderr)
 
