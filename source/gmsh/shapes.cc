@@ -9,9 +9,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <format>
 #include <fstream>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -251,6 +253,45 @@ namespace corotet::gmsh_program
           groups[place->second].entities.push_back(entity.second);
         }
     }
+
+
+
+    // gmsh would work on edges in another unit than the file's until its time
+    // or memory ends.
+    void
+    check_element_size(const GmshRequest &request)
+    {
+      if (request.element_size == 0)
+        return;
+      gmsh::vectorpair solids;
+      gmsh::model::getEntities(solids, 3);
+      double volume = 0;
+      for (const auto &[dimension, tag] : solids)
+        {
+          double of_solid = 0;
+          gmsh::model::occ::getMass(dimension, tag, of_solid);
+          volume += of_solid;
+        }
+      // Of regular tetrahedra; real ones are larger or smaller by less than the
+      // factor.
+      constexpr double factor = 4;
+      const double     n =
+        volume * 6 * std::sqrt(2.) / std::pow(request.element_size, 3);
+      if (n < factor * static_cast<double>(request.max_n_cells))
+        return;
+      double x[6];
+      gmsh::model::getBoundingBox(-1, -1, x[0], x[1], x[2], x[3], x[4], x[5]);
+      throw std::runtime_error(std::format(
+        "edges of {:g} make some {:.0e} cells of a body of {:.3g} x {:.3g} x "
+        "{:.3g}; {} are allowed. All of these lengths are in the unit of the "
+        "file, which is a millimetre for STEP and IGES",
+        request.element_size,
+        n,
+        x[3] - x[0],
+        x[4] - x[1],
+        x[5] - x[2],
+        request.max_n_cells));
+    }
   } // namespace
 
 
@@ -266,6 +307,7 @@ namespace corotet::gmsh_program
       remark_lost_shapes(request, solids, remark);
     if (solids.size() > 1)
       glue(solids, names, remark);
+    check_element_size(request);
     std::vector<GmshModel::Group> groups;
     add_groups(groups, 3, "solid", names);
     // Surfaces may be others now. They have colours, but no names of their own.

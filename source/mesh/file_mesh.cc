@@ -121,13 +121,14 @@ namespace corotet
       "what corotet mesh has written (.h5); or STEP, IGES and BREP of CAD programs, or a closed surface of triangles "
       "(STL, PLY, OBJ, OFF). The format is known by the content.",
       dealii::Patterns::FileName());
-    prm.add_parameter("Element size",
-                      element_size,
-                      "Target length of edges for a geometry [m, before "
-                      "scaling]; 0 leaves it to a .geo, keeps the triangles of "
-                      "a surface, and otherwise follows curvature and size. A "
-                      "mesh needs 0.",
-                      dealii::Patterns::Double(0));
+    prm.add_parameter(
+      "Element size",
+      element_size,
+      "Target length of edges for a geometry, in the unit of "
+      "the file (STEP and IGES: mm); 0 leaves it to a .geo, keeps the triangles of "
+      "a surface, and otherwise follows curvature and size. A "
+      "mesh needs 0.",
+      dealii::Patterns::Double(0));
     prm.add_parameter("Feature angle",
                       feature_angle,
                       "Where a surface of triangles has an edge, which ends a "

@@ -282,6 +282,19 @@ TEST(FileMesh, ShippedParts)
                 1e-9);
 }
 
+// As of a length in metres for a file in millimetres.
+TEST(FileMesh, EdgesThatAreFarTooShort)
+{
+  const TemporaryFolder folder;
+  write_shapes(folder / "box.step",
+               [] { gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3); });
+  // 6 / (h^3 / sqrt(72)).
+  EXPECT_NE(refusal([&] { read_file(folder / "box.step", "0.0001"); })
+              .find("edges of 0.0001 make some 5e+13 cells of a body of 1 x 2 "
+                    "x 3; 3e+08 are allowed"),
+            std::string::npos);
+}
+
 // OpenCASCADE makes millimetres of all units; what others there were is said.
 TEST(FileMesh, UnitOfStep)
 {
