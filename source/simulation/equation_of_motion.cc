@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
@@ -75,6 +76,8 @@ namespace corotet
     if (load_factor != known_load_factor ||
         (time != known_time && !terms.is_constant()) || terms.follows_motion())
       {
+        // Of no time if a term throws.
+        known_time = std::numeric_limits<double>::quiet_NaN();
         terms.external_force(forces.external, last_motion(), load_factor);
         known_load_factor = load_factor;
         known_time        = time;
