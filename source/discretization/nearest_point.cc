@@ -11,8 +11,6 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Dense>
-
 namespace corotet
 {
   using dealii::Point;
@@ -41,23 +39,29 @@ namespace corotet
           for (unsigned int v = 0; v < 4; ++v)
             if ((subset >> v) % 2 == 1)
               of_subset[n++] = v;
-          const auto     &origin = vertices[of_subset[0]];
-          Eigen::MatrixXd edges(3, n - 1);
-          Eigen::Vector3d from_origin(-origin[0], -origin[1], -origin[2]);
-          for (unsigned int k = 1; k < n; ++k)
-            for (unsigned int a = 0; a < 3; ++a)
-              edges(a, k - 1) = vertices[of_subset[k]][a] - origin[a];
-          Barycentric lambda{};
+          // Normal equations for the way along the edges from the first vertex;
+          // one for each edge that there is not, too.
+          const auto  &origin = vertices[of_subset[0]];
+          Tensor<2, 3> products;
+          Tensor<1, 3> right;
+          for (unsigned int k = 0; k < 3; ++k)
+            if (k + 1 < n)
+              {
+                const auto edge_k = vertices[of_subset[k + 1]] - origin;
+                right[k]          = -(edge_k * origin);
+                for (unsigned int l = 0; l + 1 < n; ++l)
+                  products[k][l] =
+                    edge_k * (vertices[of_subset[l + 1]] - origin);
+              }
+            else
+              products[k][k] = 1;
+          const Tensor<1, 3> along = invert(products) * right;
+          Barycentric        lambda{};
           lambda[of_subset[0]] = 1;
-          if (n > 1)
+          for (unsigned int k = 1; k < n; ++k)
             {
-              const Eigen::VectorXd along =
-                edges.colPivHouseholderQr().solve(from_origin);
-              for (unsigned int k = 1; k < n; ++k)
-                {
-                  lambda[of_subset[k]] = along[k - 1];
-                  lambda[of_subset[0]] -= along[k - 1];
-                }
+              lambda[of_subset[k]] = along[k - 1];
+              lambda[of_subset[0]] -= along[k - 1];
             }
           if (!(*std::min_element(lambda.begin(), lambda.end()) >= 0))
             continue;

@@ -3,10 +3,12 @@
 
 // What users are told about the terms, by their names.
 
+#include <corotet/base/vector.h>
 #include <corotet/discretization/prescribed_motion.h>
 #include <corotet/operators/force_terms.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace corotet
 {
@@ -35,9 +37,16 @@ namespace corotet
             f = 0;
             terms[i]->add_force(f, motions[k]);
             f.compress(dealii::VectorOperation::add);
-            on_all += f.norm_sqr();
+            // A formula that is not finite there is none that does nothing.
+            const double all = norm(f);
+            if (!std::isfinite(all))
+              {
+                on_all = on_free = 1;
+                break;
+              }
             supports.set_zero(f);
-            on_free += f.norm_sqr();
+            on_all += all * all;
+            on_free += std::pow(norm(f), 2);
             if (has_effect())
               break;
           }

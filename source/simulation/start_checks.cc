@@ -225,5 +225,7 @@ namespace corotet
          equation.terms.names_without_effect(motions, body.motion))
       log.warning(name + ": has no effect but on reactions, as the "
                          "displacement is prescribed wherever it acts");
+    // What was noted of these times belongs to no step.
+    take_not_finite(body.discretization.communicator());
   }
 } // namespace corotet
