@@ -57,9 +57,10 @@ TEST_P(SuddenLoads, CompressABlock)
         EXPECT_LE(run.recorder().steps.front().newton_iterations, 6u);
         for (const StepRecord &record : run.recorder().steps)
           {
-            // Newmark's method keeps waves that it does not resolve, and takes
-            // 11 in one of the long steps with the neo-Hookean law.
-            EXPECT_LE(record.newton_iterations, step < 0.05 ? 6u : 12u)
+            // Newmark's method keeps waves that it does not resolve: one of its
+            // long steps is made in halves.
+            EXPECT_LE(record.newton_iterations,
+                      step < 0.05 ? 6u : 10u * record.parts)
               << law << step;
             EXPECT_GT(record.min_det_F, 0.7) << law << step;
           }
