@@ -48,20 +48,19 @@ TEST_P(SuddenLoads, CompressABlock)
   for (const std::string law : {"corotational", "neo-Hookean"})
     for (const double step : {0.02, 0.1})
       {
+        // Later long steps of Newmark's method, which keeps waves that it does
+        // not resolve, depend on round-off.
+        const unsigned int n_steps = step < 0.05 ? 5 : 1;
         CompleteRun run(box_mesh("1, 1, 1", "4, 4, 4") + element_text(2) +
                         material_text(1e6, 0.3, 1000) + material_type(law) +
                         fixed("x-min") + pressures("x-max: 5e4") +
-                        time_integration(GetParam(), 5 * step, step));
+                        time_integration(GetParam(), n_steps * step, step));
         ASSERT_EQ(run.run(), "") << law << step;
-        EXPECT_EQ(run.recorder().steps.size(), 5u);
+        EXPECT_EQ(run.recorder().steps.size(), n_steps);
         EXPECT_LE(run.recorder().steps.front().newton_iterations, 6u);
         for (const StepRecord &record : run.recorder().steps)
           {
-            // Newmark's method keeps waves that it does not resolve: one of its
-            // long steps is made in halves.
-            EXPECT_LE(record.newton_iterations,
-                      step < 0.05 ? 6u : 10u * record.parts)
-              << law << step;
+            EXPECT_LE(record.newton_iterations, 6u) << law << step;
             EXPECT_GT(record.min_det_F, 0.7) << law << step;
           }
         EXPECT_GT(run.recorder().steps.front().max_displacement, 0.02);
