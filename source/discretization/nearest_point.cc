@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <utility>
 
 namespace corotet
 {
@@ -126,34 +125,33 @@ namespace corotet
         }
       return best;
     }
+
+    // As nearest_point(), of owned cells. Not collective.
+    std::optional<Point<3>>
+    nearest_owned_point(const Discretization &discretization,
+                        const NearbyCells    &nearby,
+                        const Point<3>       &x)
+    {
+      std::optional<Point<3>> result;
+      const PointSearch       search(discretization);
+      for (const unsigned int c : nearby.cells(x, near))
+        {
+          if (search.find(c, x))
+            return x;
+          const Point<3> &origin =
+            discretization.node_position(discretization.cell_nodes(c)[0]);
+          const Tensor<1, 3> xi =
+            discretization.geometry(c).inverse_jacobian * (x - origin);
+          if (!(std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >
+                -near))
+            continue;
+          const Point<3> found = nearest_point_of_cell(discretization, c, x);
+          if (!result || x.distance(found) < x.distance(*result))
+            result = found;
+        }
+      return result;
+    }
   } // namespace
-
-
-
-  std::optional<Point<3>>
-  nearest_owned_point(const Discretization &discretization,
-                      const NearbyCells    &nearby,
-                      const Point<3>       &x)
-  {
-    std::optional<Point<3>> result;
-    const PointSearch       search(discretization);
-    for (const unsigned int c : nearby.cells(x, near))
-      {
-        if (search.find(c, x))
-          return x;
-        const Point<3> &origin =
-          discretization.node_position(discretization.cell_nodes(c)[0]);
-        const Tensor<1, 3> xi =
-          discretization.geometry(c).inverse_jacobian * (x - origin);
-        if (!(std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]}) >
-              -near))
-          continue;
-        const Point<3> found = nearest_point_of_cell(discretization, c, x);
-        if (!result || x.distance(found) < x.distance(*result))
-          result = found;
-      }
-    return result;
-  }
 
 
 

@@ -10,28 +10,17 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <functional>
-#include <limits>
 
 namespace corotet
 {
   namespace
   {
     double
-    parse_number(const std::string &text, const std::string &entry)
+    number_of(const std::string &text, const std::string &entry)
     {
-      double value = std::numeric_limits<double>::quiet_NaN();
-      try
-        {
-          value = dealii::Utilities::string_to_double(text);
-        }
-      catch (const dealii::ExceptionBase &)
-        {
-          value = std::numeric_limits<double>::quiet_NaN();
-        }
-      if (std::isfinite(value))
-        return value;
+      if (const auto value = parse_number(dealii::Utilities::trim(text)))
+        return *value;
       throw InputError(entry,
                        fmt::format("'{}' is not a number; allowed: a number, "
                                    "or 'region: number, ...'",
@@ -47,7 +36,7 @@ namespace corotet
       std::map<unsigned int, double> values;
       if (text.find(':') == std::string::npos)
         {
-          const double value = parse_number(text, entry);
+          const double value = number_of(text, entry);
           for (const auto &[id, name] : regions.all())
             values[id] = value;
           return values;
@@ -55,7 +44,7 @@ namespace corotet
       for (const auto &[region, number] : named_values(
              text, entry, "a number for all regions, or 'region: number, ...'"))
         {
-          const double value = parse_number(number, entry);
+          const double value = number_of(number, entry);
           for (const unsigned int id : regions.ids(region, entry))
             if (!values.emplace(id, value).second)
               throw InputError(entry,

@@ -12,19 +12,13 @@
 namespace corotet
 {
   /**
-   * The point of the body at rest that is nearest to @p x [m], of owned cells
-   * that are so near that their surface may be meant: @p x is outside of a
-   * straight cell with the same vertices by less than a fifth of its heights.
-   * Points on the surface of a curved part are a little outside of its cells.
-   * Nothing if no owned cell is near. Not collective.
+   * The point of the body at rest that is nearest to @p x [m], of cells that
+   * are so near that their surface may be meant: @p x is outside of a straight
+   * cell with the same vertices by less than a fifth of its heights. Points on
+   * the surface of a curved part are a little outside of its cells. Of several
+   * that are as near, that of the lowest rank; @p x itself if a cell has it;
+   * nothing if no cell is near. Collective.
    */
-  std::optional<dealii::Point<3>>
-  nearest_owned_point(const Discretization   &discretization,
-                      const NearbyCells      &nearby,
-                      const dealii::Point<3> &x);
-
-  /// The same of all ranks' cells; of several that are as near, that of the
-  /// lowest rank. Collective.
   std::optional<dealii::Point<3>>
   nearest_point(const Discretization   &discretization,
                 const NearbyCells      &nearby,
