@@ -24,24 +24,48 @@ namespace corotet
       return path.empty() ? name : path + "/" + name;
     }
 
-    // Paths of the entries in @p section, which is at @p path, and below it,
-    // that were set to another value than their default.
+    // Paths of the entries at @p path, where @p node is one or a section, that
+    // were set to another value than their default.
     void
     find_changed_entries(const ParameterFile      &file,
-                         const Json               &section,
+                         const Json               &node,
                          const std::string        &path,
                          std::vector<std::string> &changed)
     {
-      for (const auto &[name, node] : section.items())
-        if (is_entry(node))
-          {
-            const std::string entry = below(path, name);
-            if (file.is_set(entry) &&
-                node.at("value") != node.at("default_value"))
-              changed.push_back(entry);
-          }
-        else if (node.is_object() && is_section(node))
-          find_changed_entries(file, node, below(path, name), changed);
+      if (is_entry(node))
+        {
+          if (file.is_set(path) && node.at("value") != node.at("default_value"))
+            changed.push_back(path);
+        }
+      else if (node.is_object() && is_section(node))
+        for (const auto &[name, inner] : node.items())
+          find_changed_entries(file, inner, below(path, name), changed);
+    }
+
+    const Json &
+    at(const Json &tree, const std::string &path)
+    {
+      const Json *node = &tree;
+      for (std::size_t begin = 0; begin <= path.size();)
+        {
+          const std::size_t end = std::min(path.find('/', begin), path.size());
+          node                  = &node->at(path.substr(begin, end - begin));
+          begin                 = end + 1;
+        }
+      return *node;
+    }
+
+    std::string
+    unused_line(const ParameterFile            &file,
+                const std::vector<std::string> &entries,
+                const std::string              &choice,
+                const std::string              &selected)
+    {
+      return fmt::format("{}: no effect, as \"{}\" is '{}': {}",
+                         file.location(entries.front()),
+                         choice,
+                         selected,
+                         join(entries));
     }
 
     class Finder
@@ -95,11 +119,7 @@ namespace corotet
                                        selected,
                                        choice,
                                        candidate));
-        lines.push_back(fmt::format("{}: no effect, as \"{}\" is '{}': {}",
-                                    file.location(changed.front()),
-                                    choice,
-                                    selected,
-                                    join(changed)));
+        lines.push_back(unused_line(file, changed, choice, selected));
       }
 
       const ParameterFile            &file;
@@ -114,5 +134,18 @@ namespace corotet
     Finder finder(file, used);
     finder.find(file.tree(), "");
     return finder.lines;
+  }
+
+  std::string
+  unused_entry(const ParameterFile &file,
+               const std::string   &place,
+               const std::string   &choice)
+  {
+    const Json               tree = file.tree();
+    std::vector<std::string> changed;
+    find_changed_entries(file, at(tree, place), place, changed);
+    return changed.empty() ?
+             "" :
+             unused_line(file, changed, choice, at(tree, choice).at("value"));
   }
 } // namespace corotet

@@ -242,6 +242,8 @@ namespace corotet
         mesh.remarks.push_back("coordinates are in millimetre: those of the "
                                "file, in " +
                                printable(unit) + ", have been converted");
+    mesh.is_in_millimetres =
+      format.format == MeshFormat::step || format.format == MeshFormat::iges;
     mesh.n_refinements = request.n_refinements;
     return mesh;
   }

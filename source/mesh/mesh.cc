@@ -45,6 +45,10 @@ namespace corotet
                                                      parameters.n_refinements);
         }
         mesh.read_time = seconds;
+        if (mesh.is_in_millimetres && parameters.scale == 1)
+          mesh.remarks.emplace_back(
+            "coordinates are in millimetres and taken for metres: "
+            "\"Mesh/Scale\" is 1; 0.001 makes metres of them");
       });
       return mesh;
     }

@@ -4,10 +4,12 @@
 #include <corotet/base/unused_entries.h>
 #include <corotet/studies/unused_parameters.h>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace corotet
 {
@@ -16,7 +18,8 @@ namespace corotet
   {
     std::vector<std::string> used;
     // As its description says.
-    const nlohmann::ordered_json solver = file.values().at("Linear solver");
+    const nlohmann::ordered_json values = file.values();
+    const auto                  &solver = values.at("Linear solver");
     if (solver.at("Type") == "automatic")
       used.emplace_back("Linear solver/p-multigrid");
     const auto &multigrid = solver.at("p-multigrid");
@@ -31,17 +34,30 @@ namespace corotet
     if (is_study_of_modes)
       used.emplace_back("Modes");
     std::vector<std::string> lines = find_unused_entries(file, used);
+    const auto note = [&](const std::string &entry, const std::string &choice) {
+      if (std::string line = unused_entry(file, entry, choice); !line.empty())
+        lines.push_back(std::move(line));
+    };
     if (is_multigrid && is_amg_coarse &&
         multigrid.at("Vertex rotations") == "true")
-      {
-        const std::string section = "Linear solver/p-multigrid/",
-                          entry   = section + "Vertex rotations";
-        lines.push_back(
-          fmt::format("{}: no effect, as \"{}Coarse solver\" is 'amg': {}",
-                      file.location(entry),
-                      section,
-                      entry));
-      }
+      note("Linear solver/p-multigrid/Vertex rotations",
+           "Linear solver/p-multigrid/Coarse solver");
+    if (values.at("Material").at("Type") != "corotational")
+      note("Material/Rotation", "Material/Type");
+    const auto       &steps    = values.at("Time integration");
+    const std::string adaptive = "Time integration/Adaptive step/";
+    if (steps.at("Type") == "static")
+      note("Time integration/Time step", "Time integration/Type");
+    if (steps.at("Adaptive step").at("Enabled") == "false")
+      for (const char *entry :
+           {"Target error", "Smallest step", "Largest step"})
+        note(adaptive + entry, adaptive + "Enabled");
+    if (values.at("Output").at("Stress probes") == "")
+      note("Output/Stress at probes", "Output/Stress probes");
+    if (type == RunType::convergence_study &&
+        values.at("Convergence study").at("Reference") != "finer run")
+      note("Convergence study/Further refinements",
+           "Convergence study/Reference");
     if (type == RunType::modes && parameters.checkpoint.wall_time_limit > 0)
       lines.push_back(file.location("Checkpoint/Wall time limit") +
                       ": no effect on modes: \"Checkpoint/Wall time limit\"");

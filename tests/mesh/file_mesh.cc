@@ -323,6 +323,32 @@ TEST(FileMesh, UnitOfStep)
     }
 }
 
+// A part of 30 mm must not become one of 30 m without a word.
+TEST(FileMesh, MillimetresTakenForMetres)
+{
+  const TemporaryFolder folder;
+  write_shapes(folder / "box.step",
+               [] { gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3); });
+  for (const double scale : {1., 0.001})
+    {
+      MeshParameters           parameters;
+      dealii::ParameterHandler prm;
+      parameters.declare_parameters(prm);
+      prm.parse_input_from_string(
+        "set Type = file\nset Scale = " + std::to_string(scale) +
+        "\nsubsection file\nset File = box.step\n"
+        "end\n");
+      testing::internal::CaptureStdout();
+      {
+        Log        log(MPI_COMM_SELF, false);
+        const Mesh mesh(parameters, folder / "", MPI_COMM_SELF, log);
+      }
+      const std::string text = testing::internal::GetCapturedStdout();
+      EXPECT_EQ(text.find("taken for metres") != std::string::npos, scale == 1)
+        << text;
+    }
+}
+
 TEST(FileMesh, AbaqusByContent)
 {
   const TemporaryFolder folder;

@@ -207,6 +207,20 @@ class CommandLine(ProgramTest):
                                        "--set", f"{section}Vertex rotations = {rotations}").stdout
                 self.assertEqual(out.count(warning), warned, out)
 
+    def test_entries_without_effect(self):
+        """Those that another entry switches off are said to do nothing, with the place."""
+        (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
+        static, adaptive = "Time integration/Type = static", "Time integration/Adaptive step/"
+        for setting, unless in (("Time integration/Time step = 0.5", static), (f"{adaptive}Target error = 1e-5", f"{adaptive}Enabled = false"),
+                                ("Material/Rotation = quadrature points", "Material/Type = linear"),
+                                ("Output/Stress at probes = raw", "Output/Stress probes =")):
+            entry, choice = setting.split(" =")[0], unless.split(" =")[0]
+            with self.subTest(setting):
+                out = self.run_program("beam.prm", "--validate", "--set", setting, "--set", unless).stdout
+                self.assertIn(f"--set: no effect, as \"{choice}\" is '{unless.split('=')[1].strip()}': {entry}\n", out)
+                out = self.run_program("beam.prm", "--validate", "--set", unless).stdout
+                self.assertNotIn(entry, out)
+
     def test_make(self):
         """make hands over names with spaces and quotes as they are, and touches no other folder; in place of the toolchain a script shows its words."""
         toolchain = self.folder / "toolchain"

@@ -26,6 +26,16 @@ namespace corotet
   std::vector<std::string>
   find_unused_entries(const ParameterFile            &file,
                       const std::vector<std::string> &used);
+
+  /**
+   * A line of text if the entry @p place, or one in the subsection of that
+   * path, was set to another value than its default, which has no effect as the
+   * entry @p choice is what it is. Empty otherwise.
+   */
+  std::string
+  unused_entry(const ParameterFile &file,
+               const std::string   &place,
+               const std::string   &choice);
 } // namespace corotet
 
 #endif

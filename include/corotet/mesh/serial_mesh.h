@@ -107,6 +107,9 @@ namespace corotet
     /// Wall time [s] that reading or making it took.
     double read_time = 0;
 
+    /// Whether the file says so, as those of CAD programs do.
+    bool is_in_millimetres = false;
+
     /// What the user should know about how the mesh was made: lines for the
     /// log.
     std::vector<std::string> remarks;
