@@ -6,7 +6,7 @@ import re
 
 # By what their names are or end with.
 UNITS = (("(time|dt|(.*_)?time|time_step)", "s"), (".*energy|external_work|energy_balance", "J"), ("angular_momentum_[xyz]", "kg m²/s"),
-         ("momentum_[xyz]", "kg m/s"), ("internal_moment_[xyz]", "N m"), ("reaction_[xyz]", "N"), ("volume|mesh_volume", "m³"),
+         ("momentum_[xyz]", "kg m/s"), ("(internal|.*_reaction)_moment_[xyz]", "N m"), ("(.*_)?reaction_[xyz]", "N"), ("volume|mesh_volume", "m³"),
          (".*_stress_[xyz][xyz]|.*_von_mises", "Pa"), ("max_displacement|.*_[xyz]", "m"))
 # Of modes.csv, study.csv and summary.json, where they differ from those of history.csv.
 OTHER_UNITS = {"frequency": "Hz", "angular_frequency": "rad/s", "eigenvalue": "1/s²", "modal_mass": "kg m²", "total_mass": "kg", "h": "m",

@@ -43,8 +43,13 @@ def final_state(run):
         unit = columns.unit(f"{stem}_x")
         values = [final[f"{stem}_{c}"] for c in "xyz"]
         factor, shown = with_prefix(max((abs(v) for v in values if v is not None), default=0), unit)
-        # Others are probes, whatever they are called.
-        known = columns.NAMES[stem] if stem in OF_BODY else f"displacement of {stem}"
+        if stem in OF_BODY:
+            known = columns.NAMES[stem]
+        elif stem.endswith(("_reaction", "_reaction_moment")):
+            known = columns.name(stem)
+        else:
+            # A probe, whatever it is called.
+            known = f"displacement of {stem}"
         cells = [f'<data value="{v!r}" title="{v!r} {unit}" data-key="final.{escape(stem)}_{c}">{plain(v * factor)}</data>' if v is not None else "–"
                  for v, c in zip(values, "xyz")]
         rows.append([escape(known), *cells, escape(shown)])

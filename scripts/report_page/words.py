@@ -109,7 +109,7 @@ def conditions(run):
              for name, path, unit in (("gravity", "Loads/Gravity", "m/s²"), ("body force", "Loads/Body force", "N/m³"))
              if entry(path) and not is_zero(entry(path))]
     loads += [text for text in (given(("traction in Pa:", "Boundary conditions/Traction"), ("pressure in Pa:", "Boundary conditions/Pressure"),
-                                      ("point forces in N:", "Loads/Point forces")),) if text]
+                                      ("surface forces in N:", "Loads/Surface forces"), ("point forces in N:", "Loads/Point forces")),) if text]
     if loads or not exact:
         yield "Loads", "; ".join(loads) or "none"
     start = [f"{name} {vector(entry(path), unit)}" for name, path, unit in (("displacement", "Initial conditions/Displacement", "m"),

@@ -42,7 +42,7 @@ namespace corotet
       {
         const auto &condition = conditions.displacements[d];
         const std::vector<unsigned char> is_common =
-          common_nodes(reference, condition);
+          common_nodes(reference, condition.places, condition.entry);
         for (unsigned int unknown = 0; unknown < flags.size(); ++unknown)
           if (is_common[unknown / 3] && condition.components[unknown % 3])
             {
@@ -92,14 +92,14 @@ namespace corotet
   }
 
   std::vector<unsigned char>
-  PrescribedMotion::common_nodes(
-    const ReferenceElement                 &reference,
-    const BoundaryConditions::Displacement &condition) const
+  PrescribedMotion::common_nodes(const ReferenceElement &reference,
+                                 const std::set<Place>  &places,
+                                 const std::string      &entry) const
   {
     std::vector<unsigned char> is_common(discretization.n_local_nodes(), 1);
     Vector                     marks;
     discretization.initialize_vector(marks);
-    for (const Place &place : condition.places)
+    for (const Place &place : places)
       {
         // A node may lie on a boundary with none of the owned cells that touch
         // it having a face there: mark through the vector, whose exchange
@@ -116,13 +116,12 @@ namespace corotet
       std::find(is_common.begin(), is_common.end(), 1) != is_common.end();
     if (dealii::Utilities::MPI::max(any ? 1 : 0,
                                     discretization.communicator()) == 0)
-      throw InputError(condition.entry,
+      throw InputError(entry,
                        fmt::format("{} have no node in common: found '{}'; "
                                    "allowed are those that meet in an edge or "
                                    "a corner",
-                                   plural(BoundaryConditions::kind(
-                                     condition.places)),
-                                   conditions.name(condition.places)));
+                                   plural(BoundaryConditions::kind(places)),
+                                   conditions.name(places)));
     return is_common;
   }
 

@@ -9,6 +9,7 @@
 #include <corotet/forces/point_forces.h>
 #include <corotet/forces/pressure.h>
 #include <corotet/forces/rayleigh_damping.h>
+#include <corotet/forces/surface_forces.h>
 #include <corotet/forces/traction.h>
 #include <corotet/operators/mass.h>
 
@@ -40,6 +41,7 @@ namespace corotet
       {candidate<ForceKind, GravityKind>("gravity"),
        candidate<ForceKind, BodyForceKind>("body force"),
        candidate<ForceKind, PointForcesKind>("point forces"),
+       candidate<ForceKind, SurfaceForcesKind>("surface forces"),
        candidate<ForceKind, TractionKind>("traction"),
        candidate<ForceKind, PressureKind>("pressure"),
        candidate<ForceKind, RayleighDampingKind>("Rayleigh damping"),

@@ -38,6 +38,23 @@ namespace corotet
       add(row, name + "_y", value[1]);
       add(row, name + "_z", value[2]);
     }
+
+    void
+    add_reaction_columns(
+      nlohmann::ordered_json                        &row,
+      const std::vector<std::string>                &names,
+      const std::vector<SupportReactions::Reaction> &reactions)
+    {
+      AssertDimension(names.size(), reactions.size());
+      Row &columns = row.get_ref<Row &>();
+      for (unsigned int s = 0; s < names.size(); ++s)
+        {
+          add_vector(columns, names[s] + "_reaction", reactions[s].force);
+          add_vector(columns,
+                     names[s] + "_reaction_moment",
+                     reactions[s].moment);
+        }
+    }
   } // namespace
 
   nlohmann::ordered_json
@@ -101,20 +118,51 @@ namespace corotet
   {
     const auto names        = names_of(parameters.probe_points());
     const auto stress_names = names_of(parameters.stress_probe_points());
+    const auto supports     = names_of(parameters.supports());
     auto row = history_row({}, names, std::vector<Tensor<1, 3>>(names.size()));
     add_stress_columns(row,
                        stress_names,
                        std::vector<dealii::SymmetricTensor<2, 3>>(
                          stress_names.size()));
+    add_reaction_columns(
+      row, supports, std::vector<SupportReactions::Reaction>(supports.size()));
     return row;
   }
 
-  HistoryWriter::HistoryWriter(const std::string                 &directory,
-                               const Probes                      &probes,
-                               const std::optional<StressProbes> &stress_probes)
+  HistoryColumns::HistoryColumns(const OutputParameters &parameters,
+                                 const Body             &body,
+                                 Log                    &log)
+    : probes(parameters.probe_points(), body.discretization, &log)
+    , reactions(parameters.supports(), body)
+  {
+    if (const auto points = parameters.stress_probe_points(); !points.empty())
+      stress_probes.emplace(points,
+                            body.discretization,
+                            parameters.raw_stress_at_probes,
+                            &log);
+  }
+
+  nlohmann::ordered_json
+  HistoryColumns::row(const Snapshot &state) const
+  {
+    auto result = history_row(state.record,
+                              probes.names(),
+                              probes.displacements(state.displacement));
+    if (stress_probes)
+      add_stress_columns(result,
+                         stress_probes->names(),
+                         stress_probes->stresses(state.stress()));
+    if (!reactions.names().empty())
+      add_reaction_columns(result,
+                           reactions.names(),
+                           reactions.reactions(state));
+    return result;
+  }
+
+  HistoryWriter::HistoryWriter(const std::string    &directory,
+                               const HistoryColumns &columns)
     : path(directory + "/history.csv")
-    , probes(probes)
-    , stress_probes(stress_probes)
+    , columns(columns)
     , row(std::make_unique<nlohmann::ordered_json>(
         nlohmann::ordered_json::object()))
   {}
@@ -153,21 +201,9 @@ namespace corotet
   }
 
   void
-  HistoryWriter::make_row(const Snapshot &state)
-  {
-    *row = history_row(state.record,
-                       probes.names(),
-                       probes.displacements(state.displacement));
-    if (stress_probes)
-      add_stress_columns(*row,
-                         stress_probes->names(),
-                         stress_probes->stresses(state.stress()));
-  }
-
-  void
   HistoryWriter::write_row(const Snapshot &state, const bool with_names)
   {
-    make_row(state);
+    *row = columns.row(state);
     on_root(state.discretization.communicator(), [&] {
       errno = 0;
       if (with_names)

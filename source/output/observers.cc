@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/output/history_writer.h>
 #include <corotet/output/observers.h>
 #include <corotet/output/progress.h>
 #include <corotet/output/stress_points_writer.h>
@@ -13,28 +12,17 @@ namespace corotet
   std::vector<std::unique_ptr<Observer>>
   make_observers(const OutputParameters &parameters,
                  const std::string      &directory,
-                 const Discretization   &discretization,
+                 const HistoryColumns   &columns,
+                 const MPI_Comm          comm,
                  const double            start_time,
                  const double            end_time,
                  Log                    &log)
   {
     const double time_between_states =
       parameters.time_between_states(end_time - start_time);
-    std::optional<StressProbes> stress_probes;
-    if (const auto points = parameters.stress_probe_points(); !points.empty())
-      stress_probes.emplace(points,
-                            discretization,
-                            parameters.raw_stress_at_probes,
-                            &log);
-    auto history = std::make_unique<HistoryWriter>(
-      directory,
-      Probes(parameters.probe_points(), discretization, &log),
-      stress_probes);
-    auto summary =
-      std::make_unique<SummaryWriter>(directory,
-                                      *history,
-                                      discretization.communicator(),
-                                      parameters.has_stress_at_nodes());
+    auto history = std::make_unique<HistoryWriter>(directory, columns);
+    auto summary = std::make_unique<SummaryWriter>(
+      directory, *history, comm, parameters.has_stress_at_nodes());
 
     std::vector<std::unique_ptr<Observer>> observers;
     observers.push_back(std::make_unique<VtkhdfWriter>(

@@ -20,7 +20,9 @@ namespace corotet
   namespace
   {
     void
-    check_name(const std::string &entry, const std::string &name)
+    check_name(const std::string &entry,
+               const std::string &name,
+               const std::string &what)
     {
       const auto allowed = [](const unsigned char c) {
         return std::isalnum(c) != 0 || c == '_';
@@ -28,9 +30,10 @@ namespace corotet
       if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
           !std::all_of(name.begin(), name.end(), allowed))
         throw InputError(entry,
-                         fmt::format("'{}' cannot be a probe's name; letters, "
+                         fmt::format("'{}' cannot be a {}'s name; letters, "
                                      "digits and _ are allowed, no digit first",
-                                     shortened(name)));
+                                     shortened(name),
+                                     what));
     }
 
     // NAME_x must not be two columns of the history, or of modes.
@@ -50,6 +53,28 @@ namespace corotet
                                      "already",
                                      name,
                                      join({taken.begin(), taken.end()})));
+      for (const char *const end : {"_reaction", "_reaction_moment"})
+        if (name.ends_with(end))
+          throw InputError(entry,
+                           fmt::format("'{}' cannot be a probe's name; columns "
+                                       "of supports end with {}",
+                                       name,
+                                       end));
+    }
+
+    // Adds it to @p names.
+    void
+    check_first(const std::string     &entry,
+                const std::string     &name,
+                const std::string     &what,
+                std::set<std::string> &names)
+    {
+      if (!names.insert(name).second)
+        throw InputError(entry,
+                         fmt::format("two {} are called '{}'; each name "
+                                     "must be used once",
+                                     what,
+                                     shortened(name)));
     }
 
     std::vector<ProbePoint>
@@ -60,13 +85,8 @@ namespace corotet
       for (const auto &[name, place] : named_values(
              probes, entry, "a list of NAME: X Y Z, separated by commas"))
         {
-          check_name(entry, name);
-          if (!names.insert(name).second)
-            throw InputError(
-              entry,
-              fmt::format("two probes are called '{}'; each name "
-                          "must be used once",
-                          shortened(name)));
+          check_name(entry, name, "probe");
+          check_first(entry, name, "probes", names);
           const auto position = point_of(place);
           if (!position)
             throw InputError(entry,
@@ -79,15 +99,6 @@ namespace corotet
       return points;
     }
   } // namespace
-
-  std::vector<std::string>
-  names_of(const std::vector<ProbePoint> &probes)
-  {
-    std::vector<std::string> names;
-    for (const ProbePoint &probe : probes)
-      names.push_back(probe.name);
-    return names;
-  }
 
   void
   OutputParameters::declare_parameters(dealii::ParameterHandler &prm)
@@ -159,6 +170,15 @@ namespace corotet
       "Which stress 'Stress probes' show [-]: 'recovered', which is smooth and "
       "in general more accurate; 'raw', that of the displacement in the cells "
       "that have the point, their mean if there are several.");
+    prm.add_parameter(
+      "Reactions",
+      reactions,
+      "Supports whose force and moment on the body go into history.csv: 'NAME: "
+      "place, ...', places as in Boundary conditions/Fixed, for example "
+      "'clamp: x-min, rope: x-max & y-max & z-max'. What several have in "
+      "common counts for each. Nodes that are fixed or prescribed count, "
+      "springs do not.",
+      dealii::Patterns::Anything());
   }
 
   std::vector<ProbePoint>
@@ -175,6 +195,25 @@ namespace corotet
   OutputParameters::stress_probe_points() const
   {
     return parse_probes("Output/Stress probes", stress_probes);
+  }
+
+  std::vector<NamedSupport>
+  OutputParameters::supports() const
+  {
+    const std::string         entry = "Output/Reactions";
+    std::vector<NamedSupport> result;
+    std::set<std::string>     names;
+    for (const auto &[name, places] : named_values(
+           reactions,
+           entry,
+           "a list of NAME: PLACE, separated by commas, each place as in "
+           "Boundary conditions/Fixed"))
+      {
+        check_name(entry, name, "support");
+        check_first(entry, name, "supports", names);
+        result.push_back({name, places});
+      }
+    return result;
   }
 
   std::string

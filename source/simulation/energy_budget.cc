@@ -43,6 +43,7 @@ namespace corotet
     body.discretization.initialize_vector(last.displacement);
     last.carried.resize(n_prescribed);
     last.velocity.resize(n_prescribed);
+    support_force_list.resize(n_prescribed);
     if (equation.is_dynamic)
       body.discretization.initialize_vector(momentum);
     end_step(initial_state);
@@ -221,23 +222,31 @@ namespace corotet
                        const State &state,
                        const double time)
   {
-    const EquationOfMotion::Forces &terms = equation.last_forces();
+    const EquationOfMotion::Forces &terms       = equation.last_forces();
+    const auto                      position_at = [&](const unsigned int n) {
+      return body.discretization.node_position(n) +
+             vector_at(equation.displacement(), n);
+    };
 
     // Where the equation of motion holds.
     record.reaction = Tensor<1, 3>();
-    for (const unsigned int i : body.motion.unknowns())
-      record.reaction[i % 3] += carried(i) + terms.internal.local_element(i) -
-                                terms.external.local_element(i);
-    if (force_terms.has_elastic())
-      for (const unsigned int i : body.motion.unknowns())
-        record.reaction[i % 3] += terms.elastic.local_element(i);
+    for (std::size_t k = 0; k < support_force_list.size(); ++k)
+      {
+        const unsigned int i    = body.motion.unknowns()[k];
+        auto &[force, position] = support_force_list[k];
+
+        force = carried(i) + terms.internal.local_element(i) -
+                terms.external.local_element(i);
+        if (force_terms.has_elastic())
+          force += terms.elastic.local_element(i);
+        position = position_at(i / 3);
+        record.reaction[i % 3] += force;
+      }
 
     record.internal_moment = Tensor<1, 3>();
     for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
       record.internal_moment +=
-        cross_product_3d(body.discretization.node_position(n) +
-                           vector_at(equation.displacement(), n),
-                         vector_at(terms.internal, n));
+        cross_product_3d(position_at(n), vector_at(terms.internal, n));
 
     // At the end of the step.
     equation.set_state(state);

@@ -264,7 +264,8 @@ namespace corotet
             system.equation().last_motion().v,
             [this] { return the_body.elasticity.cell_results(displacement()); },
             last,
-            [this]() -> StressField & { return present_stress(); }};
+            [this]() -> StressField & { return present_stress(); },
+            stepper.support_forces()};
   }
 
   StressField &

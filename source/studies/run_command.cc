@@ -249,12 +249,14 @@ namespace corotet
           column_names(history_example(output)));
         Simulation simulation(parameters.simulation, file.folder(), comm, log);
         const Discretization &discretization = simulation.body().discretization;
-        const auto            observers      = make_observers(output,
-                                              directory,
-                                              discretization,
-                                              simulation.start_time(),
-                                              simulation.end_time(),
-                                              log);
+        const auto            observers =
+          make_observers(output,
+                         directory,
+                         HistoryColumns(output, simulation.body(), log),
+                         comm,
+                         simulation.start_time(),
+                         simulation.end_time(),
+                         log);
         warn_of_size(output,
                      directory,
                      discretization,

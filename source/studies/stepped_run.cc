@@ -77,7 +77,8 @@ namespace corotet
     simulation.emplace(parameters.simulation, file.folder(), comm, log);
     observers = make_observers(output,
                                directory,
-                               simulation->body().discretization,
+                               HistoryColumns(output, simulation->body(), log),
+                               comm,
                                simulation->start_time(),
                                simulation->end_time(),
                                log);

@@ -7,7 +7,6 @@
 #include <corotet/output/checkpoints.h>
 #include <corotet/output/history_writer.h>
 #include <corotet/output/mesh_checksum.h>
-#include <corotet/output/stress_probes.h>
 #include <corotet/output/table_checksums.h>
 #include <corotet/simulation/modal_analysis.h>
 #include <corotet/studies/study_run.h>
@@ -34,9 +33,8 @@ namespace corotet
     class LastRow : public Observer
     {
     public:
-      LastRow(const Probes &probes, const StressProbes &stress_probes)
-        : probes(probes)
-        , stress_probes(stress_probes)
+      LastRow(const HistoryColumns &columns)
+        : columns(columns)
       {}
 
       void
@@ -52,13 +50,7 @@ namespace corotet
         linear_iterations += state.record.linear_iterations;
         if (!state.last && !row.is_null())
           return;
-        row = history_row(state.record,
-                          probes.names(),
-                          probes.displacements(state.displacement));
-        if (!stress_probes.names().empty())
-          add_stress_columns(row,
-                             stress_probes.names(),
-                             stress_probes.stresses(state.stress()));
+        row = columns.row(state);
       }
 
       void
@@ -79,12 +71,11 @@ namespace corotet
         summary = run_summary;
       }
 
-      Probes       probes;
-      StressProbes stress_probes;
-      Json         row;
-      RunSummary   summary;
-      unsigned int newton_iterations = 0;
-      unsigned int linear_iterations = 0;
+      HistoryColumns columns;
+      Json           row;
+      RunSummary     summary;
+      unsigned int   newton_iterations = 0;
+      unsigned int   linear_iterations = 0;
     };
 
     void
@@ -116,7 +107,7 @@ namespace corotet
         entries.erase(section);
       Json output;
       for (const char *const entry :
-           {"Probes", "Stress probes", "Stress at probes"})
+           {"Probes", "Stress probes", "Stress at probes", "Reactions"})
         output[entry] = entries.at("Output").at(entry);
       entries["Output"] = output;
       return entries;
@@ -275,13 +266,7 @@ namespace corotet
   {
     std::vector<std::unique_ptr<Observer>> observers;
     observers.push_back(std::make_unique<LastRow>(
-      Probes(parameters.output.probe_points(),
-             simulated->body().discretization,
-             &log),
-      StressProbes(parameters.output.stress_probe_points(),
-                   simulated->body().discretization,
-                   parameters.output.raw_stress_at_probes,
-                   &log)));
+      HistoryColumns(parameters.output, simulated->body(), log)));
     const auto &last = static_cast<const LastRow &>(*observers.front());
     // Iterations are those of all steps; explicit ones have none to speak of.
     const bool is_explicit =

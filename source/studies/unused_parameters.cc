@@ -58,9 +58,14 @@ namespace corotet
         values.at("Convergence study").at("Reference") != "finer run")
       note("Convergence study/Further refinements",
            "Convergence study/Reference");
+    const auto note_of_modes = [&](const std::string &entry) {
+      lines.push_back(file.location(entry) + ": no effect on modes: \"" +
+                      entry + "\"");
+    };
     if (type == RunType::modes && parameters.checkpoint.wall_time_limit > 0)
-      lines.push_back(file.location("Checkpoint/Wall time limit") +
-                      ": no effect on modes: \"Checkpoint/Wall time limit\"");
+      note_of_modes("Checkpoint/Wall time limit");
+    if (type == RunType::modes && !parameters.output.reactions.empty())
+      note_of_modes("Output/Reactions");
     return lines;
   }
 

@@ -26,11 +26,21 @@ namespace
     return dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
   }
 
-  // The external force on a 1 x 2 x 1 box of 3 kg/m^3 at time t.
+  // 1 x 2 x 1, with a name for two sides.
+  SerialMesh
+  body_with_sides()
+  {
+    SerialMesh mesh = box("1, 2, 1", "2, 3, 2", 0.2);
+    for (const std::string name : {"x-max", "y-max"})
+      mesh.boundaries.sets["sides"].push_back(mesh.boundaries.ids(name).at(0));
+    return mesh;
+  }
+
+  // The external force on that box of 3 kg/m^3 at time t.
   struct Loaded : public MovingBody
   {
     Loaded(const Element element, const std::string &text)
-      : MovingBody(box("1, 2, 1", "2, 3, 2", 0.2),
+      : MovingBody(body_with_sides(),
                    element_text(element) +
                      section("Material", {{"Density", 3}}) + text)
     {}
@@ -80,6 +90,32 @@ TEST_P(LoadsTest, Traction)
 {
   Loaded body(GetParam(), tractions("x-max: 1; t; 6*y*z"));
   expect_near(resultant(body.force(3.)), Tensor<1, 3>({2., 6., 6.}), 1e-12);
+}
+
+// The whole force, evenly: through the middle of the surface, of both sides in
+// proportion to their areas of 2 and 1 where a name means two.
+TEST_P(LoadsTest, SurfaceForces)
+{
+  for (const auto &[name, middle] :
+       {std::pair("x-max", Point<3>(1, 1, 0.5)),
+        std::pair("sides", Point<3>(2.5 / 3, 4. / 3, 0.5))})
+    {
+      Loaded        body(GetParam(),
+                  section("Loads",
+                                 {{"Surface forces",
+                                   std::string(name) + ": 1; 2*t; -3"}}));
+      const Vector &f = body.force(2.);
+      expect_near(resultant(f), Tensor<1, 3>({1., 4., -3.}), 1e-13);
+      Tensor<1, 3> moment;
+      for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
+        moment += cross_product_3d(body.discretization.node_position(n),
+                                   Tensor<1, 3>({f.local_element(3 * n),
+                                                 f.local_element(3 * n + 1),
+                                                 f.local_element(3 * n + 2)}));
+      expect_near(dealii::Utilities::MPI::sum(moment, MPI_COMM_WORLD),
+                  cross_product_3d(middle, Tensor<1, 3>({1., 4., -3.})),
+                  1e-13);
+    }
 }
 
 // All of a point force is at the nearest node, on one rank only.
@@ -220,6 +256,18 @@ TEST(Loads, Refusals)
             "Loads/Point forces: the point (1, 2, 16) lies outside the body: "
             "found a distance of 15 m to the nearest node, (1, 2, 1); allowed "
             "are points of the body");
+  const auto refused = [](const std::string &forces) {
+    return refusal(
+      [&] { Loaded(1, section("Loads", {{"Surface forces", forces}})); });
+  };
+  EXPECT_EQ(refused("x-max: x; 0; 1"),
+            "Loads/Surface forces: found 'x; 0; 1' for 'x-max'; allowed: "
+            "expressions in t, as it is the force on all of it");
+  EXPECT_NE(refused("x-max: 0; 0; 1, x-max: 1; 0; 0").find("'x-max'"),
+            std::string::npos);
+  EXPECT_NE(refused("x-max: 1").find("Loads/Surface forces"),
+            std::string::npos);
+  EXPECT_NE(refused("top: 0; 0; 1").find("'top'"), std::string::npos);
 }
 
 // Points that are farther from the body than a fifth of the height of any cell

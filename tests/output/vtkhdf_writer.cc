@@ -32,6 +32,21 @@ namespace
     std::sort(names.begin(), names.end());
     return names;
   }
+
+  std::vector<std::unique_ptr<Observer>>
+  observers_of(const OutputParameters &parameters,
+               const std::string      &directory,
+               ModelBody              &body)
+  {
+    return make_observers(parameters,
+                          directory,
+                          Probes(parameters.probe_points(),
+                                 body.discretization),
+                          MPI_COMM_WORLD,
+                          0,
+                          1,
+                          body.log);
+  }
 } // namespace
 
 // VTK's order is a permutation of all nodes that keeps the vertices.
@@ -59,8 +74,7 @@ TEST(VtkhdfWriter, VtkReadsWhatWasWritten)
       ModelBody           body(degree);
       OutputParameters    parameters;
       parameters.probes    = probes;
-      const auto observers = make_observers(
-        parameters, scratch.path, body.discretization, 0, 1, body.log);
+      const auto observers = observers_of(parameters, scratch.path, body);
       for (unsigned int step = 0; step <= 4; ++step)
         for (const auto &observer : observers)
           body.show(*observer, step, step / 7., step == 4);
@@ -83,8 +97,7 @@ TEST(VtkhdfWriter, BubblesAreLeftOut)
   OutputParameters    parameters;
   parameters.probes =
     "corner: 1 0.5 0.25, edge: 0.875 0.5 0.25, diagonal: 0.125 0.125 0";
-  const auto observers = make_observers(
-    parameters, scratch.path, body.discretization, 0, 1, body.log);
+  const auto observers = observers_of(parameters, scratch.path, body);
   for (unsigned int step = 0; step <= 2; ++step)
     for (const auto &observer : observers)
       body.show(*observer, step, step / 7., step == 2);
@@ -101,8 +114,7 @@ TEST(VtkhdfWriter, CheckerNoticesErrors)
   ModelBody           body(2);
   OutputParameters    parameters;
   parameters.probes    = "a: 0.3 0.2 0.1";
-  const auto observers = make_observers(
-    parameters, scratch.path, body.discretization, 0, 1, body.log);
+  const auto observers = observers_of(parameters, scratch.path, body);
   for (const auto &observer : observers)
     body.show(*observer, 0, 0.3, true);
   const std::string command = "check_vtkhdf.py " + scratch.path;
@@ -179,8 +191,7 @@ TEST(VtkhdfWriter, FullDiskLosesNothing)
   const ScratchFolder scratch;
   ModelBody           body(3);
   OutputParameters    parameters;
-  const auto          observers = make_observers(
-    parameters, scratch.path, body.discretization, 0, 1, body.log);
+  const auto          observers = observers_of(parameters, scratch.path, body);
   for (unsigned int step = 0; step <= 2; ++step)
     for (const auto &observer : observers)
       body.show(*observer, step, step / 7., false);
@@ -223,10 +234,9 @@ TEST(VtkhdfWriter, RunWithoutEnd)
   wait_for_all();
   ModelBody        body(3);
   OutputParameters parameters;
-  parameters.probes   = probes;
-  parameters.n_states = 0;
-  const auto observers =
-    make_observers(parameters, directory, body.discretization, 0, 1, body.log);
+  parameters.probes    = probes;
+  parameters.n_states  = 0;
+  const auto observers = observers_of(parameters, directory, body);
   for (unsigned int step = 0; step < 100000; ++step)
     for (const auto &observer : observers)
       body.show(*observer, step, step / 1024., false);

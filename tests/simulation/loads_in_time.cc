@@ -111,6 +111,7 @@ TEST(LoadsInTime, LoadsByTableOrFormula)
        {Load{"Boundary conditions", "Traction", "x-max: 0; 0; 500 * "},
         Load{"Loads", "Body force", "0; 0; x * 1000 * "},
         Load{"Loads", "Gravity", "0; 0; 10 * "},
+        Load{"Loads", "Surface forces", "x-max: 0; 0; 20 * "},
         Load{"Loads", "Point forces", "1 0.2 0.2: 0; 0; 20 * "}})
     {
       const auto loaded = [&](const std::string &function) {

@@ -76,6 +76,11 @@ namespace corotet
     std::vector<SurfaceLoad>  tractions;
     std::vector<SurfaceLoad>  pressures;
 
+    /// What "name & name" means, each place once. Throws InputError, blamed on
+    /// @p entry, for unknown names.
+    std::set<Place>
+    find(const std::string &text, const std::string &entry) const;
+
     /// "name", or "name & name" for what places have in common.
     std::string
     name(const std::set<Place> &places) const;
@@ -93,10 +98,6 @@ namespace corotet
               const std::string     &name,
               const std::string     &value,
               const TableFunctions  &tables);
-
-    /// What "name & name" means, each place once.
-    std::set<Place>
-    find(const std::string &text, const std::string &entry) const;
 
     /// Adds a load on each of the boundaries that a name means; @p what: "a
     /// traction", say.

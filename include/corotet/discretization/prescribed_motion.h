@@ -10,6 +10,8 @@
 #include <corotet/discretization/reference_element.h>
 
 #include <array>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace corotet
@@ -71,6 +73,14 @@ namespace corotet
       return prescribed;
     }
 
+    /// Whether all @p places have each local node in common (0 or 1), ghosts
+    /// included. Throws InputError, blamed on @p entry, if they have none.
+    /// Collective.
+    std::vector<unsigned char>
+    common_nodes(const ReferenceElement &reference,
+                 const std::set<Place>  &places,
+                 const std::string      &entry) const;
+
   private:
     /// An unknown and the condition that sets it.
     struct Entry
@@ -92,12 +102,6 @@ namespace corotet
     mark(Vector                 &marks,
          const ReferenceElement &reference,
          const Place            &place) const;
-
-    /// Whether all places of the condition have each local node in common (0 or
-    /// 1). Throws InputError if they have none. Collective.
-    std::vector<unsigned char>
-    common_nodes(const ReferenceElement                 &reference,
-                 const BoundaryConditions::Displacement &condition) const;
 
     double
     value(const Entry &entry, const double time) const;

@@ -6,6 +6,7 @@
 
 #include <corotet/output/probes.h>
 #include <corotet/output/stress_probes.h>
+#include <corotet/output/support_reactions.h>
 #include <corotet/simulation/observer.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -36,6 +37,29 @@ namespace corotet
     const std::vector<dealii::SymmetricTensor<2, 3>> &stresses);
 
   /**
+   * What a row of the history has for each of these, beside its own columns.
+   */
+  struct HistoryColumns
+  {
+    HistoryColumns(const Probes &probes)
+      : probes(probes)
+    {}
+
+    /// All that @p parameters ask for. Throws InputError. Collective.
+    HistoryColumns(const OutputParameters &parameters,
+                   const Body             &body,
+                   Log                    &log);
+
+    /// Collective.
+    nlohmann::ordered_json
+    row(const Snapshot &state) const;
+
+    Probes                      probes;
+    std::optional<StressProbes> stress_probes;
+    SupportReactions            reactions;
+  };
+
+  /**
    * A row that history.csv has with these @p parameters, of a body at rest.
    */
   nlohmann::ordered_json
@@ -49,10 +73,7 @@ namespace corotet
   class HistoryWriter : public Observer
   {
   public:
-    /// Columns of @p stress_probes are the last ones.
-    HistoryWriter(const std::string                 &directory,
-                  const Probes                      &probes,
-                  const std::optional<StressProbes> &stress_probes = {});
+    HistoryWriter(const std::string &directory, const HistoryColumns &columns);
     ~HistoryWriter() override;
 
     /// Throws MachineError if the file cannot be written, as does step().
@@ -79,14 +100,11 @@ namespace corotet
   private:
     /// The row of @p state becomes the last one.
     void
-    make_row(const Snapshot &state);
-    void
     write_row(const Snapshot &state, const bool with_names);
 
-    std::string                 path;
-    Probes                      probes;
-    std::optional<StressProbes> stress_probes;
-    std::ofstream               file;
+    std::string    path;
+    HistoryColumns columns;
+    std::ofstream  file;
     /// Of the file at the checkpoint, in bytes; on rank 0.
     std::int64_t                            saved_size = 0;
     std::unique_ptr<nlohmann::ordered_json> row;

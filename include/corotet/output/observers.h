@@ -5,6 +5,7 @@
 #define corotet_output_observers_h
 
 #include <corotet/base/log.h>
+#include <corotet/output/history_writer.h>
 #include <corotet/output/output_parameters.h>
 #include <corotet/simulation/observer.h>
 
@@ -18,15 +19,13 @@ namespace corotet
    * All observers of a run, in the order in which they are to be called:
    * time series, that of stress points, history, summary, progress. They write
    * into @p directory, which must exist. @p start_time and
-   * @p end_time in s. @p discretization
-   * and @p log must outlive them.
-   *
-   * Throws InputError if a probe is wrong. Collective.
+   * @p end_time in s. @p log must outlive them. Collective.
    */
   std::vector<std::unique_ptr<Observer>>
   make_observers(const OutputParameters &parameters,
                  const std::string      &directory,
-                 const Discretization   &discretization,
+                 const HistoryColumns   &columns,
+                 const MPI_Comm          comm,
                  const double            start_time,
                  const double            end_time,
                  Log                    &log);

@@ -22,8 +22,25 @@ namespace corotet
     dealii::Point<3> position;
   };
 
+  /**
+   * Boundaries, edges and corners, 'name' or 'name & name', whose reaction goes
+   * into the history.
+   */
+  struct NamedSupport
+  {
+    std::string name;
+    std::string places;
+  };
+
+  template <typename Named>
   std::vector<std::string>
-  names_of(const std::vector<ProbePoint> &probes);
+  names_of(const std::vector<Named> &list)
+  {
+    std::vector<std::string> names;
+    for (const Named &named : list)
+      names.push_back(named.name);
+    return names;
+  }
 
   /// Where stress and strain are written.
   enum class StressOutput
@@ -55,6 +72,11 @@ namespace corotet
     /// not matter.
     std::vector<ProbePoint>
     stress_probe_points() const;
+
+    /// What entry Reactions lists, with names of the same kind. Throws
+    /// InputError.
+    std::vector<NamedSupport>
+    supports() const;
 
     /// Whether stress is written at the nodes, with the estimate of its error.
     bool
@@ -98,7 +120,8 @@ namespace corotet
     StressOutput stress = StressOutput::none;
     std::string  stress_probes;
     /// Whether probes show the raw stress instead of the recovered one.
-    bool raw_stress_at_probes = false;
+    bool        raw_stress_at_probes = false;
+    std::string reactions;
   };
 } // namespace corotet
 

@@ -85,6 +85,15 @@ namespace corotet
     void
     record(StepRecord &record, const State &state, const double time);
 
+    /// What the supports did in the last record(), at the time for which the
+    /// equation of motion was solved: an entry for each unknown of
+    /// PrescribedMotion::unknowns(), in their order.
+    const std::vector<SupportForce> &
+    support_forces() const
+    {
+      return support_force_list;
+    }
+
     /// Kinetic energy of the prescribed unknowns in the state of the last
     /// record() [J]: no work where their velocity jumps.
     double
@@ -153,11 +162,12 @@ namespace corotet
     double initial_changing_energy = 0;
     /// Whether the account, and the next step in it, begins at rest without
     /// loads, whatever was guessed.
-    bool       began_unloaded     = false;
-    bool       is_unloaded        = false;
-    double     dissipation        = 0;
-    double     energy_of_supports = 0;
-    StepRecord initial;
+    bool                      began_unloaded     = false;
+    bool                      is_unloaded        = false;
+    double                    dissipation        = 0;
+    double                    energy_of_supports = 0;
+    StepRecord                initial;
+    std::vector<SupportForce> support_force_list;
     /// What dt, work and dissipation were before work was added.
     std::array<double, 3> before{};
   };

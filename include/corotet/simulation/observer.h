@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ namespace corotet
     bool last;
     /// The stress of this state. Collective.
     std::function<StressField &()> stress;
+    /// Of this rank, an entry for each unknown of PrescribedMotion::unknowns(),
+    /// in their order.
+    std::span<const SupportForce> support_forces = {};
   };
 
   /**

@@ -11,6 +11,17 @@
 namespace corotet
 {
   /**
+   * What a support does to the body along one unknown.
+   */
+  struct SupportForce
+  {
+    /// In N.
+    double force = 0;
+    /// Of the unknown's node [m].
+    dealii::Tensor<1, 3> position;
+  };
+
+  /**
    * The budget of one step, equal on all ranks. Units: SI.
    */
   struct StepRecord

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace corotet
 {
@@ -108,6 +109,13 @@ namespace corotet
     last_failure() const
     {
       return failure;
+    }
+
+    /// What supports did in the last step that has a record.
+    const std::vector<SupportForce> &
+    support_forces() const
+    {
+      return budget->support_forces();
     }
 
     /// Of the last step; @p record is that of the last recorded one.

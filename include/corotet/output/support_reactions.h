@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_output_support_reactions_h
+#define corotet_output_support_reactions_h
+
+#include <corotet/output/output_parameters.h>
+#include <corotet/simulation/body.h>
+
+#include <string>
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Forces and moments that single supports exert on the body: the sums over
+   * the prescribed unknowns at their nodes.
+   */
+  class SupportReactions
+  {
+  public:
+    struct Reaction
+    {
+      /// In N.
+      dealii::Tensor<1, 3> force;
+      /// About the origin, with current positions [N m].
+      dealii::Tensor<1, 3> moment;
+    };
+
+    SupportReactions() = default;
+
+    /// Throws InputError, blamed on Output/Reactions, for unknown names and
+    /// where nothing is prescribed. Collective.
+    SupportReactions(const std::vector<NamedSupport> &supports,
+                     const Body                      &body);
+
+    const std::vector<std::string> &
+    names() const
+    {
+      return support_names;
+    }
+
+    /// Of each support, on all ranks, at the time for which the equation of
+    /// motion was solved. Collective.
+    std::vector<Reaction>
+    reactions(const Snapshot &state) const;
+
+  private:
+    /// A prescribed unknown of a support: its place among those of this rank,
+    /// and its component.
+    struct Entry
+    {
+      unsigned int support;
+      unsigned int number;
+      unsigned int component;
+    };
+
+    std::vector<std::string> support_names;
+    std::vector<Entry>       entries;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/base/exceptions.h>
+#include <corotet/base/named_values.h>
+#include <corotet/forces/surface_forces.h>
+#include <corotet/operators/surface.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+
+#include <set>
+#include <vector>
+
+namespace corotet
+{
+  namespace
+  {
+    const std::string surface_forces_entry = "Loads/Surface forces";
+
+    // At rest [m^2]. Collective.
+    double
+    area_of(const std::vector<unsigned int> &boundaries,
+            const ForceContext              &context)
+    {
+      double area = 0;
+      for (const unsigned int id : boundaries)
+        for (const BoundaryFace &face :
+             context.discretization.boundary_faces(id))
+          for_each_surface_point(context.discretization,
+                                 context.reference,
+                                 face,
+                                 nullptr,
+                                 [&](const SurfacePoint &point) {
+                                   area += point.area.norm();
+                                 });
+      return dealii::Utilities::MPI::sum(area,
+                                         context.discretization.communicator());
+    }
+  } // namespace
+
+  void
+  SurfaceForces::integrate(Vector &f, const Field &force) const
+  {
+    Traction::integrate(f,
+                        [&](const dealii::Point<3>     &x,
+                            const dealii::Tensor<1, 3> &normal) {
+                          return force(x, normal) / area;
+                        });
+  }
+
+  void
+  SurfaceForcesKind::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Loads");
+    prm.add_parameter(
+      "Surface forces",
+      forces,
+      "Forces [N] that are spread evenly over boundaries at rest: 'name: fx; "
+      "fy; fz, ...', expressions in t; of a name for several boundaries, over "
+      "all of them. Also on boundaries with other conditions.");
+    prm.leave_subsection();
+  }
+
+  std::vector<ForceKind::GivenEntry>
+  SurfaceForcesKind::given() const
+  {
+    if (dealii::Utilities::trim(forces).empty())
+      return {};
+    return {{surface_forces_entry, forces, ""}};
+  }
+
+  void
+  SurfaceForcesKind::add_to(ForceTerms         &terms,
+                            const ForceContext &context) const
+  {
+    const std::string     &entry = surface_forces_entry;
+    const PlaceNames      &names = context.discretization.mesh().places();
+    std::set<unsigned int> known;
+    for (const auto &[name, value] : named_values(forces, entry))
+      {
+        const Expression force(value, 3, entry, context.tables);
+        if (force.depends_on_space())
+          throw InputError(entry,
+                           fmt::format("found '{}' for '{}'; allowed: "
+                                       "expressions in t, as it is the force "
+                                       "on all of it",
+                                       value,
+                                       name));
+        const auto ids = names.boundary_ids(name, entry, "a surface force");
+        for (const unsigned int id : ids)
+          if (!known.insert(id).second)
+            refuse_second_boundary(entry, names.boundaries.name(id));
+        if (force.is_zero())
+          continue;
+        const double area = area_of(ids, context);
+        for (const unsigned int id : ids)
+          terms.add(std::make_unique<SurfaceForces>(context.discretization,
+                                                    context.reference,
+                                                    id,
+                                                    force,
+                                                    area),
+                    on_boundary(context, entry, id));
+      }
+  }
+} // namespace corotet

@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the corotet authors
+"""Forces and moments of single supports (Output/Reactions)."""
+
+import csv
+import shutil
+import unittest
+
+from support import ProgramTest, parameter_text, read_history, read_summary
+
+BEAM = {"Mesh/box/Size": "1, 0.2, 0.1", "Mesh/box/Cells": "4, 1, 1", "Material/Density": "1000", "Boundary conditions/Fixed": "x-min"}
+STATIC = {**BEAM, "Time integration/Type": "static", "Loads/Gravity": "0; 0; -10"}
+DYNAMIC = {**BEAM, "Time integration/End time": "0.05", "Time integration/Time step": "0.005", "Loads/Gravity": "0; 0; -10",
+           "Damping/Mass coefficient": "0.5"}
+CLAMP = {"Output/Reactions": "clamp: x-min"}
+
+
+def vector(row, name):
+    return [float(row[f"{name}_{c}"]) for c in "xyz"]
+
+
+class Reactions(ProgramTest):
+
+    def run_entries(self, entries, *arguments, **others):
+        (self.folder / "beam.prm").write_text(parameter_text(entries), encoding="utf-8")
+        return self.run_program("beam.prm", "--output", "out", *(() if "--restart" in arguments else ("--set", "Output/Overwrite = true")), *arguments,
+                                **others)
+
+    def last_row(self):
+        return read_history(self.folder / "out")[-1]
+
+    def assert_close(self, found, expected, tolerance):
+        for a, b in zip(found, expected):
+            self.assertAlmostEqual(a, b, delta=tolerance)
+
+    def test_equilibrium(self):
+        """Of linear elasticity at rest forces and moments of loads and supports cancel, whatever the mesh: up to the solver's 1e-8."""
+        # Weight 200 N in the middle, 100 N along y on the end face of 0.02 m^2.
+        loads = {"Material/Type": "linear", "Boundary conditions/Traction": "x-max: 0; 5000; 0", "Newton/Residual tolerance": "1e-12"}
+        for degree in (1, 2, 3):
+            for ranks in (1, 2):
+                with self.subTest(degree=degree, ranks=ranks):
+                    self.run_entries({**STATIC, **loads, **CLAMP, "Discretization/Degree": degree}, ranks=ranks)
+                    row = self.last_row()
+                    self.assert_close(vector(row, "clamp_reaction"), (0, -100, 200), 1e-5)
+                    # Against (0.5, 0.1, 0.05) x (0, 0, -200) and (1, 0.1, 0.05) x (0, 100, 0).
+                    self.assert_close(vector(row, "clamp_reaction_moment"), (20 + 5, -100, -100), 1e-5)
+
+    def test_several(self):
+        """What is held at two ends, and an edge of one of them: the sum is that of all, and an edge has less than its side."""
+        entries = {**STATIC, "Boundary conditions/Fixed": "x-min, x-max", "Output/Probes": "tip: 0.5 0.1 0.05",
+                   "Output/Reactions": "left: x-min, right: x-max, edge: x-min & z-min, corner: x-min & z-min & y-min"}
+        self.run_entries(entries)
+        row = self.last_row()
+        left, right, edge, corner = (vector(row, f"{name}_reaction")[2] for name in ("left", "right", "edge", "corner"))
+        self.assertAlmostEqual(left + right, 200, delta=1e-4)
+        self.assertAlmostEqual(left + right, vector(row, "reaction")[2], delta=1e-9)
+        # The cells are not symmetric.
+        self.assertAlmostEqual(left, 100, delta=1)
+        self.assertLess(abs(corner), abs(edge))
+        self.assertLess(abs(edge), 200)
+        with open(self.folder / "out" / "history.csv", newline="", encoding="utf-8") as file:
+            names = next(csv.reader(file))
+        self.assertEqual(names[-24:], [f"{name}_{what}_{c}" for name in ("left", "right", "edge", "corner") for what in ("reaction", "reaction_moment")
+                                       for c in "xyz"])
+        self.assertEqual(len(set(names)), len(names))
+        self.assertEqual(read_summary(self.folder / "out")["final"]["left_reaction_z"], left)
+
+    def test_motion(self):
+        """Of the only support it is that of all, in every row, with inertia and damping; a rank without a node of it adds nothing."""
+        for method in ("generalized-alpha", "implicit midpoint", "Newmark", "central difference"):
+            entries = {**DYNAMIC, **CLAMP, "Time integration/Type": method,
+                       "Boundary conditions/Displacement": "x-max: free; free; 0.02*t^2"}
+            entries["Output/Reactions"] += ", end: x-max"
+            if method == "central difference":
+                entries |= {"Time integration/Time step": "0", "Output/Steps between rows": "20", "Discretization/Mass": "diagonal scaling"}
+            found = []
+            for ranks in (1, 2):
+                with self.subTest(method=method, ranks=ranks):
+                    self.run_entries(entries, ranks=ranks)
+                    rows = read_history(self.folder / "out")
+                    self.assertGreater(len(rows), 3)
+                    for row in rows:
+                        both = [a + b for a, b in zip(vector(row, "clamp_reaction"), vector(row, "end_reaction"))]
+                        # Sums in another order.
+                        self.assert_close(both, vector(row, "reaction"), 1e-9 * max(map(abs, both)))
+                    found.append([vector(rows[-1], f"{name}_reaction{what}") for name in ("clamp", "end") for what in ("", "_moment")])
+            for one, two in zip(*found):
+                self.assert_close(one, two, 1e-5 * max(map(abs, one)))
+
+    def test_restart(self):
+        """A run that goes on has the same columns to the last digit, and others are refused."""
+        entries = {**DYNAMIC, **CLAMP, "Checkpoint/Steps between checkpoints": "4", "Checkpoint/Keep": "10"}
+        self.run_entries(entries)
+        names = [f"clamp_{what}_{c}" for what in ("reaction", "reaction_moment") for c in "xyz"]
+        whole = [[row[name] for name in names] for row in read_history(self.folder / "out")]
+        for path in (self.folder / "out" / "checkpoint").iterdir():
+            if not path.name.startswith("step_") or "4" not in path.name:
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        self.run_entries(entries, "--restart")
+        self.assertEqual([[row[name] for name in names] for row in read_history(self.folder / "out")], whole)
+        run = self.run_entries({**entries, "Output/Reactions": ""}, "--restart", status=1)
+        self.assertIn("Output/Reactions", run.stderr)
+
+    def test_study(self):
+        """They are quantities of studies, too."""
+        self.run_entries({**STATIC, **CLAMP, "Material/Type": "linear", "Type": "convergence study", "Convergence study/Degrees": "1, 2",
+                          "Convergence study/Refinements": "0", "Convergence study/Reference": "none", "Convergence study/Pictures": "false",
+                          "Convergence study/Quantities": "clamp_reaction_z: 200"})
+        with open(self.folder / "out" / "study.csv", newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                self.assertAlmostEqual(float(row["clamp_reaction_z"]), 200, delta=1e-4)
+
+    def test_wrong(self):
+        for reactions, message in (
+                ("x-min", "found 'x-min'; allowed: a list of NAME: PLACE, separated by commas, each place as in Boundary conditions/Fixed"),
+                ("a: x-min, a: x-min", "two supports are called 'a'; each name must be used once"),
+                ("1: x-min", "'1' cannot be a support's name; letters, digits and _ are allowed, no digit first"),
+                ("a: x-max", "nothing is fixed or prescribed at 'x-max'; allowed are places where the displacement is given"),
+                ("a: x-min & x-max", "boundaries have no node in common: found 'x-max & x-min'; allowed are those that meet in an edge or a corner")):
+            with self.subTest(reactions):
+                run = self.run_entries({**STATIC, "Output/Reactions": reactions}, "--validate", status=1)
+                self.assertRegex(run.stderr, r"beam\.prm:\d+: Output/Reactions: ")
+                self.assertIn(message, run.stderr.replace("x-min & x-max", "x-max & x-min"))
+        run = self.run_entries({**STATIC, "Output/Reactions": "a: side"}, "--validate", status=1)
+        self.assertIn("side", run.stderr)
+        run = self.run_entries({**STATIC, "Output/Probes": "a_reaction: 1 0 0"}, "--validate", status=1)
+        self.assertIn("'a_reaction' cannot be a probe's name; columns of supports end with _reaction", run.stderr)
+
+    def test_modes(self):
+        """Shapes have no size, and nothing acts: the log says that there are none."""
+        run = self.run_entries({**BEAM, **CLAMP, "Type": "modes"}, "--validate")
+        self.assertIn('no effect on modes: "Output/Reactions"', run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
