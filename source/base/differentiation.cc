@@ -13,8 +13,9 @@
 #include <cctype>
 #include <charconv>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
+
+#include "canonical_text.h"
 
 namespace corotet
 {
@@ -305,9 +306,7 @@ namespace corotet
               GiNaC::ex_to<GiNaC::symbol>(table.find(variable)->second));
             check_length(result);
           }
-        std::ostringstream text;
-        text << GiNaC::csrc_double << result;
-        return text.str();
+        return canonical_text(result);
       }
     catch (const Error &)
       {

@@ -33,6 +33,7 @@ namespace corotet
           const bool        whole = node.is_object() && node.contains("value");
           const auto       &value = whole ? node.at("value") : node;
           const std::string place = places.of(whole ? name + "/value" : name);
+          check_zero_bytes(key, place);
           if (value.is_object())
             {
               if (value.contains("alias"))
@@ -44,6 +45,7 @@ namespace corotet
             {
               const std::string text =
                 dealii::Utilities::trim(value.get<std::string>());
+              check_zero_bytes(text, place);
               add_statement(statements,
                             {name, text, place, !whole && text.empty()});
             }

@@ -98,9 +98,7 @@ namespace corotet
         while (std::getline(file, line))
           {
             ++number;
-            if (line.find('\0') != std::string::npos)
-              refuse_statement(fmt::format("{}:{}", path, number),
-                               "it has a zero byte; a parameter file is text");
+            check_zero_bytes(line, fmt::format("{}:{}", path, number));
             line = dealii::Utilities::trim(line);
             if (concatenated.empty())
               first_number = number;
@@ -210,6 +208,11 @@ namespace corotet
             const fs::path  path = fs::path(file).parent_path() / *included;
             std::error_code error;
             const bool      is_file = fs::is_regular_file(path, error);
+            if (!included->empty() && fs::is_directory(path, error))
+              refuse_statement(
+                place,
+                fmt::format("the file to include, \"{}\", is a folder",
+                            shortened(path.string())));
             if (included->empty() ||
                 (!is_file && error != std::errc::permission_denied))
               refuse_statement(

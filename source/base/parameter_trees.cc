@@ -182,6 +182,13 @@ namespace corotet
   }
 
   void
+  check_zero_bytes(const std::string &text, const std::string &place)
+  {
+    if (text.find('\0') != std::string::npos)
+      refuse_statement(place, "it has a zero byte; a parameter file is text");
+  }
+
+  void
   refuse_second(const std::string &place,
                 const std::string &name,
                 const std::string &first)

@@ -33,6 +33,12 @@ namespace corotet
     }
   } // namespace
 
+  void
+  ignore_closed_pipes()
+  {
+    std::signal(SIGPIPE, SIG_IGN);
+  }
+
   StopSignals::StopSignals()
   {
     if (depth++ > 0)

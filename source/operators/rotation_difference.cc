@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace corotet
 {
@@ -44,10 +45,14 @@ namespace corotet
                               const ReferenceElement &reference,
                               const Vector           &u)
   {
-    const auto &rule  = reference.stiffness_rule;
-    double      angle = 0;
+    std::optional<ReferenceElement::PointValues> curved_rule;
+    double                                       angle = 0;
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       {
+        const bool is_curved = discretization.is_curved(c);
+        if (is_curved && !curved_rule)
+          curved_rule = ReferenceElement::curved_rule(discretization.element());
+        const auto &rule = is_curved ? *curved_rule : reference.stiffness_rule;
         const Tensor<2, 3> centre =
           rotation(discretization,
                    u,

@@ -18,6 +18,7 @@
 #include <iterator>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <string_view>
 
 namespace corotet
@@ -106,15 +107,39 @@ namespace corotet
     }
 
     bool
-    is_same_text_or_number(const std::string &a, const std::string &b)
+    is_same_number(const std::string &a, const std::string &b)
     {
-      if (a == b)
-        return true;
       char        *end_a = nullptr, *end_b = nullptr;
       const double x = std::strtod(a.c_str(), &end_a),
                    y = std::strtod(b.c_str(), &end_b);
       return !a.empty() && !b.empty() && *end_a == '\0' && *end_b == '\0' &&
              x == y;
+    }
+
+    // Also of words and numbers with blanks between them, as points are; blanks
+    // of names without numbers count.
+    bool
+    is_same_text_or_number(const std::string &a, const std::string &b)
+    {
+      if (a == b)
+        return true;
+      const auto words = [](const std::string &text) {
+        std::istringstream stream(text);
+        return std::vector<std::string>(
+          std::istream_iterator<std::string>(stream), {});
+      };
+      const auto words_of_a = words(a), words_of_b = words(b);
+      bool       has_number = false;
+      return std::equal(words_of_a.begin(),
+                        words_of_a.end(),
+                        words_of_b.begin(),
+                        words_of_b.end(),
+                        [&](const std::string &x, const std::string &y) {
+                          const bool is_number = is_same_number(x, y);
+                          has_number           = has_number || is_number;
+                          return is_number || x == y;
+                        }) &&
+             has_number;
     }
 
     // Whether all formulas that have the table have it of the time itself.

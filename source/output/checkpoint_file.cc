@@ -32,7 +32,7 @@ namespace corotet
     using Json = nlohmann::ordered_json;
 
     // Of what is in a checkpoint and what it means.
-    constexpr int format_version = 3;
+    constexpr int format_version = 4;
 
     class FileDescriptor
     {

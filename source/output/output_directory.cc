@@ -123,6 +123,13 @@ namespace corotet
     std::vector<fs::path>
     to_be_removed(const fs::path &directory, const bool overwrite)
     {
+      if (fs::is_symlink(directory) && !fs::exists(directory))
+        throw InputError(directory_entry,
+                         "the output directory '" + directory.string() +
+                           "' is a link to '" +
+                           fs::read_symlink(directory).string() +
+                           "', which does not exist; make it, or choose "
+                           "another name");
       if (fs::exists(directory) && !fs::is_directory(directory))
         throw InputError(directory_entry,
                          "the output directory '" + directory.string() +

@@ -169,7 +169,8 @@ namespace corotet
       {{"recovered", false}, {"raw", true}},
       "Which stress 'Stress probes' show [-]: 'recovered', which is smooth and "
       "in general more accurate; 'raw', that of the displacement in the cells "
-      "that have the point, their mean if there are several.");
+      "that have the point, their mean if there are several; of several "
+      "materials the mean of each counts once.");
     prm.add_parameter(
       "Reactions",
       reactions,

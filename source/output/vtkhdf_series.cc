@@ -78,6 +78,8 @@ namespace corotet
       archive.transfer("block_levels", levels);
       archive.transfer("block_steps", steps);
       archive.transfer("block_results", n_results);
+      archive.transfer("result_steps", result_steps);
+      archive.transfer("result_sizes", result_sizes);
     });
     if (steps.size() != levels.size() || n_results.size() != levels.size())
       throw InputError(
@@ -98,6 +100,7 @@ namespace corotet
   VtkhdfSeries::resume(const unsigned int step, const MPI_Comm comm)
   {
     on_root(comm, [&] {
+      check_files();
       write_index();
       // Nobody refers to them any more.
       const std::regex result(R"(step_(\d{6,10})\.h5(\.tmp)?)");
@@ -148,10 +151,61 @@ namespace corotet
   {
     times.push_back(time);
     blocks.push_back({0, step, 1});
-    on_root(comm, [&] {
+    result_steps.push_back(step);
+    result_sizes.push_back(from_root(comm, [&] {
       join_blocks();
       write_index();
-    });
+      std::error_code error;
+      const auto size = std::filesystem::file_size(result_file(step), error);
+      return error ? std::size_t(0) : std::size_t(size);
+    }));
+  }
+
+  void
+  VtkhdfSeries::check_files() const
+  {
+    const auto refuse = [](const std::string &path,
+                           const std::string &found,
+                           const std::string &needed) {
+      throw MachineError(
+        fmt::format("{}: the time series cannot be continued: found {}, needed "
+                    "{}",
+                    path,
+                    found,
+                    needed));
+    };
+    AssertThrow(result_steps.size() == times.size() &&
+                  result_sizes.size() == times.size(),
+                dealii::ExcInternalError());
+    for (std::size_t i = 0; i < times.size(); ++i)
+      {
+        const std::string path = result_file(result_steps[i]);
+        std::error_code   error;
+        const auto        size = std::filesystem::file_size(path, error);
+        if (error || size != result_sizes[i])
+          refuse(path,
+                 error ? error.message() : fmt::format("{} bytes", size),
+                 fmt::format("are its {} bytes", result_sizes[i]));
+      }
+    // Blocks, and those that they refer to.
+    std::size_t first = 0;
+    for (const DataBlock &block : blocks)
+      {
+        std::size_t n = 1;
+        for (unsigned int level = 1; level <= block.level; ++level)
+          {
+            n *= n_joined;
+            for (std::size_t i = 0; i < block.n_results; i += n)
+              {
+                const std::string path =
+                  directory + "/" + name + "/" +
+                  DataBlock{level, result_steps[first + i], n}.file_name();
+                if (!std::filesystem::is_regular_file(path))
+                  refuse(path, "no such file", "is what the run has written");
+              }
+          }
+        first += block.n_results;
+      }
   }
 
   std::string

@@ -54,7 +54,8 @@ namespace corotet
   }
 
   AdaptiveStep::AdaptiveStep(const AdaptiveStepParameters &parameters,
-                             const double                  first_step)
+                             const double                  first_step,
+                             const double                  duration)
     : parameters(parameters)
   {
     largest  = parameters.largest_step > 0 ?
@@ -63,6 +64,11 @@ namespace corotet
     smallest = parameters.smallest_step > 0 ?
                  parameters.smallest_step :
                  1e-6 * std::min(first_step, largest);
+    // Both ends are rounded, and are sums that are rounded.
+    const double round_off =
+      4 * std::numeric_limits<double>::epsilon() * duration;
+    smallest_taken =
+      smallest * (1 + 1e-9) + std::min(round_off, 0.5 * smallest);
     set_length(first_step);
   }
 
@@ -85,7 +91,7 @@ namespace corotet
     const bool   is_accurate = ratio >= 1;
     const double factor =
       ratio >= 0 ? std::clamp(0.9 * std::cbrt(ratio), 0.2, 2.) : 0.2;
-    if (!is_accurate && taken > smallest * (1 + 1e-12))
+    if (!is_accurate && taken > smallest_taken)
       {
         ++rejected;
         set_length(factor * taken);
@@ -107,7 +113,7 @@ namespace corotet
   bool
   AdaptiveStep::reduce(const double taken)
   {
-    if (taken <= smallest * (1 + 1e-12))
+    if (taken <= smallest_taken)
       return false;
     ++rejected;
     set_length(0.5 * taken);

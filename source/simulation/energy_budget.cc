@@ -51,18 +51,23 @@ namespace corotet
       force_terms.changing_energy(equation.motion(time));
     record(initial, initial_state, time);
     if (!equation.is_dynamic && initial.max_displacement > 0)
-      begin_unloaded();
+      begin_unloaded(initial_state);
   }
 
   void
-  EnergyBudget::begin_unloaded()
+  EnergyBudget::begin_unloaded(const State &guess)
   {
+    const double time = equation.last_time(),
+                 load = equation.last_load_factor();
+
+    State at_rest = guess;
+    at_rest.u     = 0;
+    equation.evaluate(at_rest, time, load);
+    end_step(at_rest);
+    equation.evaluate(guess, time, load);
     began_unloaded          = true;
     is_unloaded             = true;
     initial_changing_energy = 0;
-    // Of supports these are the forces of the body.
-    for (const unsigned int i : body.motion.unknowns())
-      last.external.local_element(i) = 0;
   }
 
   double

@@ -58,7 +58,8 @@ namespace corotet
     if (parameters.adaptive_step.enabled)
       {
         adaptive = std::make_unique<AdaptiveStep>(parameters.adaptive_step,
-                                                  parameters.time_step);
+                                                  parameters.time_step,
+                                                  duration);
         body.discretization.initialize_vector(acceleration_change);
         warn_of_steps(duration / adaptive->length(), adaptive->length());
       }

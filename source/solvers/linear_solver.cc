@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/negligible.h>
 #include <corotet/solvers/conjugate_gradients.h>
 #include <corotet/solvers/flexible_cg.h>
 #include <corotet/solvers/linear_solver.h>
@@ -282,7 +283,7 @@ namespace corotet
     const double wanted =
       std::min(std::max(tolerance, loosest) * b_norm, limit);
     x = 0;
-    if (b_norm == 0)
+    if (b_norm <= negligible)
       return 0;
     if (std::abs(A.mass_ratio() - built_mass_ratio) >
         same_mass_ratio * built_mass_ratio)

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/ghosted_copy.h>
+#include <corotet/base/negligible.h>
 #include <corotet/solvers/mass_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -43,7 +44,7 @@ namespace corotet
     if (mass.is_lumped())
       return 0;
     const double r_norm = norm(r);
-    if (!std::isfinite(r_norm))
+    if (!std::isfinite(r_norm) || r_norm <= negligible)
       return 0;
     // Round-off is the only limit.
     dealii::SolverControl    control(500, 1e-13 * r_norm);
@@ -127,9 +128,10 @@ namespace corotet
                                1 / (c_M * mass.diagonal().local_element(i) + d);
         a.local_element(i) = d * r.local_element(i);
       }
-    const double wanted = 1e-13 * std::sqrt(sum_of_products(r, r));
-    if (!std::isfinite(wanted) || wanted == 0)
+    const double size = std::sqrt(sum_of_products(r, r));
+    if (!std::isfinite(size) || size <= negligible)
       return 0;
+    const double wanted = 1e-13 * size;
 
     // Conjugate gradients from there.
     multiply(a, c_M, S);

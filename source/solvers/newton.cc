@@ -50,12 +50,11 @@ namespace corotet
     {
       n_expected            = std::exchange(newton.n_last, 0);
       residual              = problem.improve_guess(r, problem.residual(r));
-      report.first_residual = report.final_residual = relative_residual();
+      report.first_residual = report.final_residual = residual.relative();
       if (!residual.is_finite())
         throw ComputationError("the forces are not finite in Newton iteration "
                                "0");
-      if (residual.value <=
-          1e-3 * parameters.residual_tolerance * residual.scale)
+      if (residual.is_below(1e-3 * parameters.residual_tolerance))
         return;
       if (is_round_off())
         {
@@ -80,7 +79,7 @@ namespace corotet
           if (converged && (tolerance_of_solve == 0 || is_round_off()))
             {
               newton.n_last         = report.line_searches == 0 ? n_needed : 0;
-              report.final_residual = relative_residual();
+              report.final_residual = residual.relative();
               report.round_off      = round_off_limit();
               return;
             }
@@ -91,12 +90,6 @@ namespace corotet
     }
 
   private:
-    double
-    relative_residual() const
-    {
-      return residual.value > 0 ? residual.value / residual.scale : 0.;
-    }
-
     // What may be round-off is taken for it if a full increment has not made it
     // smaller, or if there were many.
     bool
@@ -110,7 +103,7 @@ namespace corotet
     bool
     has_small_residual() const
     {
-      return residual.value <= parameters.residual_tolerance * residual.scale;
+      return residual.is_below(parameters.residual_tolerance);
     }
 
     bool
@@ -139,7 +132,7 @@ namespace corotet
         "{:.3g}), the estimated error {:.3g} of the displacement (required: "
         "{:.3g}){}",
         what,
-        relative_residual(),
+        residual.relative(),
         parameters.residual_tolerance,
         error / size,
         parameters.increment_tolerance,
@@ -323,7 +316,7 @@ namespace corotet
       ++report.iterations;
       values.push_back(residual.value);
       report.linear_iterations += linear_iterations;
-      report.history.push_back({relative_residual(),
+      report.history.push_back({residual.relative(),
                                 increment.value / increment.scale,
                                 length,
                                 definite,

@@ -5,6 +5,7 @@
 #include <corotet/base/log.h>
 #include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/stop_signals.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
 #include <corotet/output/history_writer.h>
@@ -127,6 +128,8 @@ namespace corotet
       void
       run()
       {
+        if (!command.validate)
+          ignore_closed_pipes();
         try
           {
             compute();
@@ -134,7 +137,6 @@ namespace corotet
         catch (const ComputationError &error)
           {
             log.note(std::string("error: ") + error.what());
-            // What there is.
             write_report();
             throw;
           }

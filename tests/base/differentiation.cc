@@ -76,6 +76,16 @@ TEST(Differentiation, Derivatives)
               round_off);
 }
 
+// Terms and factors stand in one order in all processes: GiNaC has them in that
+// of addresses in memory, and sums of another order have other last digits.
+TEST(Differentiation, OneOrderInAllProcesses)
+{
+  EXPECT_EQ(differentiate("x^2*t + y*sin(x) - z/(1 + x)", {}, "Entry"),
+            "(-1.0)*z/(1+x)+sin(x)*y+t*x*x");
+  EXPECT_EQ(differentiate("1/(y + x^-3)^2 + x^0.5", {}, "Entry"),
+            "1/pow(1.0/(x*x*x)+y,2.0)+sqrt(x)");
+}
+
 // GiNaC must read a formula as muParser does: with no variable, what comes back
 // is the formula.
 TEST(Differentiation, SameSyntax)

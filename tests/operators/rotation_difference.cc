@@ -4,6 +4,9 @@
 // How far rotations differ inside of cells from those of their centres, held
 // against formulas of a motion in a plane.
 
+#include <corotet/discretization/point_geometry.h>
+#include <corotet/material/corotational.h>
+#include <corotet/material/polar_decomposition.h>
 #include <corotet/operators/rotation_difference.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "../curved_mesh.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -60,6 +64,54 @@ TEST(RotationDifference, BentBox)
       largest = dealii::Utilities::MPI::max(largest, disc.communicator());
       EXPECT_GT(largest, 0.05);
       EXPECT_NEAR(difference(body, u), largest, 1e-13);
+    }
+}
+
+// In curved cells at the points that their forces are integrated with.
+TEST(RotationDifference, CurvedCells)
+{
+  for (const unsigned int degree : {2u, 3u})
+    {
+      const MovingBody body(half_curved_box(degree), element_text(degree));
+      const auto       u           = body.interpolate([](const Point<3> &x) {
+        return Tensor<1, 3>({-c * x[0] * x[2], 0., 0.5 * c * x[0] * x[0]});
+      });
+      const auto      &disc        = body.discretization;
+      const auto       curved_rule = ReferenceElement::curved_rule(degree);
+
+      const auto rotation = [&](const unsigned int                   cell,
+                                const ReferenceElement::PointValues &rule,
+                                const unsigned int                   q) {
+        Tensor<2, 3> F = displacement_gradient(disc, u, cell, rule, q);
+        for (unsigned int a = 0; a < 3; ++a)
+          F[a][a] += 1;
+        return polar_decomposition(F).rotation;
+      };
+      double       largest = 0, at_other_points = 0;
+      unsigned int n_curved = 0;
+      for (unsigned int cell = 0; cell < disc.n_owned_cells(); ++cell)
+        {
+          const bool  is_curved = disc.is_curved(cell);
+          const auto  centre    = rotation(cell, body.reference.centre, 0);
+          const auto &straight  = body.reference.stiffness_rule;
+          const auto &rule      = is_curved ? curved_rule : straight;
+          n_curved += is_curved ? 1 : 0;
+          for (unsigned int q = 0; q < rule.weights.size(); ++q)
+            largest = std::max(largest,
+                               rotation_angle(transpose(centre) *
+                                              rotation(cell, rule, q)));
+          for (unsigned int q = 0; q < straight.weights.size(); ++q)
+            at_other_points =
+              std::max(at_other_points,
+                       rotation_angle(transpose(centre) *
+                                      rotation(cell, straight, q)));
+        }
+      const MPI_Comm comm = disc.communicator();
+      largest             = dealii::Utilities::MPI::max(largest, comm);
+      at_other_points     = dealii::Utilities::MPI::max(at_other_points, comm);
+      EXPECT_GT(dealii::Utilities::MPI::sum(n_curved, comm), 0u);
+      EXPECT_NEAR(difference(body, u), largest, 1e-13);
+      EXPECT_GT(largest, 1.01 * at_other_points);
     }
 }
 

@@ -169,6 +169,18 @@ TEST(OutputDirectory, FileIsRefused)
               "/file' is a file; a directory or a new name is allowed");
 }
 
+TEST(OutputDirectory, LinkToNothingIsRefused)
+{
+  const ScratchFolder scratch;
+  if (on_rank_0())
+    fs::create_symlink("nowhere", scratch.path + "/link");
+  wait_for_all();
+  EXPECT_EQ(directory_refusal(scratch.path + "/link", true),
+            "the output directory '" + scratch.path +
+              "/link' is a link to 'nowhere', which does not exist; make it, "
+              "or choose another name");
+}
+
 // Nobody can make a folder in /proc, not even root.
 TEST(OutputDirectory, FailureIsTheMachines)
 {

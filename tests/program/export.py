@@ -345,6 +345,9 @@ class Export(ScriptTest):
             *(((beam, "--to", "stl", "--warp", factor), f"found --warp {factor}; allowed are numbers and auto") for factor in ("nan", "inf", "1e400")),
             ((beam, "--to", "stl", "--warp", "1e45"), "the displaced body is not finite at 0.03, with displacements multiplied by 1e+45"),
             ((beam, "--to", "gltf", "--seconds", "nan"), "argument --seconds: found nan; allowed are numbers from"),
+            *(((beam, "--to", *words), f"{words[1]} has no effect with --to {words[0]}; allowed with {formats}") for *words, formats in (
+                ("stl", "--field", "stress", "gltf, usd, vtu, obj, xdmf, csv"), ("stl", "--split", "gltf"), ("obj", "--seconds", "3", "gltf, usd"),
+                ("vtu", "--subdivisions", "2", "gltf, usd, obj, stl"), ("csv", "--warp", "2", "gltf, usd, obj, stl"))),
             ((beam, "--to", "csv", "--times", "nan"), "found the time 'nan'; allowed are numbers"),
             ((beam, "--to", "csv", "--field", "stress", "region"), "csv has what is at nodes; found region, which cells have"),
             ((beam, "--to", "csv", "--times", "-1e-2:0.1"), "-0.01 is outside of the run, whose times are from 0 to 0.3"),

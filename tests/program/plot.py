@@ -56,7 +56,11 @@ class Plot(ProgramTest):
 
     def test_mistakes(self):
         self.run_case("cantilever", "one", *CASE)
-        (self.folder / "empty").mkdir()
+        for name in ("empty", "modes", "study", "begun"):
+            (self.folder / name).mkdir()
+        for name, table in (("modes", "modes.csv"), ("study", "study.csv")):
+            (self.folder / name / table).touch()
+        (self.folder / "begun" / "history.csv").write_text("time,dt\n", encoding="utf-8")
         for words, message in ((("one", "kinetic_enrgy"), "is it kinetic_energy"), (("one",), "no column; there are: step, time"),
                                (("nothing", "time"), "no folder of results: found nothing, time"), (("empty", "time"), "empty/history.csv cannot be read"),
                                (("one", "dt", "--out", "plot.gif"), "allowed are .png, .pdf and .svg"),
@@ -65,11 +69,15 @@ class Plot(ProgramTest):
                                (("one", "dt", "--size", "nan", "1"), "argument --size: found nan; allowed are numbers from"),
                                (("one", "step", "dt", "tip_z", "volume", "kinetic_energy", "--size", "2", "50"), "diagrams of 50 inches; allowed are 200 together"),
                                (("one", "dt", "--x", "tip"), "found --x tip, which are tip_x, tip_y, tip_z; allowed is one column"),
+                               (("modes", "frequency"), "modes has the results of modes, which are none over time; scripts/report shows them"),
+                               (("study", "dofs"), "study has the results of a convergence study, which are none over time; scripts/draw_study draws it"),
+                               (("begun", "dt"), "begun/history.csv has no rows"),
+                               (("one", "dt", "--range", "5000", "6000"), "has no rows in --range 5000 6000; its time goes from 0 to "),
                                (("one", "dt", "--range", "2", "1"), "found --range 2 1; the first must be the lower one"),
                                (("one", "dt", "--colour", "red"), "unrecognized arguments: --colour red")):
             with self.subTest(words=words):
                 self.assertIn(message, self.plot(*words, status=1).stderr)
-        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["empty", "one"])
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["begun", "empty", "modes", "one", "study"])
 
     def test_files_that_are_there(self):
         """Its own are replaced, those of others if that is wanted; what cannot be written whole leaves the old one as it was."""

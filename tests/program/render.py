@@ -196,6 +196,7 @@ class Render(ScriptTest):
             ((beam, "--time", "0.4"), "0.4 is outside of the run, whose times are from 0 to 0.3"),
             ((beam, "--times", "soon"), "found the time 'soon'; allowed are numbers, FROM:TO, FROM:TO:NUMBER and all"),
             ((beam, "--times", "0.2:0.1"), "the first must not be after the last"),
+            ((beam, "--shift", "1", "0", "0"), "--shift has no effect without --together"),
             ((beam, "--out", "picture.jpg"), "found 'picture.jpg'; allowed are .png, .gif, .webp, .mp4"),
             ((beam, "--out", "nowhere/picture.png"), "nowhere/picture.png cannot be written: the folder nowhere does not exist"),
             ((beam, "--out", "foreign.png"), "foreign.png exists and was not made by this program; --overwrite replaces it"),

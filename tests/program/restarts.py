@@ -175,12 +175,12 @@ class Restarts(ProgramTest):
                    "Boundary conditions/Displacement": "x-max & z-max: free; 0.1*t; 0"}
         others = {"Mesh/box/Cells": "4,1,1", "Mesh/box/Size": "1.0,1e-1 , 0.10", "Material/Density": "body:1e3", "Loads/Gravity": "0;0.0;-1e1",
                   "Boundary conditions/Fixed": "x-min&z-min,x-min", "Boundary conditions/Displacement": "x-max&z-max:free;0.1*t;0.0",
-                  "Output/Probes": "tip:1 0.05 0.05"}
+                  "Output/Probes": "tip:1.0  5e-2 0.05"}
         others = [word for entry, value in others.items() for word in ("--set", f"{entry} = {value}")]
         self.run_entries(entries)
         before = contents(self.folder / "run")
         for change, found in (("Loads/Gravity", "0; 0; -5*2"), ("Loads/Gravity", "0; 0; -10.1"), ("Mesh/box/Cells", "4, 1, 2"),
-                              ("Boundary conditions/Displacement", "x-max & z-max: free; 0.1 * t; 0"), ("Output/Probes", "tip: 1 0.05 0.05, mid: 0.5 0.05 0.05")):
+                              ("Boundary conditions/Displacement", "x-max & z-max: free; 0.1 * t; 0"), ("Output/Probes", "tip: 1 0.05 0.05, mid: 0.5 0.05 0.05"), ("Output/Probes", "tip: 1 0.05 0.06")):
             self.check_refused(before, self.run_entries(entries, "--restart", *others, "--set", f"{change} = {found}", status=1),
                                f"--set: {change}: --restart: found '{re.escape(found)}', which the run cannot go on with")
         run = self.run_entries(entries, "--restart", *others, "--set", "Time integration/End time = 0.3")
@@ -190,6 +190,28 @@ class Restarts(ProgramTest):
         self.run_killed(entries, "--set", "Output/Overwrite = true")
         shutil.rmtree(self.folder / "run" / "checkpoint", ignore_errors=True)
         self.assertIn("the run begins anew", self.run_entries(entries, "--restart", *others).stdout)
+
+    def test_states_that_are_gone(self):
+        """A time series whose earlier states are missing or cut off would show zeros there: it is not continued."""
+        entries = {**SHORT, "Output/Stress": "both"}
+        self.run_entries(entries)
+        run = self.folder / "run"
+        for series in ("solution", "stress_points"):
+            for change, found in (("gone", "No such file or directory"), ("cut off", "100 bytes"), ("all gone", "No such file or directory")):
+                with self.subTest(series=series, change=change):
+                    file = run / series / ("step_000000.h5" if change == "all gone" else "step_000002.h5")
+                    kept = {path: path.read_bytes() for path in run.glob(f"{series}/step_*.h5")}
+                    for path in kept if change == "all gone" else (file,):
+                        if change == "cut off":
+                            path.write_bytes(kept[path][:100])
+                        else:
+                            path.unlink()
+                    before = contents(run)
+                    self.check_refused(before, self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3", status=3),
+                                       f"{series}/{file.name}: the time series cannot be continued: found {found}, needed are its \\d+ bytes")
+                    for path, content in kept.items():
+                        path.write_bytes(content)
+        self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3")
 
     def test_refusals_change_no_file(self):
         """Neither do those that are found when the checkpoint has been read."""

@@ -6,6 +6,7 @@
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -112,6 +113,24 @@ class Signals(ProgramTest):
                     self.assertEqual((process.returncode, errors), (0, ""))
                 else:
                     self.assertIn(process.returncode, (4, -signal.SIGHUP))
+
+    def test_closed_pipe(self):
+        """Who reads the log may stop: the run goes on to its end, and a signal for both ends it with all that was there."""
+        for number, status in ((None, 0), (signal.SIGINT, 4)):
+            with self.subTest(number=number):
+                entries = {**BEAM, "Newton/Log every solve": "true", **({"Time integration/End time": "1e4"} if number else {})}
+                shutil.rmtree(self.folder / "run", ignore_errors=True)
+                process = self.start(entries)
+                process.stdout.readline()
+                process.stdout.close()
+                history = self.folder / "run" / "history.csv"
+                while number and (not history.exists() or history.read_text(encoding="utf-8").count("\n") < 8):
+                    time.sleep(0.005)
+                if number:
+                    process.send_signal(number)
+                self.assertEqual((process.wait(60), "the run is saved" in process.stderr.read()), (status, bool(number)))
+                process.stderr.close()
+                self.assertEqual(read_summary(self.folder / "run")["status"], "stopped" if number else "done")
 
     def test_limit_of_cpu_time(self):
         """At the soft limit, as of "ulimit -S -t", a run is saved."""

@@ -140,7 +140,7 @@ def parameter_file_rows():
             ("no statement", "gravity is 9.81\n", "1: ", "is no statement"), ("no value", "set Type\n", "1: ", "set Entry = value"),
             ("set nothing", "set = 1\n", "1: ", "set Entry = value"), ("set twice", "set Type = modes\n\nset Type = simulation\n", "3: ", "set twice, first in line 1"),
             ("include missing", "include other.prm\n", "1: ", "does not exist"), ("include itself", "include case.prm\n", "1: ", "more than 10 deep"),
-            ("include a folder", "include .\n", "1: ", "does not exist"), ("include nothing", "include\n", "1: ", "does not exist"),
+            ("include a folder", "include .\n", "1: ", "is a folder"), ("include nothing", "include\n", "1: ", "does not exist"),
             ("deep", "".join(f"subsection s{i}\n" for i in range(1000)), "21: ", "nested too deeply"), ("bytes", bytes(range(128, 256)) * 100, "1: ", "no statement"),
             ("far too long", "set Type = " + 100000 * "x", "1: ", "(100000 characters)"), ("long name", "set " + 5000 * "x" + " = 1\n", "1: ", "(5000 characters)"),
             ("long line", 5000 * "x" + "\n", "1: ", "(5000 characters)"), ("control characters", "set Ty\x1b[31mpe\x07\x7f = 1\n", "1: ", "\\x1b[31mpe\\x07\\x7f"),
@@ -153,6 +153,7 @@ def parameter_file_rows():
             ("misspelt", '{"Tipe": "modes"}', ":1: ", 'did you mean "Type"?'), ("twice", '{"Type": "modes", "Type": "modes"}', ":1: ", '"Type" is set twice'),
             ("section twice", '{"Loads": {}, "Loads": {}}', ":1: ", '"Loads" is set twice'), ("deep", 1000 * '{"a":' + "1" + 1000 * "}", ": ", "nested too deeply"),
             ("line break in a name", '{"Ty\\npe": "modes"}', ":1: ", "Ty\\x0ape"), ("line break in a value", '{"Type": "mo\\ndes"}', ":1: ", "line break"),
+            ("zero byte in a name", '{"Type\\u0000": "modes"}', ":1: ", "zero byte"), ("zero byte in a value", '{"Type": "modes\\u0000"}', ":1: ", "zero byte"),
             ("far too long", '{"Type": "' + 5000 * "x" + '"}', ":1: ", "(5000 characters)"), ("not in UTF-8", b'{"Type": "\xff"}', ":1: ", "no valid JSON")):
         yield text_row(f"json: {name}", "case.json" + place, *parts, content=content, file="case.json")
     head = '<?xml version="1.0"?>\n'

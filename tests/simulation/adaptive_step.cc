@@ -112,6 +112,36 @@ TEST(AdaptiveStep, ResultsAtExactTimes)
             records.back().external_work);
 }
 
+// A body at rest until a load begins, where any step makes a large error, is
+// moved by the smallest steps, however times are rounded: as parts of runs of
+// many lengths.
+TEST(AdaptiveStep, LoadsThatBeginLater)
+{
+  if (!on_one_rank())
+    GTEST_SKIP();
+  const auto run =
+    [](const double begin, const double end, const double least) {
+      CompleteRun moved(
+        box_mesh("1, 0.1, 0.1", "2, 1, 1") + fixed("x-min") +
+        tractions(fmt::format("x-max: 0; 0; 1e3*ramp(t, {}, 0.2)", begin)) +
+        time_integration("generalized-alpha",
+                         end,
+                         0.01,
+                         {section("Adaptive step",
+                                  {{"Enabled", true},
+                                   {"Smallest step", least}})}));
+      EXPECT_EQ(moved.run(), "") << begin << ' ' << end << ' ' << least;
+      for (const StepRecord &record : moved.recorder().steps)
+        EXPECT_GE(record.dt, (1 - 1e-6) * std::max(least, 1e-8))
+          << begin << ' ' << end << ' ' << least;
+    };
+  for (const double end : {0.13, 0.2, 0.25, 0.3, 0.37})
+    for (const double least : {0., 1e-7, 1e-6, 1e-5})
+      run(0.1, end, least);
+  run(0.01, 0.3, 0.);
+  run(0.05, 0.3, 0.);
+}
+
 // Bounds are kept; steps at the lower one are taken with the error they make.
 TEST(AdaptiveStep, Bounds)
 {

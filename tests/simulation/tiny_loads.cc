@@ -73,3 +73,35 @@ TEST(TinyLoads, MoveAThinStrip)
         }
     }
 }
+
+// A load of a short while, and hundreds of steps after it: what is left becomes
+// smaller in each, until no products of it are numbers. That is rest, and no
+// failure.
+TEST(TinyLoads, ComeToRest)
+{
+  const std::string body = box_mesh("1, 0.1, 0.1", "2, 1, 1") + fixed("x-min") +
+                           tractions("x-max: 0; 0; 1e3*pulse(t, 0, 0.1)");
+  for (const NamedLaw &law : all_laws())
+    {
+      CompleteRun at_rest(
+        body + law.text + statics(100) +
+        section("Time integration",
+                {section("static", {{"Proportional loading", false}})}));
+      ASSERT_EQ(at_rest.run(), "") << law.name;
+      // Of laws with round-off of rotations that remains.
+      EXPECT_LT(at_rest.recorder().steps.back().max_displacement,
+                law.name == "linear" ? 1e-100 : 1e-15)
+        << law.name;
+    }
+  for (const std::string method : {"backward Euler", "BDF2"})
+    for (const std::string law : {"linear", "corotational"})
+      {
+        // Steps of many periods leave less than a thousandth each.
+        CompleteRun damped(body + material_type(law) +
+                           time_integration(method, 20000, 100) +
+                           initial_conditions("0; 0; 0", "0; 0; x"));
+        ASSERT_EQ(damped.run(), "") << method << law;
+        EXPECT_LT(damped.recorder().steps.back().max_displacement, 1e-90)
+          << method << law;
+      }
+}

@@ -33,6 +33,10 @@ namespace corotet
   [[noreturn]] void
   refuse_statement(const std::string &place, const std::string &message);
 
+  /// Throws it if @p text has a zero byte.
+  void
+  check_zero_bytes(const std::string &text, const std::string &place);
+
   /// Throws the one of an entry, or in .json and .xml files a section, that is
   /// in a file twice. @p first: where before, ", first in line N" or nothing.
   [[noreturn]] void

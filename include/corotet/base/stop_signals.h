@@ -8,6 +8,11 @@
 
 namespace corotet
 {
+  /// From now on output that nobody reads any more does not end the process:
+  /// readers may stop, as `head` does, or end first at a signal for both.
+  void
+  ignore_closed_pipes();
+
   /**
    * While it lives, SIGTERM, SIGINT, SIGHUP, which comes when the terminal is
    * closed, and SIGXCPU, which comes at the limit of CPU time, are remembered

@@ -100,7 +100,8 @@ namespace corotet
     transfer(Archive &archive);
 
     /// Makes the series what it was when transfer() wrote it, at step @p step:
-    /// results that came later go. Throws MachineError. Collective.
+    /// results that came later go. Throws MachineError, also if files of
+    /// results are not what they were. Collective.
     void
     resume(const unsigned int step, const MPI_Comm comm);
 
@@ -122,6 +123,10 @@ namespace corotet
       file_name() const;
     };
 
+    /// Throws MachineError if a file of a result or a block is missing, or one
+    /// of a result has another size. On rank 0.
+    void
+    check_files() const;
     /// Replaces the last blocks by one, as long as there are enough of the same
     /// level. On rank 0.
     void
@@ -157,6 +162,9 @@ namespace corotet
     /// Of all results so far.
     std::vector<double>    times;
     std::vector<DataBlock> blocks;
+    /// Their steps, and the sizes of their files [byte].
+    std::vector<unsigned int> result_steps;
+    std::vector<std::size_t>  result_sizes;
   };
 } // namespace corotet
 

@@ -38,8 +38,10 @@ namespace corotet
   class AdaptiveStep
   {
   public:
+    /// @p duration: of the run [s], of which times are parts.
     AdaptiveStep(const AdaptiveStepParameters &parameters,
-                 const double                  first_step);
+                 const double                  first_step,
+                 const double                  duration);
 
     /// Length of the next step [s].
     double
@@ -85,11 +87,14 @@ namespace corotet
 
     const AdaptiveStepParameters &parameters;
     double                        smallest;
-    double                        largest;
-    double                        dt;
-    double                        largest_size   = 0;
-    unsigned int                  rejected       = 0;
-    unsigned int                  too_inaccurate = 0;
+    /// What a step of that length may have between its ends: times are rounded,
+    /// and the last steps before a result are longer by up to 1e-10.
+    double       smallest_taken;
+    double       largest;
+    double       dt;
+    double       largest_size   = 0;
+    unsigned int rejected       = 0;
+    unsigned int too_inaccurate = 0;
   };
 } // namespace corotet
 

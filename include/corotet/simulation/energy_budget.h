@@ -133,9 +133,9 @@ namespace corotet
     };
 
     /// In statics the initial state is a guess of the first one: the account
-    /// begins with the body at rest without loads.
+    /// begins with the body at rest, and the forces that act there.
     void
-    begin_unloaded();
+    begin_unloaded(const State &guess);
     /// Of the last evaluation, of an owned unknown: inertia and damping, and
     /// what works along the displacement.
     double

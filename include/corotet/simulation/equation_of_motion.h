@@ -99,6 +99,13 @@ namespace corotet
       return time;
     }
 
+    /// What loads were multiplied by in the last evaluation [-].
+    double
+    last_load_factor() const
+    {
+      return known_load_factor;
+    }
+
     /// Whether the external forces of the last evaluation are those of any
     /// time, with loads times 1.
     bool

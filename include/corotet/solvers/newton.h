@@ -5,12 +5,14 @@
 #define corotet_solvers_newton_h
 
 #include <corotet/base/archive.h>
+#include <corotet/base/negligible.h>
 #include <corotet/base/vector.h>
 #include <corotet/operators/tangent.h>
 #include <corotet/solvers/newton_report.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corotet
@@ -36,6 +38,19 @@ namespace corotet
       is_finite() const
       {
         return std::isfinite(value) && std::isfinite(scale);
+      }
+
+      double
+      relative() const
+      {
+        return value > 0 ? value / scale : 0.;
+      }
+
+      /// Whether it is at most that part of the scale, or negligible.
+      bool
+      is_below(const double tolerance) const
+      {
+        return value <= std::max(tolerance * scale, negligible);
       }
     };
 
