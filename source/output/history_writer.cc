@@ -190,7 +190,9 @@ namespace corotet
     // The state of a checkpoint may be a later one.
     std::string text = row->dump();
     archive.transfer("history_row", text);
-    *row = nlohmann::ordered_json::parse(text);
+    // Of thousands of columns that takes a while.
+    if (archive.is_reading())
+      *row = nlohmann::ordered_json::parse(text);
   }
 
   void

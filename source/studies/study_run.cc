@@ -62,7 +62,8 @@ namespace corotet
           archive.transfer("newton_iterations", newton_iterations);
           archive.transfer("linear_iterations", linear_iterations);
         });
-        row = Json::parse(text);
+        if (archive.is_reading())
+          row = Json::parse(text);
       }
 
       void
