@@ -157,7 +157,8 @@ namespace corotet
           velocity,
           [&] { return analysis.body().elasticity.cell_results(mode.shape); },
           i + 1 == analysis.modes().size(),
-          [&]() -> StressField & { return stress; }};
+          [&]() -> StressField & { return stress; },
+          {}};
         for (const auto &writer : writers)
           if (i == 0)
             writer->start(snapshot);

@@ -52,7 +52,7 @@ namespace corotet
       for (const char *entry :
            {"Target error", "Smallest step", "Largest step"})
         note(adaptive + entry, adaptive + "Enabled");
-    if (values.at("Output").at("Stress probes") == "")
+    if (values.at("Output").at("Stress probes").get<std::string>().empty())
       note("Output/Stress at probes", "Output/Stress probes");
     if (type == RunType::convergence_study &&
         values.at("Convergence study").at("Reference") != "finer run")

@@ -60,6 +60,7 @@ TEST(Progress, QuickStepsLeaveTwoLines)
                       body.velocity,
                       {},
                       last,
+                      {},
                       {}};
     };
     progress.start(state(false));

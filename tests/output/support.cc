@@ -206,8 +206,14 @@ namespace test_output
       return results;
     };
     const corotet::StepRecord numbers = record(step, time);
-    const corotet::Snapshot   state{
-      discretization, numbers, displacement, velocity, cell_results, last, {}};
+    const corotet::Snapshot   state{discretization,
+                                  numbers,
+                                  displacement,
+                                  velocity,
+                                  cell_results,
+                                  last,
+                                    {},
+                                    {}};
     if (step == 0)
       observer.start(state);
     else

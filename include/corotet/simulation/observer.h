@@ -39,7 +39,7 @@ namespace corotet
     std::function<StressField &()> stress;
     /// Of this rank, an entry for each unknown of PrescribedMotion::unknowns(),
     /// in their order.
-    std::span<const SupportForce> support_forces = {};
+    std::span<const SupportForce> support_forces;
   };
 
   /**
