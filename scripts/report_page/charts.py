@@ -76,7 +76,7 @@ def history_charts(run):
     add("balance", "Energy balance: what is left over", ["energy_balance"])
     own = {"momentum", "angular_momentum", "reaction", "internal_moment"}
     for stem in columns.vectors(table):
-        if stem.endswith(("_reaction", "_reaction_moment")):
+        if columns.is_of_support(stem):
             support, _, what = stem.rpartition("_reaction")
             add(stem, f"{'Moment about the origin' if what else 'Reaction'} of {support}", [f"{stem}_{c}" for c in "xyz"])
         elif stem not in own:

@@ -45,6 +45,11 @@ def name(column):
     return NAMES.get(column) or column.replace("_", " ")
 
 
+def is_of_support(stem):
+    """Whether these are the force or the moment of a single support; `stem` is a name before _x, _y and _z."""
+    return stem.endswith(("_reaction", "_reaction_moment"))
+
+
 def vectors(columns):
     """The names before _x, _y and _z of those columns that come in threes, in order."""
     columns = list(columns)

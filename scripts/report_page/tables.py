@@ -45,7 +45,7 @@ def final_state(run):
         factor, shown = with_prefix(max((abs(v) for v in values if v is not None), default=0), unit)
         if stem in OF_BODY:
             known = columns.NAMES[stem]
-        elif stem.endswith(("_reaction", "_reaction_moment")):
+        elif columns.is_of_support(stem):
             known = columns.name(stem)
         else:
             # A probe, whatever it is called.

@@ -3,7 +3,6 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
-#include <corotet/base/named_values.h>
 #include <corotet/forces/elastic_support.h>
 
 #include <deal.II/base/utilities.h>
@@ -12,7 +11,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace corotet
 {
@@ -184,15 +182,11 @@ namespace corotet
                               const std::string &text,
                               const Direction    direction,
                               const auto        &add) {
-      const std::string      entry = "Supports/" + name;
-      const PlaceNames      &names = context.discretization.mesh().places();
-      std::set<unsigned int> known;
-      for (const auto &[boundary, value] : named_values(text, entry))
-        for (const unsigned int id : names.boundary_ids(
-               boundary, entry, "an elastic support or a dashpot"))
+      const std::string entry = "Supports/" + name;
+      for (const auto &[_, value, boundaries] : values_on_boundaries(
+             context, text, entry, "an elastic support or a dashpot"))
+        for (const unsigned int id : boundaries)
           {
-            if (!known.insert(id).second)
-              refuse_second_boundary(entry, names.boundaries.name(id));
             SurfaceCoefficient coefficient(
               context, id, value, direction, entry);
             if (!coefficient.is_zero())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/named_values.h>
 #include <corotet/base/text.h>
 #include <corotet/forces/body_force.h>
 #include <corotet/forces/elastic_support.h>
@@ -14,6 +15,7 @@
 #include <corotet/operators/mass.h>
 
 #include <algorithm>
+#include <set>
 
 namespace corotet
 {
@@ -21,6 +23,25 @@ namespace corotet
   ForceContext::apply_mass(Vector &f, const Vector &a) const
   {
     mass.apply(f, a);
+  }
+
+  std::vector<ValueOnBoundaries>
+  values_on_boundaries(const ForceContext &context,
+                       const std::string  &list,
+                       const std::string  &entry,
+                       const std::string  &what)
+  {
+    const PlaceNames &names = context.discretization.mesh().places();
+    std::vector<ValueOnBoundaries> items;
+    std::set<unsigned int>         known;
+    for (const auto &[name, value] : named_values(list, entry))
+      {
+        items.push_back({name, value, names.boundary_ids(name, entry, what)});
+        for (const unsigned int id : items.back().boundaries)
+          if (!known.insert(id).second)
+            refuse_second_boundary(entry, names.boundaries.name(id));
+      }
+    return items;
   }
 
   std::string

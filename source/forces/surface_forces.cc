@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/base/named_values.h>
 #include <corotet/forces/surface_forces.h>
 #include <corotet/operators/surface.h>
 
@@ -11,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
 #include <vector>
 
 namespace corotet
@@ -42,7 +40,7 @@ namespace corotet
   } // namespace
 
   void
-  SurfaceForces::integrate(Vector &f, const Field &force) const
+  EvenTraction::integrate(Vector &f, const Field &force) const
   {
     Traction::integrate(f,
                         [&](const dealii::Point<3>     &x,
@@ -76,10 +74,9 @@ namespace corotet
   SurfaceForcesKind::add_to(ForceTerms         &terms,
                             const ForceContext &context) const
   {
-    const std::string     &entry = surface_forces_entry;
-    const PlaceNames      &names = context.discretization.mesh().places();
-    std::set<unsigned int> known;
-    for (const auto &[name, value] : named_values(forces, entry))
+    const std::string &entry = surface_forces_entry;
+    for (const auto &[name, value, boundaries] :
+         values_on_boundaries(context, forces, entry, "a surface force"))
       {
         const Expression force(value, 3, entry, context.tables);
         if (force.depends_on_space())
@@ -89,19 +86,15 @@ namespace corotet
                                        "on all of it",
                                        value,
                                        name));
-        const auto ids = names.boundary_ids(name, entry, "a surface force");
-        for (const unsigned int id : ids)
-          if (!known.insert(id).second)
-            refuse_second_boundary(entry, names.boundaries.name(id));
         if (force.is_zero())
           continue;
-        const double area = area_of(ids, context);
-        for (const unsigned int id : ids)
-          terms.add(std::make_unique<SurfaceForces>(context.discretization,
-                                                    context.reference,
-                                                    id,
-                                                    force,
-                                                    area),
+        const double area = area_of(boundaries, context);
+        for (const unsigned int id : boundaries)
+          terms.add(std::make_unique<EvenTraction>(context.discretization,
+                                                   context.reference,
+                                                   id,
+                                                   force,
+                                                   area),
                     on_boundary(context, entry, id));
       }
   }

@@ -86,6 +86,16 @@ TEST(Differentiation, OneOrderInAllProcesses)
             "1/pow(1.0/(x*x*x)+y,2.0)+sqrt(x)");
 }
 
+// Also where a sum goes on with a negative number.
+TEST(Differentiation, NegativeNumbersInSums)
+{
+  const std::string text = differentiate("-x - x*y + cos(x)", {"x"}, "Entry");
+  EXPECT_NE(text.find("+-1.0"), std::string::npos) << text;
+  EXPECT_NEAR(derivative("-x - x*y + cos(x)", {"x"}),
+              -1 - p[1] - std::sin(p[0]),
+              round_off);
+}
+
 // GiNaC must read a formula as muParser does: with no variable, what comes back
 // is the formula.
 TEST(Differentiation, SameSyntax)

@@ -45,6 +45,24 @@ namespace corotet
     apply_mass(Vector &f, const Vector &a) const;
   };
 
+  /// An item of a list "name: value, ..." of boundaries.
+  struct ValueOnBoundaries
+  {
+    /// As in the list.
+    std::string name;
+    std::string value;
+    /// Those that @p name stands for.
+    std::vector<unsigned int> boundaries;
+  };
+
+  /// The items of @p list, an entry @p entry; @p what is "a traction" and the
+  /// like, for messages. Throws InputError, also if a boundary is in two items.
+  std::vector<ValueOnBoundaries>
+  values_on_boundaries(const ForceContext &context,
+                       const std::string  &list,
+                       const std::string  &entry,
+                       const std::string  &what);
+
   /// What messages call a term on a boundary: "ENTRY on boundary 'NAME'".
   std::string
   on_boundary(const ForceContext &context,

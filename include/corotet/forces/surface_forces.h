@@ -14,15 +14,15 @@ namespace corotet
    * Section Loads, entry Surface forces: a force [N] spread evenly over a
    * surface at rest, on one of the boundaries that the surface consists of.
    */
-  class SurfaceForces : public Traction
+  class EvenTraction : public Traction
   {
   public:
     /// @p force: of the whole surface, whose area at rest is @p area [m^2].
-    SurfaceForces(const Discretization   &discretization,
-                  const ReferenceElement &reference,
-                  const unsigned int      boundary,
-                  const Expression       &force,
-                  const double            area)
+    EvenTraction(const Discretization   &discretization,
+                 const ReferenceElement &reference,
+                 const unsigned int      boundary,
+                 const Expression       &force,
+                 const double            area)
       : Traction(discretization, reference, boundary, force)
       , area(area)
     {}

@@ -41,6 +41,7 @@ namespace corotet
    */
   struct HistoryColumns
   {
+    /// Columns of probes alone.
     HistoryColumns(const Probes &probes)
       : probes(probes)
     {}

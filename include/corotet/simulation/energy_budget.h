@@ -160,8 +160,8 @@ namespace corotet
     double work = 0;
     /// Energy of elastic terms that depend on time, at the start [J].
     double initial_changing_energy = 0;
-    /// Whether the account, and the next step in it, begins at rest without
-    /// loads, whatever was guessed.
+    /// Whether the account, and the next step in it, begins at rest, with
+    /// the forces that act there, whatever was guessed.
     bool                      began_unloaded     = false;
     bool                      is_unloaded        = false;
     double                    dissipation        = 0;
