@@ -253,6 +253,8 @@ namespace corotet
   std::vector<ParameterStatement>
   read_parameter_statements(const std::string &path)
   {
+    if (path.empty())
+      throw InputError("", "no parameter file is given");
     const std::string ending = fs::path(path).extension().string();
     if (ending == ".json")
       {

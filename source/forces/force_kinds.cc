@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/named_values.h>
+#include <corotet/base/parameter_file.h>
 #include <corotet/base/text.h>
 #include <corotet/forces/body_force.h>
 #include <corotet/forces/elastic_support.h>
@@ -14,8 +15,13 @@
 #include <corotet/forces/traction.h>
 #include <corotet/operators/mass.h>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
+#include <map>
 #include <set>
+#include <stdexcept>
 
 namespace corotet
 {
@@ -69,10 +75,42 @@ namespace corotet
        candidate<ForceKind, SupportsKind>("supports")});
   }
 
+  namespace
+  {
+    // Two kinds must not have the same entry: each would take it for its own.
+    void
+    check_entries(const std::vector<Candidate<ForceKind>> &kinds)
+    {
+      std::map<std::string, std::string> kind_of;
+      for (const Candidate<ForceKind> &candidate : kinds)
+        {
+          const std::unique_ptr<ForceKind> kind = candidate.make();
+          ParameterFile                    file;
+          kind->declare_parameters(file.handler());
+          // "/Section/Entry" of each.
+          const auto entries = file.values().flatten();
+          for (const auto &[entry, value] : entries.items())
+            if (const auto [known, is_new] =
+                  kind_of.emplace(entry, candidate.name);
+                !is_new && !entry.empty())
+              throw std::logic_error(
+                fmt::format("two kinds of force have the entry '{}': '{}' and "
+                            "'{}'",
+                            entry.substr(1),
+                            known->second,
+                            candidate.name));
+        }
+    }
+  } // namespace
+
   ForceParameters::ForceParameters()
   {
-    for (const Candidate<ForceKind> &kind : force_kinds())
+    const std::vector<Candidate<ForceKind>> candidates = force_kinds();
+    for (const Candidate<ForceKind> &kind : candidates)
       kinds.push_back(kind.make());
+    // Those of the library have none.
+    if (!added_candidates<ForceKind>().empty())
+      check_entries(candidates);
   }
 
   void

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <stdexcept>
 
 namespace corotet
 {
@@ -135,7 +136,12 @@ namespace corotet
   std::shared_ptr<const MaterialLaw>
   MaterialParameters::law(const unsigned int degree) const
   {
-    return type.selected().make(degree == 1 ? Rotation::cell_centre : rotation);
+    std::shared_ptr<const MaterialLaw> law =
+      type.selected().make(degree == 1 ? Rotation::cell_centre : rotation);
+    if (!law)
+      throw std::logic_error("the candidate '" + type.name() +
+                             "' of Material/Type makes no law");
+    return law;
   }
 
   std::map<unsigned int, IsotropicMaterial>

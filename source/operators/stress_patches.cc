@@ -45,13 +45,17 @@ namespace corotet
 
     // How weights fall with the distance: what was best of 0 to 16 in two
     // layers and of 0 to 8 for what these leave over, see the page on stress.
-    constexpr std::array<double, 4> decay_of_layers{{0, 0, 4, 4}};
-    constexpr double                decay_of_rest = 2;
+    constexpr std::array<unsigned int, 4> decay_of_layers{{0, 0, 4, 4}};
+    constexpr unsigned int                decay_of_rest = 2;
 
+    // Even decays only: std::pow would take as long as all else at a point.
     double
-    weight(const Tensor<1, 3> &y, const double decay)
+    weight(const Tensor<1, 3> &y, const unsigned int decay)
     {
-      return decay == 0 ? 1. : std::pow(0.5 + y.norm(), -decay);
+      if (decay == 0)
+        return 1;
+      const double distance = 0.5 + y.norm(), square = distance * distance;
+      return 1 / (decay == 2 ? square : square * square);
     }
 
     // Barycentric coordinates of an element's nodes.
@@ -201,7 +205,7 @@ namespace corotet
   StressPatches::fit(const unsigned int               vertex,
                      const std::vector<unsigned int> &cells,
                      const unsigned int               degree,
-                     const double                     decay,
+                     const unsigned int               decay,
                      const double                     smallest_eigenvalue) const
   {
     Fit result;

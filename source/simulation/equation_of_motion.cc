@@ -43,7 +43,8 @@ namespace corotet
     if (is_dynamic)
       for (Vector *vector : {&forces.inertia, &a})
         body.discretization.initialize_vector(*vector);
-    if (is_dynamic || terms.depends_on_velocity())
+    if (is_dynamic || terms.depends_on_velocity() || terms.follows_motion() ||
+        terms.has_elastic())
       body.discretization.initialize_vector(v);
     if (terms.has_damping() || terms.damping_shares().mass != 0)
       body.discretization.initialize_vector(forces.damping);

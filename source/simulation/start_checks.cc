@@ -135,11 +135,42 @@ namespace corotet
     check_loads(equation, initial, parameters.end_time);
   }
 
+  namespace
+  {
+    // Laws of other programs may be wrong where bodies are not at rest.
+    void
+    warn_of_law(const Body &body, Log &log)
+    {
+      // Strains of some percent, and a rotation.
+      const dealii::Tensor<2, 3> H(
+        {{0.02, -0.07, 0.01}, {0.05, -0.01, 0.03}, {-0.02, 0.01, 0.03}});
+      constexpr double tolerance = 1e-3;
+      const LawErrors  errors =
+        law_errors(*body.law, body.materials.begin()->second, H);
+      const std::string law = "Material/Type: the law's stress";
+      // Not more than that, rather than less: they may not be finite.
+      if (body.law->has_energy(body.discretization.degree()) &&
+          !(errors.stress <= tolerance))
+        log.warning(fmt::format("{} is not the derivative of its energy, from "
+                                "which it differs by {:.2g} % at strains of "
+                                "some percent",
+                                law,
+                                100 * errors.stress));
+      if (!(errors.stress_derivative <= tolerance))
+        log.warning(fmt::format("{} does not have the derivative that the law "
+                                "gives, which differs by {:.2g} % at strains "
+                                "of some percent: Newton's method is slow",
+                                law,
+                                100 * errors.stress_derivative));
+    }
+  } // namespace
+
   void
   warn_of_body(const Body                 &body,
                const SimulationParameters &parameters,
                Log                        &log)
   {
+    warn_of_law(body, log);
     for (const auto &[region, material] : body.materials)
       {
         // That it is a round number is known up to round-off.

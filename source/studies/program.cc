@@ -89,6 +89,15 @@ namespace corotet
   int
   run_program(const int argc, char **argv)
   {
+    int is_started = 0;
+    MPI_Initialized(&is_started);
+    if (is_started == 1)
+      {
+        std::cerr << "corotet: error: internal: run_program(argc, argv) starts "
+                     "MPI, which has been started before; with "
+                     "run_program(MPI_COMM_WORLD, ...) the caller starts it\n";
+        return 3;
+      }
     settings_if_alone();
     // A file that reaches a limit is an error of writing, like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);

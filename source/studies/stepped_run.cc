@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace corotet
@@ -90,8 +91,23 @@ namespace corotet
                       {output.steps_between_rows, output.time_between_results});
   }
 
+  namespace
+  {
+    // @p comm, if MPI has been started.
+    MPI_Comm
+    usable(const MPI_Comm comm)
+    {
+      int is_started = 0;
+      MPI_Initialized(&is_started);
+      if (is_started == 0)
+        throw std::logic_error(
+          "SteppedRun needs MPI, which has not been started");
+      return comm;
+    }
+  } // namespace
+
   SteppedRun::SteppedRun(const CommandLine &command, const MPI_Comm comm)
-    : parts(std::make_unique<Parts>(command, comm))
+    : parts(std::make_unique<Parts>(command, usable(comm)))
   {}
 
   SteppedRun::~SteppedRun() = default;
@@ -105,7 +121,8 @@ namespace corotet
   void
   SteppedRun::step()
   {
-    AssertThrow(!is_done(), dealii::ExcMessage("the run is over"));
+    if (is_done())
+      throw std::logic_error("SteppedRun::step(): the run is over");
     try
       {
         parts->simulation->step();

@@ -5,12 +5,16 @@
 // message that a user gets.
 
 #include "base/parameter_example.h"
+#include "refusal.h"
 
 TEST(ParameterFile, RefusesFilesItCannotRead)
 {
   Example example;
   EXPECT_EQ(example.refusal_of("absent.prm"),
             "absent.prm: there is no such file");
+  EXPECT_EQ(corotet::tests::refusal(
+              [] { corotet::ParameterFile().read("", {}); }),
+            "no parameter file is given");
   EXPECT_EQ(example.refusal("a.txt", ""),
             "a.txt: a parameter file cannot end in \".txt\"; allowed are .prm, "
             ".json and .xml");

@@ -162,3 +162,66 @@ TEST(OutsideForces, PullOfContributing)
                   2e-4);
     }
 }
+
+// Entries belong to one kind.
+TEST(OutsideForces, EntryOfAnotherKind)
+{
+  class Second : public PullKind
+  {
+  public:
+    void
+    declare_parameters(dealii::ParameterHandler &prm) override
+    {
+      prm.enter_subsection("Loads");
+      prm.add_parameter("Gravity", gravity, "Another one.");
+      prm.leave_subsection();
+    }
+
+  private:
+    std::string gravity = "1; 2; 3";
+  };
+  const AddedCandidate<ForceKind> added(candidate<ForceKind, Second>("second"));
+  try
+    {
+      const ForceParameters parameters;
+      ADD_FAILURE() << "nothing was refused";
+    }
+  catch (const std::logic_error &error)
+    {
+      EXPECT_STREQ(error.what(),
+                   "two kinds of force have the entry 'Loads/Gravity': "
+                   "'gravity' and 'second'");
+    }
+}
+
+// The velocity that a force sees in statics is zero, also of a force that does
+// not say that it depends on it.
+TEST(OutsideForces, VelocityInStatics)
+{
+  class Watch : public Pull
+  {
+  public:
+    using Pull::Pull;
+
+    void
+    add_force(Vector &f, const Motion &motion) const override
+    {
+      EXPECT_EQ(motion.v.size(), motion.u.size());
+      EXPECT_EQ(motion.v.linfty_norm(), 0);
+      Pull::add_force(f, motion);
+    }
+  };
+  class WatchKind : public PullKind
+  {
+  public:
+    void
+    add_to(ForceTerms &terms, const ForceContext &context) const override
+    {
+      terms.add(std::make_unique<Watch>(context, 1.));
+    }
+  };
+  const AddedCandidate<ForceKind> added(
+    candidate<ForceKind, WatchKind>("watch"));
+  MovingBody body(box("1, 1, 1", "1, 1, 1"), fixed("x-min") + statics());
+  body.system.equation().evaluate_forces(body.state, 0., 1.);
+}

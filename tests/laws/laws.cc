@@ -94,6 +94,18 @@ TEST_P(Laws, StressDerivative)
         }
 }
 
+// What runs look at: by central differences of second order with 1e-5, whose
+// errors are those of the square of that and round-off over it.
+TEST_P(Laws, HaveNoErrors)
+{
+  for (const Tensor<2, 3> &H : {gradients[1], gradients[2]})
+    {
+      const LawErrors errors = law_errors(law, soft, H);
+      EXPECT_LE(errors.stress, 1e-8) << named.name;
+      EXPECT_LE(errors.stress_derivative, 1e-8) << named.name;
+    }
+}
+
 // At rest all laws are linear elasticity.
 TEST_P(Laws, AtRest)
 {

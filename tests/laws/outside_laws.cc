@@ -126,6 +126,54 @@ TEST(OutsideLaws, AreCheckedAtRest)
             std::string::npos);
 }
 
+// Members that contradict each other are found.
+TEST(OutsideLaws, ErrorsOfALaw)
+{
+  class Wrong : public MyKirchhoff
+  {
+  public:
+    Wrong(const double of_energy, const double of_derivative)
+      : of_energy(of_energy)
+      , of_derivative(of_derivative)
+    {}
+
+    Tensor<2, 3>
+    stress_derivative(const IsotropicMaterial &material,
+                      const Tensor<2, 3>      &H,
+                      const Tensor<2, 3>      &dF) const override
+    {
+      return of_derivative * MyKirchhoff::stress_derivative(material, H, dF);
+    }
+
+    double
+    energy_density(const IsotropicMaterial &material,
+                   const Tensor<2, 3>      &H) const override
+    {
+      return of_energy * MyKirchhoff::energy_density(material, H);
+    }
+
+  private:
+    double of_energy, of_derivative;
+  };
+  const Tensor<2, 3> H({{0.1, 0.2, 0.}, {-0.1, 0.05, 0.}, {0., 0.1, -0.2}});
+  const IsotropicMaterial material = isotropic_material(1e3, 0.3, 1);
+  const LawErrors         energy   = law_errors(Wrong(1.25, 1.), material, H);
+  EXPECT_NEAR(energy.stress, 0.25, 1e-8);
+  EXPECT_LE(energy.stress_derivative, 1e-8);
+  const LawErrors derivative = law_errors(Wrong(1., 0.5), material, H);
+  EXPECT_LE(derivative.stress, 1e-8);
+  EXPECT_NEAR(derivative.stress_derivative, 0.5, 1e-8);
+}
+
+// So is a candidate that makes no law.
+TEST(OutsideLaws, NoLaw)
+{
+  const AddedCandidate<LawKind> added(
+    law_candidate("none", [] { return std::shared_ptr<const MaterialLaw>(); }));
+  EXPECT_THROW(MovingBody(box("1, 1, 1", "1, 1, 1"), material_type("none")),
+               std::logic_error);
+}
+
 TEST(OutsideLaws, IsLikeTheLibrarysOwn)
 {
   const AddedCandidate<LawKind> added(law_candidate("my Kirchhoff", [] {

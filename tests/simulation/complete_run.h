@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../body.h"
+#include "../temporary_folder.h"
 
 namespace corotet::tests
 {
@@ -103,6 +104,22 @@ namespace corotet::tests
     Simulation                             simulation;
     std::vector<std::unique_ptr<Observer>> observers;
   };
+
+  /// What the run has warned of by now, on all ranks. Collective.
+  inline std::vector<std::string>
+  warnings(CompleteRun &run)
+  {
+    const TemporaryFolder folder;
+    run.log.open(folder / "log.txt");
+    const std::string        mark = "warning: ";
+    std::vector<std::string> result;
+    for (const std::string &line :
+         dealii::Utilities::split_string_list(folder.read("log.txt"), '\n'))
+      if (line.starts_with(mark))
+        result.push_back(line.substr(mark.size()));
+    // Rank 0 has the log.
+    return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, result);
+  }
 
   inline bool
   on_one_rank()

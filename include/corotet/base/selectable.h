@@ -9,6 +9,7 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,14 @@ namespace corotet
     return candidates;
   }
 
+  template <typename Base>
+  void
+  refuse_same_name(const Candidate<Base> &a, const Candidate<Base> &b)
+  {
+    if (a.name == b.name)
+      throw std::logic_error("two candidates are called '" + a.name + "'");
+  }
+
   /**
    * Adds a candidate to a layer's list, without a change of the library, for as
    * long as this object lives: the choices that are made in that time have it,
@@ -67,9 +76,9 @@ namespace corotet
    *     candidate<TimeIntegrator, MyIntegrator>("my integrator"));
    *
    * All ranks must add the same. The name must not be that of another
-   * candidate, and must not be empty or have '|' or '/' in it. Throws an
-   * exception if another program's one has it; one of the library's own is
-   * found when a choice is made.
+   * candidate, must not be empty or have '|' or '/' in it, and neither begin
+   * nor end with a blank. Throws std::logic_error otherwise; that one of the
+   * library's own candidates has the name is found when a choice is made.
    */
   template <typename Base>
   class AddedCandidate
@@ -78,14 +87,13 @@ namespace corotet
     explicit AddedCandidate(const Candidate<Base> &added)
     {
       std::list<Candidate<Base>> &all = added_candidates<Base>();
-      AssertThrow(!added.name.empty() &&
-                    added.name.find_first_of("|/") == std::string::npos,
-                  dealii::ExcMessage("A candidate cannot be called '" +
-                                     added.name + "'"));
+      if (added.name.empty() ||
+          added.name != dealii::Utilities::trim(added.name) ||
+          added.name.find_first_of("|/") != std::string::npos)
+        throw std::logic_error("a candidate cannot be called '" + added.name +
+                               "'");
       for (const Candidate<Base> &other : all)
-        AssertThrow(other.name != added.name,
-                    dealii::ExcMessage("Two candidates are called " +
-                                       added.name));
+        refuse_same_name(other, added);
       place = all.insert(all.end(), added);
     }
 
@@ -103,8 +111,8 @@ namespace corotet
   };
 
   /**
-   * A layer's own candidates, and those that programs have added. Throws if two
-   * have the same name.
+   * A layer's own candidates, and those that programs have added. Throws
+   * std::logic_error if two have the same name.
    */
   template <typename Base>
   std::vector<Candidate<Base>>
@@ -113,9 +121,7 @@ namespace corotet
     for (const Candidate<Base> &added : added_candidates<Base>())
       {
         for (const Candidate<Base> &other : candidates)
-          AssertThrow(other.name != added.name,
-                      dealii::ExcMessage("Two candidates are called " +
-                                         added.name));
+          refuse_same_name(other, added);
         candidates.push_back(added);
       }
     return candidates;

@@ -53,6 +53,23 @@ namespace corotet
   /// that of linear elasticity with these parameters, to six digits.
   void
   check_at_rest(const PointLaw &law, const IsotropicMaterial &material);
+
+  /// How far the members of a law contradict each other [-].
+  struct LawErrors
+  {
+    /// Stress, from the derivative of the energy; relative to the stress.
+    double stress;
+    /// Derivative of the stress, as the law gives it, from that of the stress;
+    /// relative to it.
+    double stress_derivative;
+  };
+
+  /// At the gradient @p H, which is not zero, by central differences: of a law
+  /// without mistakes below 1e-6. Runs warn of more than 1e-3.
+  LawErrors
+  law_errors(const PointLaw             &law,
+             const IsotropicMaterial    &material,
+             const dealii::Tensor<2, 3> &H);
 } // namespace corotet
 
 #endif

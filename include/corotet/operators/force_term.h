@@ -18,7 +18,10 @@ namespace corotet
   {
     /// [s].
     double time;
-    /// Displacement [m] and velocity [m/s]; ghosts up to date.
+    /// Displacement [m] and velocity [m/s], with ghosts. The velocity is that
+    /// of this time only if a term says that it depends on it, and zero in
+    /// statics; if no term depends on displacement or velocity, it may be
+    /// empty.
     const Vector &u;
     const Vector &v;
   };

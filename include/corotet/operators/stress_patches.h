@@ -98,9 +98,9 @@ namespace corotet
       dealii::Point<3>     centre;
       dealii::Tensor<2, 3> scale;
       /// Points at the distance r in these variables from the vertex count
-      /// (1/2 + r)^-decay times.
+      /// (1/2 + r)^-decay times; decay is 0, 2 or 4.
       dealii::Point<3> vertex;
-      double           decay;
+      unsigned int     decay;
       /// Of the matrix of the normal equations.
       std::vector<double>       inverse;
       std::vector<unsigned int> cells;
@@ -137,7 +137,7 @@ namespace corotet
     fit(const unsigned int               vertex,
         const std::vector<unsigned int> &cells,
         const unsigned int               degree,
-        const double                     decay,
+        const unsigned int               decay,
         const double                     smallest_eigenvalue) const;
     /// All nodes of a patch, with the vertex's barycentric coordinate as
     /// weight; @p barycentric are those of the nodes of an element.

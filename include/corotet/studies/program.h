@@ -13,7 +13,8 @@ namespace corotet
    *
    * Returns the exit status: 0 done; 1 the input is wrong; 2 the computation
    * has failed, or a check of it; 3 the machine has failed. Errors are shown on
-   * stderr. To be called once.
+   * stderr. To be called once, and where MPI has not been started: what else
+   * starts it uses run_program(comm, action) of base/mpi.h, and SteppedRun.
    */
   int
   run_program(const int argc, char **argv);

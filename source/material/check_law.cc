@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace corotet
 {
@@ -46,5 +46,38 @@ namespace corotet
                                    "its stiffness differs by {:.3g} of that; "
                                    "allowed is nothing",
                                    difference / size));
+  }
+
+  LawErrors
+  law_errors(const PointLaw          &law,
+             const IsotropicMaterial &material,
+             const Tensor<2, 3>      &H)
+  {
+    // Between the errors of the differences, of the order of its square, and
+    // round-off over it.
+    constexpr double step = 1e-5;
+    // Norms of what the law gives, and of its differences to what it should.
+    const Tensor<2, 3> P       = law.stress(material, H);
+    double             stress  = 0;
+    double             squares = 0, derivative = 0;
+    for (unsigned int ab = 0; ab < 9; ++ab)
+      {
+        Tensor<2, 3> dF;
+        dF[ab / 3][ab % 3] = 1;
+        const auto at      = [&](const double sign) -> Tensor<2, 3> {
+          return H + sign * step * dF;
+        };
+        const double dW = (law.energy_density(material, at(1)) -
+                           law.energy_density(material, at(-1))) /
+                          (2 * step);
+        stress += std::pow(P[ab / 3][ab % 3] - dW, 2);
+        const Tensor<2, 3> dP =
+          (law.stress(material, at(1)) - law.stress(material, at(-1))) /
+          (2 * step);
+        derivative +=
+          (law.stress_derivative(material, H, dF) - dP).norm_square();
+        squares += dP.norm_square();
+      }
+    return {std::sqrt(stress) / P.norm(), std::sqrt(derivative / squares)};
   }
 } // namespace corotet
