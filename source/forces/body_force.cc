@@ -3,6 +3,9 @@
 
 #include <corotet/forces/body_force.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace corotet
 {
   using dealii::Point;
@@ -27,6 +30,8 @@ namespace corotet
   BodyForce::integrate(Vector &f, const Field &force) const
   {
     const auto &rule = reference.load_rule;
+    // Of a cell.
+    std::vector<Tensor<1, 3>> nodal_forces(reference.n_nodes);
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       {
         const CellGeometry &geometry  = discretization.geometry(c);
@@ -34,6 +39,7 @@ namespace corotet
         const auto          nodes     = discretization.cell_nodes(c);
         const Point<3>      origin    = discretization.node_position(nodes[0]);
         const Tensor<2, 3>  J         = invert(geometry.inverse_jacobian);
+        std::fill(nodal_forces.begin(), nodal_forces.end(), Tensor<1, 3>());
         for (unsigned int q = 0; q < rule.weights.size(); ++q)
           {
             Point<3> x      = origin + J * rule.points[q];
@@ -46,11 +52,14 @@ namespace corotet
                     rule.values[q][i] * discretization.node_position(nodes[i]);
                 volume = determinant(discretization.jacobian(c, rule, q)) / 6;
               }
-            const Tensor<1, 3> b = force(x, {}) * (rule.weights[q] * volume);
+            const Tensor<1, 3>  b = force(x, {}) * (rule.weights[q] * volume);
+            const double *const values = &rule.values(q, 0);
             for (unsigned int i = 0; i < reference.n_nodes; ++i)
-              for (unsigned int a = 0; a < 3; ++a)
-                f.local_element(3 * nodes[i] + a) += b[a] * rule.values[q][i];
+              nodal_forces[i] += values[i] * b;
           }
+        for (unsigned int i = 0; i < reference.n_nodes; ++i)
+          for (unsigned int a = 0; a < 3; ++a)
+            f.local_element(3 * nodes[i] + a) += nodal_forces[i][a];
       }
   }
 

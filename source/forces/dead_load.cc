@@ -45,19 +45,33 @@ namespace corotet
         });
         return;
       }
-    if (integral.size() == 0)
-      {
-        discretization.initialize_vector(integral);
-        integrate(integral, [](const Point<3> &, const Tensor<1, 3> &) {
-          return Tensor<1, 3>({1., 1., 1.});
-        });
-        integral.compress(dealii::VectorOperation::add);
-      }
+    if (!unit_forces)
+      unit_forces = forces_of_unit_load();
     const Tensor<1, 3> now = value({}, {}, motion.time);
-    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+    for (const auto &[node, force] : *unit_forces)
       for (unsigned int a = 0; a < 3; ++a)
-        f.local_element(3 * n + a) +=
-          now[a] * integral.local_element(3 * n + a);
+        f.local_element(3 * node + a) += now[a] * force[a];
+  }
+
+  std::vector<DeadLoad::NodalForce>
+  DeadLoad::forces_of_unit_load() const
+  {
+    Vector integral;
+    discretization.initialize_vector(integral);
+    integrate(integral, [](const Point<3> &, const Tensor<1, 3> &) {
+      return Tensor<1, 3>({1., 1., 1.});
+    });
+    integral.compress(dealii::VectorOperation::add);
+    std::vector<NodalForce> result;
+    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+      {
+        NodalForce nodal{n, {}};
+        for (unsigned int a = 0; a < 3; ++a)
+          nodal.force[a] = integral.local_element(3 * n + a);
+        if (nodal.force.norm_square() > 0)
+          result.push_back(nodal);
+      }
+    return result;
   }
 
   VectorFieldKind::VectorFieldKind(const std::string &entry,

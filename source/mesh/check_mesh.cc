@@ -183,13 +183,14 @@ namespace corotet
                     "a vertex has the coordinates " + position(p) +
                       "; they must be finite numbers");
 
-    const auto check = [&](const auto &vertices, const std::string &what) {
+    // @p what: called where something is wrong, as names take their time.
+    const auto check = [&](const auto &vertices, const auto &what) {
       for (const unsigned int v : vertices)
         if (v >= mesh.vertices.size())
           refuse_mesh(mesh.origin,
                       fmt::format("a {} has the vertex {}; there are only "
                                   "the vertices 0 to {}",
-                                  what,
+                                  what(),
                                   v,
                                   mesh.vertices.size() - 1));
     };
@@ -201,14 +202,16 @@ namespace corotet
         highest = std::max(highest, v);
     if (highest >= mesh.vertices.size())
       for (const SerialMesh::Cell &cell : mesh.cells)
-        check(cell.vertices, "cell");
+        check(cell.vertices, [] { return "cell"; });
     for (const SerialMesh::Face &face : mesh.faces)
-      check(face.vertices,
-            "face of boundary " + boundary_name(mesh, face.boundary));
+      check(face.vertices, [&] {
+        return "face of boundary " + boundary_name(mesh, face.boundary);
+      });
     for (const SerialMesh::Edge &edge : mesh.edges)
-      check(edge.vertices, "named edge");
+      check(edge.vertices, [] { return "named edge"; });
     for (const SerialMesh::Corner &corner : mesh.corners)
-      check(std::array<unsigned int, 1>{{corner.vertex}}, "named corner");
+      check(std::array<unsigned int, 1>{{corner.vertex}},
+            [] { return "named corner"; });
   }
 
 

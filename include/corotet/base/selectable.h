@@ -58,6 +58,7 @@ namespace corotet
     return candidates;
   }
 
+  /// Throws std::logic_error.
   template <typename Base>
   void
   refuse_same_name(const Candidate<Base> &a, const Candidate<Base> &b)

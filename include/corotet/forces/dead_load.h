@@ -11,6 +11,8 @@
 #include <deal.II/base/point.h>
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 namespace corotet
 {
@@ -56,12 +58,23 @@ namespace corotet
     const Discretization &discretization;
 
   private:
+    struct NodalForce
+    {
+      /// Owned.
+      unsigned int         node;
+      dealii::Tensor<1, 3> force;
+    };
+
+    /// Integrates a unit load in each direction. Collective.
+    std::vector<NodalForce>
+    forces_of_unit_load() const;
+
     Value value;
     bool  varies_in_space;
     bool  varies_in_time;
     /// The force of a unit load in each direction, by the first add_force() if
-    /// the load is the same everywhere.
-    mutable Vector integral;
+    /// the load is the same everywhere, at nodes where there is one.
+    mutable std::optional<std::vector<NodalForce>> unit_forces;
   };
 
   /**
