@@ -68,7 +68,7 @@ namespace corotet
         NodalForce nodal{n, {}};
         for (unsigned int a = 0; a < 3; ++a)
           nodal.force[a] = integral.local_element(3 * n + a);
-        if (nodal.force.norm_square() > 0)
+        if (nodal.force != Tensor<1, 3>())
           result.push_back(nodal);
       }
     return result;

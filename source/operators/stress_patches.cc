@@ -48,7 +48,7 @@ namespace corotet
     constexpr std::array<unsigned int, 4> decay_of_layers{{0, 0, 4, 4}};
     constexpr unsigned int                decay_of_rest = 2;
 
-    // Even decays only: std::pow would take as long as all else at a point.
+    // @p decay is 0, 2 or 4.
     double
     weight(const Tensor<1, 3> &y, const unsigned int decay)
     {

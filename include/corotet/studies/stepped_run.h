@@ -53,7 +53,7 @@ namespace corotet
      * Goes on to the next step that is recorded (every one, unless
      * Output/Steps between rows says otherwise). Throws ComputationError; then
      * the run is over and its results are complete. To be called before
-     * is_done() only: throws an exception after it.
+     * is_done() only: throws std::logic_error after it.
      */
     void
     step();
