@@ -14,19 +14,26 @@ namespace corotet
                  const unsigned int                   cell,
                  const unsigned int                   q)
   {
+    if (discretization.is_curved(cell))
+      {
+        const Tensor<2, 3> J = discretization.jacobian(cell, rule, q);
+        return {invert(J), rule.weights[q] * determinant(J) / 6};
+      }
+    const CellGeometry &geometry = discretization.geometry(cell);
+    return {geometry.inverse_jacobian, rule.weights[q] * geometry.volume};
+  }
+
+  Point<3>
+  point_position(const Discretization                &discretization,
+                 const ReferenceElement::PointValues &rule,
+                 const unsigned int                   cell,
+                 const unsigned int                   q)
+  {
     const auto nodes = discretization.cell_nodes(cell);
     Point<3>   position;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       position += rule.values(q, i) * discretization.node_position(nodes[i]);
-    if (discretization.is_curved(cell))
-      {
-        const Tensor<2, 3> J = discretization.jacobian(cell, rule, q);
-        return {invert(J), rule.weights[q] * determinant(J) / 6, position};
-      }
-    const CellGeometry &geometry = discretization.geometry(cell);
-    return {geometry.inverse_jacobian,
-            rule.weights[q] * geometry.volume,
-            position};
+    return position;
   }
 
   Tensor<2, 3>

@@ -82,7 +82,8 @@ namespace corotet
             const PointGeometry geometry =
               point_geometry(discretization, rule, c, q);
             gradient = gradient * geometry.inverse_jacobian;
-            const PointDisplacement exact = reference(geometry.position);
+            const PointDisplacement exact =
+              reference(point_position(discretization, rule, c, q));
             add(sums.error,
                 material,
                 value - exact.value,

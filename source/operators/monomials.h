@@ -4,26 +4,28 @@
 #ifndef corotet_source_operators_monomials_h
 #define corotet_source_operators_monomials_h
 
+#include <corotet/discretization/with_degree.h>
+
 #include <deal.II/base/tensor.h>
 
 #include <array>
-#include <cmath>
-
-#include <Eigen/Core>
+#include <numbers>
+#include <type_traits>
 
 /// Polynomials of up to degree 3, by monomials.
 namespace corotet::monomials
 {
-  /// Of degree 3.
-  inline constexpr int max_size = 20;
-
-  using Basis = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
-
   constexpr int
-  n_coefficients(const unsigned int degree)
+  n_coefficients(const int degree)
   {
     return (degree + 1) * (degree + 2) * (degree + 3) / 6;
   }
+
+  /// Of degree 3.
+  inline constexpr int max_size = n_coefficients(3);
+
+  template <int degree>
+  using Values = std::array<double, n_coefficients(degree)>;
 
   /**
    * Monomials of a degree and all lower ones at @p x, each times the square
@@ -31,32 +33,58 @@ namespace corotet::monomials
    * one of the monomials of each degree, and what eigenvalues of their products
    * tell does not depend on the coordinates.
    */
-  inline Basis
-  at(const unsigned int degree, const dealii::Tensor<1, 3> &x)
+  template <int degree>
+  Values<degree>
+  at(const dealii::Tensor<1, 3> &point)
   {
-    // 1; x, y, z; xx, xy, xz, yy, yz, zz; xxx, xxy, xxz, xyy, xyz, xzz, yyy,
-    // yyz, yzz, zzz.
-    constexpr std::array<double, max_size> n_orders{
-      {1, 1, 1, 1, 1, 2, 2, 1, 2, 1, 1, 3, 3, 3, 6, 3, 1, 3, 3, 1}};
-    Basis result(n_coefficients(degree));
-    int   n           = 0;
-    result[n++]       = 1;
-    int first_of_last = 0;
-    // Each degree is x[0] times the one before, x[1] times what has no x[0]
-    // there, and x[2] times the last.
-    for (unsigned int d = 1; d <= degree; ++d)
+    static_assert(degree >= 0 && degree <= 3);
+    constexpr double root_2 = std::numbers::sqrt2, root_3 = std::numbers::sqrt3,
+                     root_6 = root_2 * root_3;
+    const double   x = point[0], y = point[1], z = point[2];
+    Values<degree> result;
+    result[0] = 1;
+    if constexpr (degree > 0)
       {
-        const int                first = n;
-        const std::array<int, 3> begins{
-          {first_of_last, first - static_cast<int>(d), first - 1}};
-        for (unsigned int a = 0; a < 3; ++a)
-          for (int i = begins[a]; i < first; ++i)
-            result[n++] = x[a] * result[i];
-        first_of_last = first;
+        result[1] = x;
+        result[2] = y;
+        result[3] = z;
       }
-    for (int i = 0; i < n; ++i)
-      result[i] *= std::sqrt(n_orders[i]);
+    if constexpr (degree > 1)
+      {
+        result[4] = x * x;
+        result[5] = root_2 * x * y;
+        result[6] = root_2 * x * z;
+        result[7] = y * y;
+        result[8] = root_2 * y * z;
+        result[9] = z * z;
+      }
+    if constexpr (degree > 2)
+      {
+        result[10] = x * x * x;
+        result[11] = root_3 * x * x * y;
+        result[12] = root_3 * x * x * z;
+        result[13] = root_3 * x * y * y;
+        result[14] = root_6 * x * y * z;
+        result[15] = root_3 * x * z * z;
+        result[16] = y * y * y;
+        result[17] = root_3 * y * y * z;
+        result[18] = root_3 * y * z * z;
+        result[19] = z * z * z;
+      }
     return result;
+  }
+
+
+
+  /// Calls @p function with std::integral_constant<int, degree>, degree 0 to 3.
+  template <typename Function>
+  void
+  with_degree(const unsigned int degree, const Function &function)
+  {
+    if (degree == 0)
+      function(std::integral_constant<int, 0>());
+    else
+      corotet::with_degree(degree, function);
   }
 } // namespace corotet::monomials
 

@@ -6,35 +6,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "monomials.h"
+#include "stress_fit.h"
 #include <Eigen/Dense>
 
 namespace corotet
 {
   using dealii::Point;
-  using dealii::SymmetricTensor;
   using dealii::Tensor;
 
   namespace
   {
-    using monomials::Basis;
-    using monomials::n_coefficients;
-    using Coefficients = Eigen::Matrix<double,
-                                       Eigen::Dynamic,
-                                       6,
-                                       Eigen::RowMajor,
-                                       monomials::max_size,
-                                       6>;
-    using SixNumbers   = Eigen::Matrix<double, 6, 1>;
-
-    SixNumbers
-    six_numbers(const SymmetricTensor<2, 3> &tensor)
-    {
-      return Eigen::Map<const SixNumbers>(tensor.begin_raw());
-    }
-
     // A fit whose coefficients the data determine badly would be worse than one
     // of a lower degree. Smallest eigenvalue of the normal equations over the
     // largest, by degree: a tenth of what is usual at least in patches of inner
@@ -48,14 +30,39 @@ namespace corotet
     constexpr std::array<unsigned int, 4> decay_of_layers{{0, 0, 4, 4}};
     constexpr unsigned int                decay_of_rest = 2;
 
-    // @p decay is 0, 2 or 4.
-    double
-    weight(const Tensor<1, 3> &y, const unsigned int decay)
+    using Matrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+    // Sums over the samples of the first fit, as it weighs them, of its
+    // monomials times those of the second.
+    Matrix
+    products(const StressFit     &first,
+             const StressFit     &second,
+             const StressSamples &samples)
     {
-      if (decay == 0)
-        return 1;
-      const double distance = 0.5 + y.norm(), square = distance * distance;
-      return 1 / (decay == 2 ? square : square * square);
+      Matrix result = Matrix::Zero(monomials::n_coefficients(first.degree),
+                                   monomials::n_coefficients(second.degree));
+      monomials::with_degree(first.degree, [&](const auto degree) {
+        monomials::with_degree(second.degree, [&](const auto second_degree) {
+          for_each_cell_of<degree>(
+            first,
+            samples,
+            [&](const std::size_t,
+                const auto &points,
+                const auto &values,
+                const auto &weights) {
+              for (unsigned int q = 0; q < points.size(); ++q)
+                {
+                  const auto others =
+                    monomials_of<second_degree>(second, points[q]);
+                  for (unsigned int i = 0; i < values[q].size(); ++i)
+                    for (unsigned int j = 0; j < others.size(); ++j)
+                      result(i, j) += weights[q] * values[q][i] * others[j];
+                }
+            });
+        });
+      });
+      return result;
     }
 
     // Barycentric coordinates of an element's nodes.
@@ -197,18 +204,25 @@ namespace corotet
     if (degree == 1 && !patch.fits.empty())
       return;
     // The points of one cell determine polynomials of degree p - 1.
-    patch.fits.push_back(
-      *fit(patch.vertex, patch.cells, degree - 1, decay_of_rest, 0));
+    StressFit rest =
+      *fit(patch.vertex, patch.cells, degree - 1, decay_of_rest, 0);
+    if (!patch.fits.empty())
+      {
+        const Matrix with_first = products(rest, patch.fits[0], samples);
+        rest.products_with_first.assign(with_first.data(),
+                                        with_first.data() + with_first.size());
+      }
+    patch.fits.push_back(std::move(rest));
   }
 
-  std::optional<StressPatches::Fit>
+  std::optional<StressFit>
   StressPatches::fit(const unsigned int               vertex,
                      const std::vector<unsigned int> &cells,
                      const unsigned int               degree,
                      const unsigned int               decay,
                      const double                     smallest_eigenvalue) const
   {
-    Fit result;
+    StressFit result;
     result.degree = degree;
     result.vertex = discretization.node_position(vertex);
     result.decay  = decay;
@@ -234,16 +248,8 @@ namespace corotet
       for (unsigned int b = 0; b < 3; ++b)
         result.scale[a][b] = scale(a, b);
 
-    const int       n = n_coefficients(degree);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-    for (const unsigned int c : cells)
-      for (const Point<3> &x : samples.points(c))
-        {
-          const Basis b =
-            monomials::at(degree, result.scale * (x - result.centre));
-          A += weight(result.scale * (x - result.vertex), decay) * b *
-               b.transpose();
-        }
+    const int             n = monomials::n_coefficients(degree);
+    const Matrix          A = products(result, result, samples);
     const Eigen::VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly)
         .eigenvalues();
@@ -325,56 +331,5 @@ namespace corotet
           }
         patch.targets = std::move(targets);
       }
-  }
-
-  void
-  StressPatches::recover(std::vector<SymmetricTensor<2, 3>> &at_points,
-                         Vector                             &recovered) const
-  {
-    samples.complete(at_points);
-    recovered.zero_out_ghost_values();
-    for (unsigned int n = 0; n < nodes.n_owned(); ++n)
-      if (wants(n))
-        std::fill_n(recovered.begin() + std::size_t(6) * n, 6, 0.);
-    // The polynomials of a patch's fits.
-    std::vector<Coefficients> coefficients;
-    const auto polynomial = [&](const Patch &patch, const Point<3> &x) {
-      SixNumbers sum = SixNumbers::Zero();
-      for (unsigned int f = 0; f < coefficients.size(); ++f)
-        sum += coefficients[f].transpose() *
-               monomials::at(patch.fits[f].degree,
-                             patch.fits[f].scale * (x - patch.fits[f].centre));
-      return sum;
-    };
-    for (const Patch &patch : patches)
-      {
-        coefficients.clear();
-        for (const Fit &fit : patch.fits)
-          {
-            const int    n = n_coefficients(fit.degree);
-            Coefficients right_side(n, 6);
-            right_side.setZero();
-            for (const unsigned int c : fit.cells)
-              for (unsigned int q = 0; const Point<3> &x : samples.points(c))
-                right_side +=
-                  weight(fit.scale * (x - fit.vertex), fit.decay) *
-                  monomials::at(fit.degree, fit.scale * (x - fit.centre)) *
-                  (six_numbers(at_points[samples.first_point(c) + q++]) -
-                   polynomial(patch, x))
-                    .transpose();
-            coefficients.emplace_back(n, 6);
-            coefficients.back().noalias() =
-              Eigen::Map<const Eigen::MatrixXd>(fit.inverse.data(), n, n) *
-              right_side;
-          }
-        for (const Target &target : patch.targets)
-          Eigen::Map<SixNumbers>(recovered.begin() +
-                                 std::size_t(6) * target.node) +=
-            target.weight * polynomial(patch,
-                                       discretization.node_position(
-                                         nodes.copy(target.node).node));
-      }
-    recovered.compress(dealii::VectorOperation::add);
-    recovered.update_ghost_values();
   }
 } // namespace corotet

@@ -39,7 +39,7 @@ namespace corotet
   {
     read = samples.cells_for_others();
     for (const Patch &patch : patches)
-      for (const Fit &fit : patch.fits)
+      for (const StressFit &fit : patch.fits)
         for (const unsigned int c : fit.cells)
           if (c < discretization.n_local_cells())
             read.push_back(c);

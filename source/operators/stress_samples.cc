@@ -54,8 +54,7 @@ namespace corotet
       {
         for (unsigned int q = 0; q < n_points; ++q)
           positions.push_back(
-            point_geometry(discretization, reference.stiffness_rule, c, q)
-              .position);
+            point_position(discretization, reference.stiffness_rule, c, q));
         const unsigned int material =
           nodes.copy(nodes.cell_nodes(c)[0]).material;
         for (unsigned int k = 0; k < 4; ++k)

@@ -72,8 +72,7 @@ namespace corotet
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       for (unsigned int q = 0; q < rule.weights.size(); ++q)
         {
-          const Point<3> x =
-            point_geometry(discretization, rule, c, q).position;
+          const Point<3> x = point_position(discretization, rule, c, q);
           positions.insert(positions.end(), {x[0], x[1], x[2]});
         }
     const std::vector<std::uint8_t> types(list.n_rows, 1);

@@ -60,12 +60,13 @@ namespace
         field.law().evaluate(u, c, rule, raw.data());
         for (unsigned int q = 0; q < raw.size(); ++q)
           {
-            const PointGeometry point =
-              point_geometry(body.discretization, rule, c, q);
-            const auto exact = wave.stress(point.position);
-            raw_square += point.volume * square(raw[q] - exact);
+            const double volume =
+              point_geometry(body.discretization, rule, c, q).volume;
+            const auto exact =
+              wave.stress(point_position(body.discretization, rule, c, q));
+            raw_square += volume * square(raw[q] - exact);
             recovered_square +=
-              point.volume *
+              volume *
               square(field.recovered(c, {&rule.values(q, 0), element.n_nodes}) -
                      exact);
           }

@@ -19,12 +19,17 @@ namespace corotet
     dealii::Tensor<2, 3> inverse_jacobian;
     /// The point's share of the cell's volume [m^3].
     double volume;
-    /// In m.
-    dealii::Point<3> position;
   };
 
   PointGeometry
   point_geometry(const Discretization                &discretization,
+                 const ReferenceElement::PointValues &rule,
+                 const unsigned int                   cell,
+                 const unsigned int                   q);
+
+  /// Of a point of a rule in a cell at rest [m].
+  dealii::Point<3>
+  point_position(const Discretization                &discretization,
                  const ReferenceElement::PointValues &rule,
                  const unsigned int                   cell,
                  const unsigned int                   q);

@@ -13,6 +13,36 @@
 
 namespace corotet
 {
+  /// A polynomial that is fitted to stress by weighted least squares.
+  struct StressFit
+  {
+    /// In the variables scale (x - centre), in which the cells are round.
+    unsigned int         degree;
+    dealii::Point<3>     centre;
+    dealii::Tensor<2, 3> scale;
+    /// Points at the distance r in these variables from the vertex count
+    /// (1/2 + r)^-decay times; decay is 0, 2 or 4.
+    dealii::Point<3>          vertex;
+    unsigned int              decay;
+    std::vector<unsigned int> cells;
+    /// Of the matrix of the normal equations, row by row.
+    std::vector<double> inverse;
+    /// Sums over the samples of its monomials times those of the patch's first
+    /// fit, row by row, if it is fitted to what that one leaves over.
+    std::vector<double> products_with_first;
+
+    /// Of a sample.
+    double
+    weight(const dealii::Point<3> &x) const
+    {
+      if (decay == 0)
+        return 1;
+      const double distance = 0.5 + (scale * (x - vertex)).norm();
+      const double square   = distance * distance;
+      return 1 / (decay == 2 ? square : square * square);
+    }
+  };
+
   /**
    * Superconvergent patch recovery of stress (Zienkiewicz, Zhu 1992,
    * @cite zienkiewicz1992), with wider patches at the surface.
@@ -90,22 +120,6 @@ namespace corotet
       double       weight;
     };
 
-    /// A polynomial that is fitted to stress by weighted least squares.
-    struct Fit
-    {
-      /// In the variables scale (x - centre), in which the cells are round.
-      unsigned int         degree;
-      dealii::Point<3>     centre;
-      dealii::Tensor<2, 3> scale;
-      /// Points at the distance r in these variables from the vertex count
-      /// (1/2 + r)^-decay times; decay is 0, 2 or 4.
-      dealii::Point<3> vertex;
-      unsigned int     decay;
-      /// Of the matrix of the normal equations.
-      std::vector<double>       inverse;
-      std::vector<unsigned int> cells;
-    };
-
     struct Patch
     {
       /// Of the discretization.
@@ -115,8 +129,8 @@ namespace corotet
       bool                      is_preferred;
       std::vector<unsigned int> cells;
       /// Each of what those before leave over; the polynomial is their sum.
-      std::vector<Fit>    fits;
-      std::vector<Target> targets;
+      std::vector<StressFit> fits;
+      std::vector<Target>    targets;
     };
 
     void
@@ -133,7 +147,7 @@ namespace corotet
     /// The polynomial of a degree for some cells around a vertex, of a
     /// smallest_eigenvalue of the normal equations over the largest; none if
     /// that is not reached.
-    std::optional<Fit>
+    std::optional<StressFit>
     fit(const unsigned int               vertex,
         const std::vector<unsigned int> &cells,
         const unsigned int               degree,
