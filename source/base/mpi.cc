@@ -50,6 +50,10 @@ namespace corotet
                   "",
                   error.path1().string() + ": " + error.code().message()};
         }
+      catch (const std::ios_base::failure &error)
+        {
+          return {3, "", error.what()};
+        }
       catch (const std::exception &error)
         {
           if (!is_lack_of_memory(error))

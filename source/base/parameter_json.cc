@@ -3,6 +3,7 @@
 
 #include <corotet/base/parameter_trees.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -142,7 +142,7 @@ namespace corotet
   std::vector<ParameterStatement>
   read_json_statements(const std::string &path, std::istream &file)
   {
-    const std::string      text{std::istreambuf_iterator<char>(file), {}};
+    const std::string      text = read_to_end(file, path);
     Places                 places{path, {}};
     nlohmann::ordered_json tree;
     try

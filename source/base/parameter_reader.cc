@@ -5,6 +5,7 @@
 #include <corotet/base/parameter_reader.h>
 #include <corotet/base/parameter_trees.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -115,6 +116,7 @@ namespace corotet
             statement(concatenated, path, first_number, outer_depth, depth);
             concatenated.clear();
           }
+        check_read_to_end(file, path);
         statement(concatenated, path, first_number, outer_depth, depth);
         if (sections.size() > outer_depth)
           refuse_statement(

@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/parameter_trees.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -239,7 +240,7 @@ namespace corotet
   std::vector<ParameterStatement>
   read_xml_statements(const std::string &path, std::istream &file)
   {
-    const std::string           text{std::istreambuf_iterator<char>(file), {}};
+    const std::string           text = read_to_end(file, path);
     boost::property_tree::ptree tree;
     const Places                places = check_xml(path, text);
     std::istringstream          stream(text);

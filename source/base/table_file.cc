@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/table_file.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -126,8 +127,7 @@ namespace corotet
         rows.values.push_back(checked_number(texts[1], place));
         check_slope(rows, place);
       }
-    if (file.bad())
-      throw MachineError(path + ": cannot be read to its end");
+    check_read_to_end(file, path);
     if (rows.arguments.size() < 2)
       throw InputError("",
                        fmt::format("{}: a table has at least 2 rows: found {}",

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -38,6 +39,33 @@ namespace corotet
     throw MachineError(path + ": " + what +
                        " cannot be written (is the disk full, or permission "
                        "missing?)");
+  }
+
+  std::string
+  read_whole_file(const std::string &path)
+  {
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+      throw MachineError(path + ": cannot be read (permission?)");
+    return read_to_end(file, path);
+  }
+
+  std::string
+  read_to_end(std::istream &file, const std::string &path)
+  {
+    std::string            text;
+    std::array<char, 8192> part;
+    while (file.read(part.data(), part.size()) || file.gcount() > 0)
+      text.append(part.data(), file.gcount());
+    check_read_to_end(file, path);
+    return text;
+  }
+
+  void
+  check_read_to_end(const std::istream &file, const std::string &path)
+  {
+    if (file.bad())
+      throw MachineError(path + ": cannot be read to its end");
   }
 
   void

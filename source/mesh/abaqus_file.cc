@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/file_names.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/mesh/abaqus_file.h>
 
 #include <fmt/format.h>
@@ -118,8 +119,7 @@ namespace corotet::abaqus
         finish_keyword();
         begin_keyword(next, depth);
       }
-    if (stream.bad())
-      throw MachineError(file + ": cannot be read to its end");
+    check_read_to_end(stream, file);
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/mesh/check_gmsh_file.h>
 
 #include <fmt/format.h>
@@ -10,8 +11,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <vector>
@@ -21,17 +20,6 @@ namespace corotet
   namespace
   {
     namespace fs = std::filesystem;
-
-    std::string
-    content_of(const std::string &path)
-    {
-      std::ifstream stream(path, std::ios::binary);
-      if (!stream)
-        throw MachineError(path + ": cannot be read (permission?)");
-      return {std::istreambuf_iterator<char>(stream), {}};
-    }
-
-
 
     // A part of a .geo: a word, the content of a text, or any other character.
     struct Token
@@ -147,7 +135,7 @@ namespace corotet
                                        path,
                                        max_include_depth));
         file                   = path;
-        const std::string text = content_of(path);
+        const std::string text = read_whole_file(path);
         // It ends comments for gmsh.
         if (text.find('\0') != std::string::npos)
           throw InputError("",
@@ -283,7 +271,7 @@ namespace corotet
   double
   check_msh(const std::string &path)
   {
-    const std::string text   = content_of(path);
+    const std::string text   = read_whole_file(path);
     const std::string format = "$MeshFormat";
     std::size_t       begin  = 0;
     while (text.compare(begin, 9, "$Comments") == 0)

@@ -216,7 +216,7 @@ namespace corotet
 
 
 
-  void
+  double
   check_cells_on_ranks(const MeshPart    &part,
                        const std::string &origin,
                        const unsigned int element_degree,
@@ -227,7 +227,7 @@ namespace corotet
       [&](const unsigned int c) { return part.numbers[c]; },
       origin,
       comm);
-    check_curved_cells(part, origin, element_degree, comm);
+    return check_curved_cells(part, origin, element_degree, comm);
   }
 
 

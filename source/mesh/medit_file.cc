@@ -5,6 +5,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/mesh/mesh_readers.h>
 
 #include <fmt/format.h>
@@ -95,6 +96,7 @@ namespace corotet
           {
             if (!std::getline(file, line))
               {
+                check_read_to_end(file, path);
                 line.clear();
                 begin = end = 0;
                 return;

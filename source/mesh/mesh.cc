@@ -267,10 +267,11 @@ namespace corotet
 
     ScopedTimer timer(seconds_partition);
     MeshPart   &part = mesh.part;
-    check_cells_on_ranks(part, mesh.origin, element_degree, comm);
+    double      least_determinant =
+      check_cells_on_ranks(part, mesh.origin, element_degree, comm);
     sort_along_curve(part, comm);
     const auto spread_out = [&] {
-      MeshStatistics statistics(part, mesh.origin, element_degree, comm);
+      MeshStatistics statistics(part, least_determinant, element_degree, comm);
       local_mesh = with_cells_beside(std::move(part), mesh.origin, comm);
       return statistics;
     };
@@ -283,7 +284,8 @@ namespace corotet
         local_mesh = {};
         refine_uniformly(part, n_refinements, comm);
         // Vertices have moved to where the curves have them.
-        check_cells_on_ranks(part, mesh.origin, element_degree, comm);
+        least_determinant =
+          check_cells_on_ranks(part, mesh.origin, element_degree, comm);
         sort_along_curve(part, comm);
         statistics = spread_out();
       }

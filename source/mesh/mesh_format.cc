@@ -3,6 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/mesh/hdf5_mesh.h>
 #include <corotet/mesh/mesh_format.h>
 
@@ -240,6 +241,7 @@ namespace corotet
               last        = std::move(line);
             }
         }
+      check_read_to_end(file, path);
       // The matching of longer lines could fill the stack.
       constexpr std::size_t   most = 100;
       static const std::regex whole("[+-]\\d+ \\d+");
@@ -355,6 +357,7 @@ namespace corotet
         else if (!word.empty() && format != MeshFormat::nastran)
           last.clear();
       }
+    check_read_to_end(file, path);
     if (last.empty())
       throw InputError("",
                        fmt::format("{}: the file does not end with {}: is the "

@@ -3,8 +3,6 @@
 
 #include "mesh_statistics.h"
 
-#include <corotet/mesh/curved_cells.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <fmt/format.h>
@@ -14,20 +12,19 @@
 namespace corotet
 {
   MeshStatistics::MeshStatistics(const MeshCells   &part,
-                                 const std::string &origin,
+                                 const double       least_determinant,
                                  const unsigned int element_degree,
                                  const MPI_Comm     comm)
     : quality(mesh_quality(part, comm))
     , n_cells(dealii::Utilities::MPI::sum(part.cells.size(), comm))
     , geometry_degree(part.geometry_degree)
     , element_degree(element_degree)
+    , least_determinant(least_determinant)
   {
-    if (geometry_degree == 1)
-      return;
-    least_determinant = check_curved_cells(part, origin, element_degree, comm);
-    n_curved =
-      dealii::Utilities::MPI::sum(part.curved_nodes.size() / part.n_map_nodes(),
-                                  comm);
+    if (geometry_degree > 1)
+      n_curved = dealii::Utilities::MPI::sum(part.curved_nodes.size() /
+                                               part.n_map_nodes(),
+                                             comm);
   }
 
 

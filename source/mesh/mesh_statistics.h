@@ -8,8 +8,6 @@
 #include <corotet/mesh/local_mesh.h>
 #include <corotet/mesh/mesh_quality.h>
 
-#include <string>
-
 namespace corotet
 {
   /// What the log says of a mesh that ranks have parts of, but for the number
@@ -18,7 +16,7 @@ namespace corotet
   {
     /// Collective.
     MeshStatistics(const MeshCells   &part,
-                   const std::string &origin,
+                   const double       least_determinant,
                    const unsigned int element_degree,
                    const MPI_Comm     comm);
 
@@ -28,7 +26,8 @@ namespace corotet
     MeshQuality  quality;
     std::size_t  n_cells, n_curved = 0;
     unsigned int geometry_degree, element_degree;
-    double       least_determinant = 1;
+    /// What check_cells_on_ranks() returns.
+    double least_determinant;
   };
 
   /// Vertices of the mesh, of all ranks. Collective.

@@ -6,6 +6,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,6 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 namespace corotet
@@ -29,10 +28,7 @@ namespace corotet
     MshNumbers(const std::string &path, const std::string &origin)
       : origin(origin)
     {
-      std::ifstream stream(path, std::ios::binary);
-      if (!stream)
-        throw MachineError(path + ": cannot be read (permission?)");
-      text.assign(std::istreambuf_iterator<char>(stream), {});
+      text = read_whole_file(path);
     }
 
     // Goes behind the line that begins the next section; its name, without

@@ -5,6 +5,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/mesh/mesh_readers.h>
 
 #include <fmt/format.h>
@@ -158,6 +159,7 @@ namespace corotet
             card      = {place, line.name, line.fields};
             is_at_end = line.name == "ENDDATA";
           }
+        check_read_to_end(file, path);
         add(card);
       }
 

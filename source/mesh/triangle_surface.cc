@@ -3,12 +3,11 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/mesh/triangle_surface.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <numeric>
 
@@ -107,11 +106,8 @@ namespace corotet
   read_triangle_file(const std::string &path, const MeshFormat format)
   {
     TriangleSurface surface;
-    surface.origin = path;
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-      throw MachineError(path + ": cannot be read (permission?)");
-    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    surface.origin    = path;
+    std::string bytes = read_whole_file(path);
     // Text has no zeros.
     if (bytes.starts_with(byte_order_mark) &&
         bytes.find('\0') == std::string::npos)

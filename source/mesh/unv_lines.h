@@ -6,6 +6,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 
 #include <fmt/format.h>
 
@@ -40,7 +41,9 @@ namespace corotet
     next()
     {
       ++place.line;
-      return static_cast<bool>(std::getline(file, line));
+      const bool is_there = static_cast<bool>(std::getline(file, line));
+      check_read_to_end(file, place.path);
+      return is_there;
     }
 
     // A line that has to be there.

@@ -20,7 +20,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <system_error>
@@ -193,12 +192,8 @@ namespace corotet
     Json
     read_content(const std::string &file)
     {
-      std::ifstream     stream(file, std::ios::binary);
-      const std::string text{std::istreambuf_iterator<char>(stream), {}};
-      // Not the checkpoint's fault: it may be good.
-      if (!stream)
-        throw MachineError(file + ": the checkpoint cannot be read (is "
-                                  "permission missing?)");
+      // If that fails it is not the checkpoint's fault, which may be good.
+      const std::string text = read_whole_file(file);
       try
         {
           Json              content  = parse_content(text, file);

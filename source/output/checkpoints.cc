@@ -20,6 +20,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <regex>
 #include <system_error>
@@ -181,8 +182,12 @@ namespace corotet
       {
         std::smatch       match;
         const std::string file = entry.path().filename().string();
-        if (std::regex_match(file, match, name))
-          result.push_back(std::stoul(match[1]));
+        if (!std::regex_match(file, match, name))
+          continue;
+        // No run has written one with a higher number.
+        const unsigned long step = std::stoul(match[1]);
+        if (step <= std::numeric_limits<unsigned int>::max())
+          result.push_back(step);
       }
     std::sort(result.begin(), result.end(), std::greater<>());
     return result;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <system_error>
 
 namespace corotet
@@ -102,19 +103,22 @@ namespace corotet
     on_root(comm, [&] {
       check_files();
       write_index();
-      // Nobody refers to them any more.
-      const std::regex result(R"(step_(\d{6,10})\.h5(\.tmp)?)");
-      std::vector<std::filesystem::path> later;
+      // Nobody refers to them any more: later results, and blocks with some.
+      const std::regex result(R"(step_(\d{6,10})\.h5(\.tmp)?)"),
+        block(R"(block_(\d+_)?\d{6,10}\.h5(\.tmp)?)");
+      const std::set<std::string>        of_blocks = block_files();
+      std::vector<std::filesystem::path> left_over;
       for (const auto &entry :
            std::filesystem::directory_iterator(directory + "/" + name))
         {
           const std::string file = entry.path().filename().string();
           std::smatch       match;
-          if (std::regex_match(file, match, result) &&
-              std::stoull(match[1]) > step)
-            later.push_back(entry.path());
+          if (std::regex_match(file, match, result) ?
+                std::stoull(match[1]) > step :
+                std::regex_match(file, block) && !of_blocks.contains(file))
+            left_over.push_back(entry.path());
         }
-      for (const auto &path : later)
+      for (const auto &path : left_over)
         std::filesystem::remove(path);
     });
   }
@@ -187,8 +191,19 @@ namespace corotet
                  error ? error.message() : fmt::format("{} bytes", size),
                  fmt::format("are its {} bytes", result_sizes[i]));
       }
-    // Blocks, and those that they refer to.
-    std::size_t first = 0;
+    for (const std::string &file : block_files())
+      {
+        const std::string path = directory + "/" + name + "/" + file;
+        if (!std::filesystem::is_regular_file(path))
+          refuse(path, "no such file", "is what the run has written");
+      }
+  }
+
+  std::set<std::string>
+  VtkhdfSeries::block_files() const
+  {
+    std::set<std::string> files;
+    std::size_t           first = 0;
     for (const DataBlock &block : blocks)
       {
         std::size_t n = 1;
@@ -196,16 +211,12 @@ namespace corotet
           {
             n *= n_joined;
             for (std::size_t i = 0; i < block.n_results; i += n)
-              {
-                const std::string path =
-                  directory + "/" + name + "/" +
-                  DataBlock{level, result_steps[first + i], n}.file_name();
-                if (!std::filesystem::is_regular_file(path))
-                  refuse(path, "no such file", "is what the run has written");
-              }
+              files.insert(
+                DataBlock{level, result_steps[first + i], n}.file_name());
           }
         first += block.n_results;
       }
+    return files;
   }
 
   std::string

@@ -20,6 +20,11 @@ namespace corotet
   {
     using dealii::Tensor;
 
+    // What is left of omega^2 in sums that are so much larger has three digits
+    // less than numbers have [-].
+    constexpr double share_of_round_off =
+      1000 * std::numeric_limits<double>::epsilon();
+
     std::vector<Vector>
     rigid_body_modes(const Discretization &disc, const RigidMotions &motions)
     {
@@ -110,7 +115,9 @@ namespace corotet
   {
     ScopedTimer timer(wall_times.solve);
     choose_shift();
-    const Eigenpairs pairs = solver.solve(parameters.modes.number, shift);
+    // Of a mode that deforms the body.
+    const double     with_strain = lowest;
+    const Eigenpairs pairs       = solver.solve(parameters.modes.number, shift);
     if (pairs.values.size() > rigid_motions.size())
       lowest = pairs.values[rigid_motions.size()];
     if (!rigid_motions.is_complete())
@@ -128,7 +135,18 @@ namespace corotet
     log_table();
     note_cut_group(pairs.values);
     for (unsigned int i = 0; i < computed.size(); ++i)
-      check(computed[i], i + 1);
+      {
+        check(computed[i], i + 1);
+        if (i >= rigid_motions.size() &&
+            computed[i].eigenvalue < share_of_round_off * with_strain)
+          log.warning(fmt::format(
+            "mode {} ({:.6g} Hz): omega^2 is {:.1g} times that of the lowest "
+            "mode that deforms the body, which is as little as round-off: its "
+            "frequency may be wrong",
+            i + 1,
+            computed[i].frequency,
+            computed[i].eigenvalue / with_strain));
+      }
   }
 
   void

@@ -202,11 +202,16 @@ namespace corotet
         log.count("step made in parts", "steps made in parts");
       }
     if (is_done() && adaptive)
-      log.line(fmt::format(
-        "Adaptive step: {} steps were repeated, {} were too inaccurate with the "
-        "smallest step",
-        adaptive->n_rejected(),
-        adaptive->n_too_inaccurate()));
+      {
+        log.line(fmt::format("Adaptive step: repeated steps: {}",
+                             adaptive->n_rejected()));
+        if (adaptive->n_too_inaccurate() > 0)
+          log.warning(
+            fmt::format("{} steps are less accurate than \"Adaptive "
+                        "step/Target error\": none may be shorter than "
+                        "\"Smallest step\"",
+                        adaptive->n_too_inaccurate()));
+      }
     return true;
   }
 } // namespace corotet

@@ -5,6 +5,7 @@
 #include <corotet/base/expression.h>
 #include <corotet/base/formula_functions.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/studies/check.h>
 
 #include <deal.II/base/utilities.h>
@@ -119,6 +120,7 @@ namespace corotet
         if (table.rows.back().size() != table.columns.size())
           throw MachineError(path + ": the table has an incomplete row");
       }
+    check_read_to_end(file, path);
     return table;
   }
 

@@ -3,6 +3,7 @@
 
 #include <corotet/base/programs.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/forces/force_kind.h>
 #include <corotet/laws/law_kind.h>
 #include <corotet/mesh/mesh_format.h>
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 namespace corotet
@@ -37,9 +37,8 @@ namespace corotet
            fs::directory_iterator(folder, error))
         if (entry.path().extension() == ".prm")
           {
-            std::ifstream     file(entry.path());
-            const std::string text(std::istreambuf_iterator<char>(file), {});
-            cases[entry.path().stem().string()] = first_sentence(text);
+            cases[entry.path().stem().string()] =
+              first_sentence(read_whole_file(entry.path().string()));
           }
       if (cases.empty())
         return "Ready cases: none is installed\n";

@@ -21,9 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace corotet
 {
@@ -36,10 +34,7 @@ namespace corotet
     read_file(const std::string &path, const MPI_Comm comm)
     {
       return from_root(comm, [&] {
-        std::ifstream      file(path);
-        std::ostringstream content;
-        content << file.rdbuf();
-        return content.str();
+        return std::filesystem::exists(path) ? read_whole_file(path) : "";
       });
     }
 
@@ -81,7 +76,9 @@ namespace corotet
     for (StudyCase one : cases)
       {
         one.refinements = cases.front().refinements;
-        one.time_step   = cases.front().time_step;
+        // The shortest one, of the most steps.
+        if (one.time_step)
+          one.time_step = parameters.time_steps.back();
         if (!checked.insert(one.name()).second)
           continue;
         const StudyRun run(command.parameter_file,
@@ -311,9 +308,7 @@ namespace corotet
         compare_with_finer_run(result, *run);
         if (!failure_of_finer_run.empty())
           return result;
-        for (const auto &quantity : quantities)
-          file["finer_quantities"].push_back(
-            quantity.reference.value_or(std::nan("")));
+        file["finer_quantities"] = finer_quantities;
       }
     file["result"] = result_to_json(result);
     on_root(comm, [&] {

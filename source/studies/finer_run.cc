@@ -7,6 +7,8 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/studies/convergence_study.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -99,9 +101,10 @@ namespace corotet
         failure_of_finer_run = "the finer run has failed: " + result.message;
         return nullptr;
       }
+    finer_quantities = result.quantities;
     for (unsigned int i = 0; i < quantities.size(); ++i)
       if (!quantities[i].reference)
-        quantities[i].reference = result.quantities[i];
+        quantities[i].reference = finer_quantities[i];
     if (const Simulation *simulation = finer->simulation())
       finer_norms = error_norms(simulation->body().discretization,
                                 simulation->body().materials,
@@ -124,6 +127,22 @@ namespace corotet
     const Simulation *coarse = run.simulation();
     if (fine == nullptr)
       return;
+    const double volume      = coarse->body().discretization.volume(),
+                 fine_volume = fine->body().discretization.volume();
+    // More than round-off.
+    if (!has_warned_of_volume &&
+        std::abs(volume - fine_volume) > 1e-9 * fine_volume)
+      {
+        has_warned_of_volume = true;
+        log.warning(fmt::format(
+          "{}: the body has {:.6g} m^3, in the finer run {:.6g} m^3: as "
+          "refinements follow a curved surface, runs are of bodies of other "
+          "shapes, which errors against the finer run do not show as they are; "
+          "an exact solution does, or quantities",
+          result.study_case.name(),
+          volume,
+          fine_volume));
+      }
     const TransferredField field(coarse->body().discretization,
                                  coarse->displacement(),
                                  fine->body().discretization);

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace corotet
 {
@@ -139,6 +141,11 @@ namespace corotet
     if (!sorted(time_steps, std::greater<>()))
       throw InputError(section + "Time steps",
                        "the values do not decrease; each is allowed once");
+    if (time_steps.size() > 1 && time_steps.back() == 0)
+      throw InputError(section + "Time steps",
+                       "found 0 among several; allowed: 0 alone, for the "
+                       "step that an explicit integrator chooses, or numbers "
+                       "above 0");
     // As a floating point number, which does not overflow.
     const double n_cases = 1. * choices(masses).size() *
                            choices(rotations).size() * degrees.size() *
@@ -183,7 +190,9 @@ namespace corotet
           {
             quantity.reference.reset();
           }
-        if (name.empty() || (value && !quantity.reference))
+        if (name.empty() ||
+            (value && !std::isfinite(quantity.reference.value_or(
+                        std::numeric_limits<double>::quiet_NaN()))))
           throw InputError(section + "Quantities",
                            fmt::format("found '{}'; allowed: 'name' or 'name: "
                                        "number'",

@@ -107,8 +107,12 @@ namespace corotet
            {"Convergence study", "Verification", "Checkpoint"})
         entries.erase(section);
       Json output;
-      for (const char *const entry :
-           {"Probes", "Stress probes", "Stress at probes", "Reactions"})
+      for (const char *const entry : {"Probes",
+                                      "Stress probes",
+                                      "Stress at probes",
+                                      "Reactions",
+                                      // Steps that the run chooses end there.
+                                      "Time between results"})
         output[entry] = entries.at("Output").at(entry);
       entries["Output"] = output;
       return entries;
@@ -141,6 +145,7 @@ namespace corotet
     for (const double value : result.quantities)
       object["quantities"].push_back(fmt::format("{}", value));
     object["steps"]             = result.steps;
+    object["mean_time_step"]    = result.mean_time_step;
     object["newton_iterations"] = result.newton_iterations;
     object["linear_iterations"] = result.linear_iterations;
     object["wall_times"]        = {result.wall_times.setup,
@@ -149,6 +154,7 @@ namespace corotet
                                    result.wall_times.output,
                                    result.total_wall_time};
     object["peak_memory_bytes"] = result.peak_memory_bytes;
+    object["worth_a_look"]      = result.worth_a_look;
     return object;
   }
 
@@ -169,12 +175,14 @@ namespace corotet
     for (const auto &value : object.at("quantities"))
       result.quantities.push_back(std::stod(value.get<std::string>()));
     result.steps             = object.at("steps");
+    result.mean_time_step    = object.at("mean_time_step");
     result.newton_iterations = object.at("newton_iterations");
     result.linear_iterations = object.at("linear_iterations");
     const Json &times        = object.at("wall_times");
     result.wall_times = {times.at(0), times.at(1), times.at(2), times.at(3)};
     result.total_wall_time   = times.at(4);
     result.peak_memory_bytes = object.at("peak_memory_bytes");
+    result.worth_a_look      = object.at("worth_a_look");
     return result;
   }
 
@@ -227,6 +235,10 @@ namespace corotet
                                    result.total_wall_time);
     if (result.errors)
       text += fmt::format(", L2 error {:.3e}", result.errors->error.L2);
+    if (!result.worth_a_look.empty())
+      text += fmt::format(", {} in rows/{}.log",
+                          result.worth_a_look,
+                          result.study_case.name());
     return result.status == "done" ? text :
                                      text + ", failed: " + result.message;
   }
@@ -256,6 +268,7 @@ namespace corotet
         analyse_modes(result);
       }
     result.peak_memory_bytes = peak_memory(comm);
+    result.worth_a_look      = log.counts();
     return result;
   }
 
@@ -274,7 +287,7 @@ namespace corotet
       parameters.simulation.time_integrator.selected().is_explicit();
     const OutputTimes times{is_explicit ? parameters.output.steps_between_rows :
                                           1,
-                            0.};
+                            parameters.output.time_between_results};
     const Json                        values = file.values();
     Checkpoints                       checkpoints(parameters.checkpoint,
                             path,
@@ -315,6 +328,9 @@ namespace corotet
         result.message = error.what();
       }
     take(result, last.summary);
+    if (result.steps > 0)
+      result.mean_time_step =
+        (last.summary.end_time - simulated->start_time()) / result.steps;
     result.newton_iterations = last.newton_iterations;
     result.linear_iterations = last.linear_iterations;
     if (result.status == "done")

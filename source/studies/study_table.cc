@@ -110,9 +110,11 @@ namespace corotet
               order(values[j], values[i], results[j].h, results[i].h);
           if (is_shorter_step_of(fine, coarse))
             {
-              has_orders_in_time = true;
-              error.orders_in_time[i] =
-                order(values[j], values[i], *coarse.time_step, *fine.time_step);
+              has_orders_in_time      = true;
+              error.orders_in_time[i] = order(values[j],
+                                              values[i],
+                                              results[j].mean_time_step,
+                                              results[i].mean_time_step);
             }
         }
     errors.push_back(error);
@@ -157,7 +159,10 @@ namespace corotet
         row["degree"]      = one.degree;
         row["refinements"] = one.refinements;
         if (one.time_step)
-          row["time_step"] = *one.time_step;
+          {
+            row["time_step"]      = *one.time_step;
+            row["mean_time_step"] = result.mean_time_step;
+          }
         if (one.mass)
           row["mass"] = *one.mass;
         if (one.rotation)
@@ -205,6 +210,15 @@ namespace corotet
     std::vector<std::string> titles{"degree", "refinements"};
     if (first.time_step)
       titles.emplace_back("time step");
+    // Where some steps are not those asked for.
+    const bool has_mean_steps =
+      std::any_of(results.begin(), results.end(), [](const auto &result) {
+        return result.study_case.time_step && result.steps > 0 &&
+               std::abs(result.mean_time_step - *result.study_case.time_step) >
+                 1e-6 * result.mean_time_step;
+      });
+    if (has_mean_steps)
+      titles.emplace_back("mean step");
     if (first.mass)
       titles.emplace_back("mass");
     if (first.rotation)
@@ -232,6 +246,8 @@ namespace corotet
                                      fmt::format("{}", one.refinements)};
         if (one.time_step)
           row.push_back(fmt::format("{:.4g}", *one.time_step));
+        if (has_mean_steps)
+          row.push_back(fmt::format("{:.4g}", result.mean_time_step));
         if (one.mass)
           row.push_back(*one.mass);
         if (one.rotation)

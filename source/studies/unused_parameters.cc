@@ -58,6 +58,18 @@ namespace corotet
         values.at("Convergence study").at("Reference") != "finer run")
       note("Convergence study/Further refinements",
            "Convergence study/Reference");
+    if (type == RunType::convergence_study)
+      {
+        const std::string study = "Convergence study/";
+        if (is_study_of_modes)
+          note(study + "Time steps", study + "Run");
+        else if (steps.at("Type") == "static")
+          note(study + "Time steps", "Time integration/Type");
+        else if (steps.at("Adaptive step").at("Enabled") == "true")
+          note(study + "Time steps", adaptive + "Enabled");
+        if (values.at("Material").at("Type") != "corotational")
+          note(study + "Rotations", "Material/Type");
+      }
     const auto note_of_modes = [&](const std::string &entry) {
       lines.push_back(file.location(entry) + ": no effect on modes: \"" +
                       entry + "\"");

@@ -213,6 +213,20 @@ class Restarts(ProgramTest):
                         path.write_bytes(content)
         self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3")
 
+    def test_results_of_later_steps_go(self):
+        """From an earlier checkpoint on: neither results of later steps stay nor blocks that refer to some."""
+        entries = {**SHORT, "Time integration/Time step": "0.004", "Checkpoint/Steps between checkpoints": "10", "Checkpoint/Keep": "20"}
+        self.run_entries(entries, "--set", "Time integration/End time = 0.28")
+        run = self.folder / "run"
+        self.assertTrue((run / "solution" / "block_000032.h5").exists())
+        for file in (run / "checkpoint").iterdir():
+            if not file.name.startswith("step_000010."):
+                file.unlink()
+        (run / "solution" / "block_000032.h5.tmp").write_bytes(b"of a run that was killed")
+        self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.08")
+        self.assertEqual(sorted(file.name for file in (run / "solution").iterdir()),
+                         ["mesh.h5", *(f"step_{step:06}.h5" for step in range(21))])
+
     def test_refusals_change_no_file(self):
         """Neither do those that are found when the checkpoint has been read."""
         self.run_entries(SHORT)

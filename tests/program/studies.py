@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from support import ProgramTest, parameter_text, read_summary
+from support import ProgramTest, parameter_text, read_history, read_summary
 from restarts import contents
 
 BOX = """
@@ -237,6 +237,38 @@ class Studies(ProgramTest):
         orders = [row["L2_order_in_time"] for row in self.rows()]
         for order, expected in zip(orders[1:], (math.log2(255 / 63), math.log2(63 / 15))):
             self.assertAlmostEqual(float(order), expected, delta=0.1)
+
+    def test_steps_that_end_at_results(self):
+        """Adaptive steps end at multiples of Time between results, as those of a single run: this load lasts a hundredth of the time."""
+        entries = {**SMALL, "Discretization/Degree": "1", "Time integration/Type": "Newmark", "Time integration/Time step": "0.01", "Time integration/Adaptive step/Enabled": "true",
+                   "Loads/Gravity": "0; 0; -10 * half_sine(t, 0.7, 0.71)", "Output/Time between results": "0.005",
+                   "Convergence study/Quantities": "step, external_work"}
+        for kind, directory in (("convergence study", "out"), ("simulation", "single")):
+            (self.folder / "case.prm").write_text(parameter_text({**entries, "Type": kind}), encoding="utf-8")
+            self.run_program("case.prm", "--output", directory)
+        (row,) = self.rows()
+        last = read_history(self.folder / "single")[-1]
+        self.assertEqual(float(row["step"]), float(last["step"]))
+        self.assertGreater(float(row["external_work"]), 0)
+        self.assertEqual(float(row["external_work"]), float(last["external_work"]))
+
+    def test_lists_without_effect(self):
+        run = self.run_small("Convergence study/Time steps = 1, 0.5", "Convergence study/Rotations = cell centre; quadrature points")
+        for entry, choice in (("Time steps", '"Time integration/Type" is \'static\''), ("Rotations", '"Material/Type" is \'linear\'')):
+            self.assertRegex(run.stdout, f"warning: [^\n]*no effect, as {choice}: Convergence study/{entry}\n")
+
+    def test_restart_with_a_value_less(self):
+        """What quantities are compared with comes from the finer run again."""
+        finer = ("Convergence study/Reference = finer run", "Convergence study/Refinements = 0, 1")
+        self.run_small(*finer, "Convergence study/Quantities = elastic_energy: -123")
+        self.check_restart(*finer, "Convergence study/Quantities = elastic_energy")
+
+    def test_finer_run_of_another_body(self):
+        """New vertices lie on the sphere, so that runs are of other volumes."""
+        (self.folder / "ball.geo").write_text('SetFactory("OpenCASCADE");\nSphere(1) = {0, 0, 0, 1};\nPhysical Volume("ball") = {1};\n'
+                                              'Physical Surface("skin") = {1};\nMeshSize{:} = 1;\n', encoding="utf-8")
+        ball = ("Mesh/Type = gmsh", "Mesh/gmsh/File = ball.geo", "Boundary conditions/Fixed = skin", "Convergence study/Reference = finer run")
+        self.assertRegex(self.run_small(*ball).stdout, r"warning: degree_1_refinements_0: the body has [\d.]+ m\^3, in the finer run [\d.]+ m\^3")
 
     def test_modes(self):
         """Frequencies against a given one: of a clamped bar that cannot strain laterally, c / (4 L), orders 2 p."""

@@ -25,7 +25,14 @@ namespace
     result.cells      = 5 * std::pow(8, refinements);
     result.h          = std::pow(0.5, refinements);
     const double e    = std::pow(result.h, degree);
-    const double t    = time_step ? *time_step * *time_step : 1.;
+    if (time_step)
+      {
+        // Of a run of 1 s, in steps that divide it.
+        result.steps          = std::ceil(1 / *time_step);
+        result.mean_time_step = 1. / result.steps;
+      }
+    const double t =
+      time_step ? result.mean_time_step * result.mean_time_step : 1.;
     result.errors =
       ErrorNorms{{e * result.h * t, e * t, 2 * e * t}, {1., 2., 3.}};
     result.quantities = {7. + e};
@@ -70,8 +77,26 @@ TEST(StudyTable, OrdersInTime)
   EXPECT_TRUE(contains(csv, "L2_error,L2_order,L2_order_in_time"));
   // Degree 2 in space, order 2 in time: only one of them differs.
   EXPECT_TRUE(
-    contains(csv, "2,1,0.5,\"done\",40,0,0,0.5,1,2,3,0.03125,3,nan,"));
-  EXPECT_TRUE(contains(csv, "2,0,0.25,\"done\",5,0,0,1,1,2,3,0.0625,nan,2,"));
+    contains(csv, "2,1,0.5,0.5,\"done\",40,0,0,0.5,1,2,3,0.03125,3,nan,"));
+  EXPECT_TRUE(
+    contains(csv, "2,0,0.25,0.25,\"done\",5,0,0,1,1,2,3,0.0625,nan,2,"));
+  EXPECT_FALSE(contains(table.lines()[0], "mean step"));
+}
+
+// Of steps that are shortened so that they divide the time, and none of two
+// runs of the same number of steps.
+TEST(StudyTable, OrdersInTimeOfStepsThatWereMade)
+{
+  const StudyTable table(
+    {made_up(2, 0, 0.6), made_up(2, 0, 0.5), made_up(2, 0, 0.3)}, {});
+  const std::string csv = table.csv();
+  EXPECT_TRUE(
+    contains(csv, "2,0,0.6,0.5,\"done\",5,0,0,1,1,2,3,0.25,nan,nan,"));
+  EXPECT_TRUE(
+    contains(csv, "2,0,0.5,0.5,\"done\",5,0,0,1,1,2,3,0.25,nan,nan,"));
+  EXPECT_TRUE(
+    contains(csv, "2,0,0.3,0.25,\"done\",5,0,0,1,1,2,3,0.0625,nan,2,"));
+  EXPECT_TRUE(contains(table.lines()[0], "mean step"));
 }
 
 // An error that stays, and ones that are too small to tell.
@@ -121,6 +146,8 @@ TEST(StudyTable, KeptResult)
   result.quantities        = {0.1, std::nan("")};
   result.wall_times        = {1, 2, 3, 4};
   result.linear_iterations = 17;
+  result.mean_time_step    = 0.25;
+  result.worth_a_look      = "2 warnings";
   const StudyResult again  = result_from_json(result.study_case,
                                              nlohmann::ordered_json::parse(
                                                result_to_json(result).dump()));
@@ -129,4 +156,6 @@ TEST(StudyTable, KeptResult)
   EXPECT_TRUE(std::isnan(again.quantities[1]));
   EXPECT_EQ(again.errors->error.H1, result.errors->error.H1);
   EXPECT_EQ(again.study_case, result.study_case);
+  EXPECT_EQ(again.mean_time_step, 0.25);
+  EXPECT_EQ(again.worth_a_look, "2 warnings");
 }

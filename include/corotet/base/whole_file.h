@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <istream>
 #include <string>
 
 namespace corotet
@@ -18,6 +19,21 @@ namespace corotet
                    const std::string &text,
                    const std::string &what,
                    const bool         durable = false);
+
+  /// The content of a file. Throws MachineError if it cannot be read, or not to
+  /// its end.
+  std::string
+  read_whole_file(const std::string &path);
+
+  /// What is left of the file @p path. Throws MachineError if it cannot be read
+  /// to its end.
+  std::string
+  read_to_end(std::istream &file, const std::string &path);
+
+  /// Throws MachineError if reading the file @p path has failed: that is no end
+  /// of it.
+  void
+  check_read_to_end(const std::istream &file, const std::string &path);
 
   /// Opens @p file at @p path to write on after its first @p size bytes, which
   /// must be there; what follows them goes. Throws MachineError.

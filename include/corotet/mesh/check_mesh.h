@@ -37,8 +37,9 @@ namespace corotet
   check_vertices(const SerialMesh &mesh);
 
   /// The part of check_mesh() that looks at volumes and folds, of a mesh that
-  /// is spread over the ranks. Collective.
-  void
+  /// is spread over the ranks. Returns what check_curved_cells() does.
+  /// Collective.
+  double
   check_cells_on_ranks(const MeshPart    &part,
                        const std::string &origin,
                        const unsigned int element_degree,

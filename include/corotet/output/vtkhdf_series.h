@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,9 @@ namespace corotet
     /// of a result has another size. On rank 0.
     void
     check_files() const;
+    /// Names of the files of all blocks, and of those that they refer to.
+    std::set<std::string>
+    block_files() const;
     /// Replaces the last blocks by one, as long as there are enough of the same
     /// level. On rank 0.
     void

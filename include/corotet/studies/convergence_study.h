@@ -100,12 +100,17 @@ namespace corotet
     std::string                            directory;
     std::unique_ptr<StudyRun>              finer;
     FieldNorms                             finer_norms;
+    /// Quantities of the finer run, once it is done; also of those that have a
+    /// value to be compared with.
+    std::vector<double> finer_quantities;
     /// Empty if it has not failed.
     std::string failure_of_finer_run;
     /// Sizes of the body's parts in the first run of each degree, and whether
     /// they have been warned of.
     std::map<unsigned int, std::map<std::string, double>> first_sizes;
     bool has_warned_of_parts = false;
+    /// Whether volumes that differ have been warned of.
+    bool has_warned_of_volume = false;
     /// Of the runs that were not kept from an earlier start.
     unsigned int n_computed = 0;
   };

@@ -42,13 +42,18 @@ namespace corotet
     /// failed.
     std::vector<double> quantities;
 
-    unsigned int steps             = 0;
+    unsigned int steps = 0;
+    /// The time that the run is long, over its steps [s]: not the one asked for
+    /// where that does not divide it.
+    double       mean_time_step    = 0;
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
     WallTimes    wall_times;
     double       total_wall_time = 0;
     /// Over all ranks.
     std::size_t peak_memory_bytes = 0;
+    /// What its log counts: "2 warnings, 5 steps made in parts".
+    std::string worth_a_look;
   };
 
   /// For the log: its size, what it took, and how it ended.

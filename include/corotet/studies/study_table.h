@@ -14,7 +14,7 @@ namespace corotet
   /**
    * The results of a study in rows, with the orders of convergence that two
    * runs show which differ in nothing but the refinement, or the time step:
-   * log(e_1 / e_2) / log(h_1 / h_2).
+   * log(e_1 / e_2) / log(h_1 / h_2), with mean time steps in place of h.
    */
   class StudyTable
   {
