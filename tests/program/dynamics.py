@@ -173,6 +173,19 @@ class Dynamics(ProgramTest):
         self.assertLess(abs(kinetic[-1]) + elastic[-1], 1e4 * max(map(abs, work)))
         self.run_program("bar.prm", "--output", "stable", "--set", "Time integration/Newmark/Beta = 0.25")
 
+    def test_steps_held_at_the_smallest(self):
+        """Steps that would have to be shorter for their error are counted, and warned of."""
+        (self.folder / "bar.prm").write_text(parameter_text({
+            "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "4, 1, 1", "Material/Young's modulus": "1e7", "Boundary conditions/Fixed": "x-min",
+            "Loads/Gravity": "0; 0; -10", "Time integration/Type": "Newmark", "Time integration/Time step": "0.05",
+            "Time integration/Adaptive step/Enabled": "true"}), encoding="utf-8")
+        for smallest, warnings in (("1e-12", 0), ("0.05", 1)):
+            run = self.run_program("bar.prm", "--set", f"Time integration/Adaptive step/Smallest step = {smallest}", "--output", smallest)
+            found = re.findall(r"warning: (\d+) steps are less accurate than \"Adaptive step/Target error\"", run.stdout)
+            self.assertEqual(len(found), warnings)
+            for n_steps in found:
+                self.assertGreater(int(n_steps), 5)
+
 
 if __name__ == "__main__":
     unittest.main()

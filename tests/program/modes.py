@@ -100,6 +100,15 @@ class Modes(ProgramTest):
             for frequency in frequencies:
                 self.assertAlmostEqual(frequency, lowest, delta=1e-10 * lowest)
 
+    def test_springs_as_soft_as_round_off(self):
+        """A steel bar on springs that are 1e-17 times as stiff: their modes are round-off of its own, which is said; on ones of 1e-10 they are not."""
+        bar = {"Type": "modes", "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "4, 1, 1", "Material/Young's modulus": "2e11",
+               "Material/Density": "7800", "Modes/Number": "8"}
+        for stiffness, n_warned in ((20, 0), (2e-6, 6)):
+            (self.folder / "bar.prm").write_text(parameter_text({**bar, "Supports/Elastic": f"x-min: {stiffness}; {stiffness}; {stiffness}"}), encoding="utf-8")
+            run = self.run_program("bar.prm", "--output", f"on {stiffness}")
+            self.assertEqual(run.stdout.count("as little as round-off: its frequency may be wrong"), n_warned)
+
     def test_overwrite(self):
         # Results of modes are replaced by those of a simulation, and nothing is left of them.
         directory = self.run_case("plate_modes", "results", *SMALLER)

@@ -240,7 +240,8 @@ class Studies(ProgramTest):
 
     def test_steps_that_end_at_results(self):
         """Adaptive steps end at multiples of Time between results, as those of a single run: this load lasts a hundredth of the time."""
-        entries = {**SMALL, "Discretization/Degree": "1", "Time integration/Type": "Newmark", "Time integration/Time step": "0.01", "Time integration/Adaptive step/Enabled": "true",
+        entries = {**SMALL, "Discretization/Degree": "1", "Time integration/Type": "Newmark", "Time integration/Time step": "0.01",
+                   "Time integration/Adaptive step/Enabled": "true",
                    "Loads/Gravity": "0; 0; -10 * half_sine(t, 0.7, 0.71)", "Output/Time between results": "0.005",
                    "Convergence study/Quantities": "step, external_work"}
         for kind, directory in (("convergence study", "out"), ("simulation", "single")):
