@@ -17,7 +17,10 @@ namespace corotet
   StressPointsWriter::StressPointsWriter(const std::string &directory,
                                          const double      time_between_results,
                                          const std::size_t n_joined)
-    : series(directory, "stress_points", time_between_results, n_joined)
+    : SeriesWriter(VtkhdfSeries(directory,
+                                "stress_points",
+                                time_between_results,
+                                n_joined))
   {
     series.point_data  = {{"displacement", 3}};
     const auto &tables = StressTables::tables();
@@ -27,41 +30,11 @@ namespace corotet
   }
 
   void
-  StressPointsWriter::start(const Snapshot &initial)
+  StressPointsWriter::write_mesh(const Snapshot &state)
   {
-    series.make_folder(initial.discretization.communicator());
-    write_mesh(initial.discretization, initial.stress().reference_element());
-    write_state(initial);
-  }
-
-  void
-  StressPointsWriter::resume(const Snapshot &state)
-  {
-    series.make_folder(state.discretization.communicator());
-    write_mesh(state.discretization, state.stress().reference_element());
-    series.resume(state.record.step, state.discretization.communicator());
-  }
-
-  void
-  StressPointsWriter::step(const Snapshot &state)
-  {
-    if (state.last || series.is_due(state.record.time))
-      write_state(state);
-  }
-
-  void
-  StressPointsWriter::save(const Snapshot &state)
-  {
-    if (series.is_new(state.record.time))
-      write_state(state);
-  }
-
-  void
-  StressPointsWriter::write_mesh(const Discretization   &discretization,
-                                 const ReferenceElement &reference)
-  {
-    const MPI_Comm comm = discretization.communicator();
-    const auto    &rule = reference.stiffness_rule;
+    const Discretization &discretization = state.discretization;
+    const MPI_Comm        comm           = discretization.communicator();
+    const auto &rule    = state.stress().reference_element().stiffness_rule;
     cells               = FileOrder::of_cells(discretization);
     n_points            = rule.weights.size();
     const Hdf5Rows list = cells->rows(0, n_points);
@@ -78,26 +51,18 @@ namespace corotet
     const std::vector<std::uint8_t> types(list.n_rows, 1);
     std::vector<std::int64_t>       connectivity(list.n_rows);
     std::iota(connectivity.begin(), connectivity.end(), list.first);
-    // Offsets has an entry more than there are cells. Rank 0 writes it, the
-    // leading zero.
-    const bool root = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
-    std::vector<std::int64_t> offsets(list.n_rows + (root ? 1 : 0));
-    const hsize_t             first_offset = list.first + (root ? 0 : 1);
-    std::iota(offsets.begin(), offsets.end(), first_offset);
 
     Hdf5File file(series.mesh_file(), comm);
     cells->write(file, "Points", positions.data(), 3, n_points);
     file.write("Types", types.data(), list);
     file.write("Connectivity", connectivity.data(), list);
-    file.write("Offsets",
-               offsets.data(),
-               {first_offset, offsets.size(), list.n_global_rows + 1});
+    VtkhdfSeries::write_offsets(file, list, 1, comm);
     series.write_sizes(file, list.n_global_rows);
     file.finish();
   }
 
   void
-  StressPointsWriter::write_state(const Snapshot &state)
+  StressPointsWriter::write_tables(Hdf5File &file, const Snapshot &state)
   {
     const Discretization &discretization = state.discretization;
     StressField          &field          = state.stress();
@@ -124,13 +89,8 @@ namespace corotet
             tables.add(sigma, strain_of_stress(material, sigma));
           }
       }
-    const MPI_Comm comm = discretization.communicator();
-    Hdf5File       file(series.result_file(state.record.step), comm);
-    VtkhdfSeries::create_groups(file);
     cells->write(
       file, "PointData/displacement", displacements.data(), 3, n_points);
     tables.write(file);
-    file.finish();
-    series.add_result(state.record.step, state.record.time, comm);
   }
 } // namespace corotet

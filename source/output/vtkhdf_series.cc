@@ -5,6 +5,8 @@
 #include <corotet/base/mpi.h>
 #include <corotet/output/vtkhdf_series.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -61,6 +63,24 @@ namespace corotet
     file.write_from_root("NumberOfPoints", list(n_points));
     file.write_from_root("NumberOfCells", list(n_cells));
     file.write_from_root("NumberOfConnectivityIds", list(n_connectivity_ids));
+  }
+
+  void
+  VtkhdfSeries::write_offsets(Hdf5File       &file,
+                              const Hdf5Rows &cells,
+                              const hsize_t   n_nodes,
+                              const MPI_Comm  comm)
+  {
+    // An entry more than there are cells: rank 0 writes the leading zero.
+    const hsize_t begin =
+      dealii::Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : 1;
+    std::vector<std::int64_t> offsets;
+    offsets.reserve(cells.n_rows + 1);
+    for (hsize_t cell = begin; cell <= cells.n_rows; ++cell)
+      offsets.push_back((cells.first + cell) * n_nodes);
+    file.write("Offsets",
+               offsets.data(),
+               {cells.first + begin, offsets.size(), cells.n_global_rows + 1});
   }
 
   void

@@ -61,7 +61,8 @@ namespace corotet
                              const double       time_between_results,
                              const std::size_t  n_joined,
                              const bool         with_stress)
-    : series(directory, "solution", time_between_results, n_joined)
+    : SeriesWriter(
+        VtkhdfSeries(directory, "solution", time_between_results, n_joined))
     , with_stress(with_stress)
   {
     series.point_data = {{"displacement", 3}, {"velocity", 3}};
@@ -78,40 +79,11 @@ namespace corotet
   }
 
   void
-  VtkhdfWriter::start(const Snapshot &initial)
+  VtkhdfWriter::write_mesh(const Snapshot &state)
   {
-    series.make_folder(initial.discretization.communicator());
-    write_mesh(initial.discretization);
-    write_state(initial);
-  }
-
-  void
-  VtkhdfWriter::resume(const Snapshot &state)
-  {
-    series.make_folder(state.discretization.communicator());
-    write_mesh(state.discretization);
-    series.resume(state.record.step, state.discretization.communicator());
-  }
-
-  void
-  VtkhdfWriter::step(const Snapshot &state)
-  {
-    if (state.last || series.is_due(state.record.time))
-      write_state(state);
-  }
-
-  void
-  VtkhdfWriter::save(const Snapshot &state)
-  {
-    if (series.is_new(state.record.time))
-      write_state(state);
-  }
-
-  void
-  VtkhdfWriter::write_mesh(const Discretization &discretization)
-  {
-    const MPI_Comm     comm    = discretization.communicator();
-    const unsigned int n_cells = discretization.n_owned_cells();
+    const Discretization &discretization = state.discretization;
+    const MPI_Comm        comm           = discretization.communicator();
+    const unsigned int    n_cells        = discretization.n_owned_cells();
     if (discretization.element().has_bubbles())
       without_bubbles = std::make_unique<CoarserNodes>(discretization);
     const Nodes &shown  = without_bubbles ?
@@ -181,31 +153,17 @@ namespace corotet
     const Hdf5Rows rows = cells->rows();
     cells->write(file, "Connectivity", connectivity.data(), 0, n);
 
-    // Offsets has an entry more than there are cells. Rank 0 writes it, the
-    // leading zero.
-    const bool root = this_mpi_process(shown.communicator()) == 0;
-    std::vector<std::int64_t> offsets;
-    offsets.reserve(rows.n_rows + 1);
-    for (hsize_t cell = root ? 0 : 1; cell <= rows.n_rows; ++cell)
-      offsets.push_back((rows.first + cell) * n);
-    file.write("Offsets",
-               offsets.data(),
-               {rows.first + (root ? 0 : 1),
-                offsets.size(),
-                rows.n_global_rows + 1});
+    VtkhdfSeries::write_offsets(file, rows, n, shown.communicator());
   }
 
   void
-  VtkhdfWriter::write_state(const Snapshot &state)
+  VtkhdfWriter::write_tables(Hdf5File &file, const Snapshot &state)
   {
-    const MPI_Comm comm = state.discretization.communicator();
     // What the linear solver keeps for the next time makes room for the rows.
     dealii::GrowingVectorMemory<Vector>::release_unused_memory();
     release_free_memory();
     const CellResults results = state.cell_results();
 
-    Hdf5File file(series.result_file(state.record.step), comm);
-    VtkhdfSeries::create_groups(file);
     write_nodal(file, "PointData/displacement", state.displacement);
     if (state.velocity.size() > 0)
       write_nodal(file, "PointData/velocity", state.velocity);
@@ -222,8 +180,6 @@ namespace corotet
     cells->write(file, "CellData/von_mises", results.von_mises.data());
     if (with_stress)
       write_stress(file, state.stress());
-    file.finish();
-    series.add_result(state.record.step, state.record.time, comm);
   }
 
   void

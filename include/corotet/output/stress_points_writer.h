@@ -5,8 +5,7 @@
 #define corotet_output_stress_points_writer_h
 
 #include <corotet/output/file_order.h>
-#include <corotet/output/vtkhdf_series.h>
-#include <corotet/simulation/observer.h>
+#include <corotet/output/series_writer.h>
 
 #include <optional>
 #include <string>
@@ -19,7 +18,7 @@ namespace corotet
    * its place at rest, with displacement, stress and strain there. Its states
    * are those of the VtkhdfWriter with the same time between results.
    */
-  class StressPointsWriter : public Observer
+  class StressPointsWriter : public SeriesWriter
   {
   public:
     /// See VtkhdfSeries.
@@ -27,33 +26,12 @@ namespace corotet
                        const double       time_between_results,
                        const std::size_t  n_joined = 32);
 
-    /// Throws MachineError if a file cannot be written, as does step().
-    void
-    start(const Snapshot &initial) override;
-
-    void
-    transfer(Archive &archive) override
-    {
-      series.transfer(archive);
-    }
-
-    void
-    resume(const Snapshot &state) override;
-
-    void
-    step(const Snapshot &state) override;
-
-    void
-    save(const Snapshot &state) override;
-
   private:
     void
-    write_mesh(const Discretization   &discretization,
-               const ReferenceElement &reference);
+    write_mesh(const Snapshot &state) override;
     void
-    write_state(const Snapshot &state);
+    write_tables(Hdf5File &file, const Snapshot &state) override;
 
-    VtkhdfSeries series;
     /// Of the cells, from start() on, and how many points each has.
     std::optional<FileOrder> cells;
     hsize_t                  n_points = 0;

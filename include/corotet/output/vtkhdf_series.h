@@ -77,6 +77,14 @@ namespace corotet
     void
     write_sizes(Hdf5File &file, const hsize_t n_connectivity_ids) const;
 
+    /// Offsets of a mesh whose cells have @p n_nodes points each: those of the
+    /// rank's own @p cells. Collective.
+    static void
+    write_offsets(Hdf5File       &file,
+                  const Hdf5Rows &cells,
+                  const hsize_t   n_nodes,
+                  const MPI_Comm  comm);
+
     bool
     is_due(const double time) const;
 

@@ -6,8 +6,7 @@
 
 #include <corotet/discretization/coarser_nodes.h>
 #include <corotet/output/file_order.h>
-#include <corotet/output/vtkhdf_series.h>
-#include <corotet/simulation/observer.h>
+#include <corotet/output/series_writer.h>
 
 #include <memory>
 #include <optional>
@@ -32,10 +31,9 @@ namespace corotet
    * degree. Of an element with bubbles the nodes on vertices and edges are
    * written: quadratic interpolation of what was computed.
    *
-   * The first and the last state are always written; how the series is stored
-   * tells VtkhdfSeries.
+   * How the series is stored tells VtkhdfSeries.
    */
-  class VtkhdfWriter : public Observer
+  class VtkhdfWriter : public SeriesWriter
   {
   public:
     /// See VtkhdfSeries. @p with_stress: with the recovered stress at nodes and
@@ -45,41 +43,20 @@ namespace corotet
                  const std::size_t  n_joined    = 32,
                  const bool         with_stress = false);
 
-    /// Throws MachineError if a file cannot be written, as does step().
-    void
-    start(const Snapshot &initial) override;
-
-    void
-    transfer(Archive &archive) override
-    {
-      series.transfer(archive);
-    }
-
-    /// Also writes the mesh again: the ranks of its cells may be others.
-    void
-    resume(const Snapshot &state) override;
-
-    void
-    step(const Snapshot &state) override;
-
-    void
-    save(const Snapshot &state) override;
-
   private:
     void
-    write_mesh(const Discretization &discretization);
+    write_mesh(const Snapshot &state) override;
+    void
+    write_tables(Hdf5File &file, const Snapshot &state) override;
     void
     write_connectivity(const Nodes &shown, Hdf5File &file);
     /// Writes the values at the nodes that are shown. Collective.
     void
     write_nodal(Hdf5File &file, const std::string &name, const Vector &values);
     void
-    write_state(const Snapshot &state);
-    void
     write_stress(Hdf5File &file, StressField &stress) const;
 
-    VtkhdfSeries series;
-    bool         with_stress;
+    bool with_stress;
 
     /// The nodes that are shown if these are not all.
     std::unique_ptr<CoarserNodes> without_bubbles;

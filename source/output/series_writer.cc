@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#include <corotet/output/series_writer.h>
+
+namespace corotet
+{
+  SeriesWriter::SeriesWriter(const VtkhdfSeries &series)
+    : series(series)
+  {}
+
+  void
+  SeriesWriter::start(const Snapshot &initial)
+  {
+    series.make_folder(initial.discretization.communicator());
+    write_mesh(initial);
+    write_state(initial);
+  }
+
+  void
+  SeriesWriter::transfer(Archive &archive)
+  {
+    series.transfer(archive);
+  }
+
+  void
+  SeriesWriter::resume(const Snapshot &state)
+  {
+    const MPI_Comm comm = state.discretization.communicator();
+    series.make_folder(comm);
+    write_mesh(state);
+    series.resume(state.record.step, comm);
+  }
+
+  void
+  SeriesWriter::step(const Snapshot &state)
+  {
+    if (state.last || series.is_due(state.record.time))
+      write_state(state);
+  }
+
+  void
+  SeriesWriter::save(const Snapshot &state)
+  {
+    if (series.is_new(state.record.time))
+      write_state(state);
+  }
+
+  void
+  SeriesWriter::write_state(const Snapshot &state)
+  {
+    const MPI_Comm     comm = state.discretization.communicator();
+    const unsigned int step = state.record.step;
+    Hdf5File           file(series.result_file(step), comm);
+    VtkhdfSeries::create_groups(file);
+    write_tables(file, state);
+    file.finish();
+    series.add_result(step, state.record.time, comm);
+  }
+} // namespace corotet
