@@ -140,7 +140,8 @@ namespace corotet
       }
     catch (const ComputationError &)
       {
-        // Newton's method has other tangents.
+        // Newton's method has other tangents, and tells of forces that are
+        // not finite.
         du = 0;
       }
     state.u.swap(before);

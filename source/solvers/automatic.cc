@@ -42,6 +42,9 @@ namespace corotet
     // for them.
     constexpr double most_entries = 2.5e8;
 
+    // Poisson's ratio of materials that are nearly incompressible.
+    constexpr double incompressible = 0.48;
+
     // Solves with factors, with those of an older matrix, too, take about
     // three iterations. The multigrid needs some 30 on bodies of cells as
     // meshing programs make them: these are not in vain.
@@ -192,9 +195,16 @@ namespace corotet
         // Exact tangents of well-shaped cells are indefinite far from the
         // solution alone, and take several factorisations there that the next
         // iterate has no use for.
-        if (!are_poor)
-          are_poor = cell_proportions(A.discretization()).are_poor();
-        direct->build_for(A, *are_poor ? J : nullptr, displacement);
+        // The volume's share of the stiffness is that of the deformed body,
+        // which the frozen matrix does not know: of nearly incompressible
+        // bodies it is most of it.
+        if (!has_factors_of_tangents)
+          has_factors_of_tangents =
+            A.elasticity().largest_poisson_ratio() > incompressible ||
+            cell_proportions(A.discretization()).are_poor();
+        direct->build_for(A,
+                          *has_factors_of_tangents ? J : nullptr,
+                          displacement);
         return;
       }
     // Too large, for the memory or for the library, or singular up to

@@ -175,13 +175,14 @@ namespace corotet
   }
 
   unsigned int
-  LinearSolver::largest_number(const bool is_new, const bool is_tangent) const
+  LinearSolver::largest_number(const bool             is_new,
+                               const TangentOperator *J) const
   {
     constexpr double many = 1000, least = 100;
     double           most = parameters.max_iterations;
     // Far from a solution exact tangents may be next to singular: Newton's
     // method has others.
-    if (is_tangent)
+    if (J != nullptr && J->is_exact())
       most = std::min(most, std::max(many / preconditioner->cost(), least));
     // Whether the preconditioner is outdated shows earlier.
     if (!is_new)
@@ -200,10 +201,11 @@ namespace corotet
   {
     unsigned int done  = 0;
     done_before_change = 0;
+    has_changed        = false;
     // For the operator that the preconditioner was made of it is as a new one.
     unsigned int most =
       largest_number(is_new || (J == nullptr && A.version() == built_version),
-                     J != nullptr);
+                     J);
     const auto change_it = [&](const double expected) {
       // If that throws, there is none.
       const bool was_built = std::exchange(is_built, false);
@@ -213,16 +215,15 @@ namespace corotet
       if (!is_other)
         return;
       done_before_change = done;
-      most               = std::min(parameters.max_iterations,
-                      done + largest_number(true, J != nullptr));
+      has_changed        = true;
+      most =
+        std::min(parameters.max_iterations, done + largest_number(true, J));
       ++n_builds;
     };
     for (;;)
       {
-        const unsigned int limit =
-          std::min(most,
-                   preconditioner->patience(is_new || done_before_change > 0,
-                                            J != nullptr));
+        const unsigned int limit = std::min(
+          most, preconditioner->patience(is_new || has_changed, J != nullptr));
         if (limit <= done && limit < most)
           {
             change_it(done);
@@ -283,6 +284,8 @@ namespace corotet
     const double wanted =
       std::min(std::max(tolerance, loosest) * b_norm, limit);
     x = 0;
+    if (!std::isfinite(b_norm))
+      throw ComputationError("the right side of a linear system is not finite");
     if (b_norm <= negligible)
       return 0;
     if (std::abs(A.mass_ratio() - built_mass_ratio) >
@@ -327,7 +330,7 @@ namespace corotet
           parameters.max_iterations));
       }
 
-    const bool was_built = first_solve || done_before_change > 0;
+    const bool was_built = first_solve || has_changed;
     // In terms of solves to the tolerance.
     const double digits =
       loosest > tolerance ? std::log(loosest) / std::log(tolerance) : 1.;

@@ -11,6 +11,8 @@
 #include <limits>
 #include <utility>
 
+#include "residual_rate.h"
+
 namespace corotet
 {
   namespace
@@ -224,7 +226,7 @@ namespace corotet
       has_stalled            = residual.value > stalled * previous;
       if (residual.is_finite() &&
           (residual.value < best || is_round_off() || increment_is_round_off ||
-           (n_without_progress < patience &&
+           (may_rise && n_without_progress < patience &&
             residual.value < divergence * best)))
         {
           // On the way down from a rise that an increment has made there is
@@ -261,6 +263,14 @@ namespace corotet
       if (!problem.has_energy() || slope > 0)
         if (const double length = line_search(value, slope); length > 0)
           {
+            // After a search in vain full increments would go round by where
+            // they went before.
+            const bool could_rise =
+              std::exchange(may_rise,
+                            problem.has_energy() || length > 0.01 ||
+                              residual.value < 0.95 * value);
+            if (!could_rise && !may_rise)
+              fail("gets no further along its directions");
             n_without_progress = 0;
             best               = residual.value;
             return;
@@ -328,22 +338,17 @@ namespace corotet
     void
     check_progress() const
     {
-      constexpr unsigned int window = 6;
-      const unsigned int     n      = values.size();
-      if (n < 2 * window || problem.has_energy())
-        return;
-      const double ratio  = values[n - 1] / values[n - 1 - window];
-      const double wanted = parameters.residual_tolerance * residual.scale;
-      if (!(ratio < 1) || values[n - 1] <= wanted)
+      if (problem.has_energy())
         return;
       const double needed =
-        window * std::log(wanted / values[n - 1]) / std::log(ratio);
+        iterations_needed(values,
+                          parameters.residual_tolerance * residual.scale);
       const unsigned int left = parameters.max_iterations - report.iterations;
       if (left > 0 && needed > 3. * left)
         fail(fmt::format("converges too slowly: at the rate of its last {} "
                          "iterations it needs {:.0f} more, and {} of {} are "
                          "left",
-                         window,
+                         rate_window,
                          std::min(std::ceil(needed), 1e6),
                          left,
                          parameters.max_iterations));
@@ -373,6 +378,8 @@ namespace corotet
     unsigned int n_expected         = 0;
     unsigned int n_needed           = 0;
     unsigned int n_without_progress = 0;
+    /// Whether full increments may raise the residual.
+    bool may_rise = true;
     /// Residual at the best point. A search for less energy may raise it.
     double best = 0;
     /// Residuals after each iteration.

@@ -107,6 +107,33 @@ class Statics(ProgramTest):
                 self.assertEqual(float(rows[0]["volume"]), 0)
                 self.assertLess(float(rows[-1]["elastic_energy"]), 0.5 * float(rows[0]["elastic_energy"]))
 
+    def test_forces_that_are_not_finite(self):
+        """Of an exact solution that turns cells over there is no stress: the step fails, and no solver looks for the solution of what is no number."""
+        (self.folder / "folded.prm").write_text(parameter_text({
+            "Mesh/box/Size": "1, 1, 1", "Mesh/box/Cells": "3, 3, 3", "Discretization/Degree": "3", "Material/Type": "neo-Hookean",
+            "Exact solution/Displacement": "0.6*t*sin(3*y+z); 0.6*t*sin(2*z+x); 0.6*t*sin(3*x-y)", "Time integration/Type": "static"}), encoding="utf-8")
+        run = self.run_program("folded.prm", "--output", "out", status=2)
+        self.assertRegex(run.stderr, "the forces are not finite where Newton's method starts; the step has been halved 8 times\n$")
+
+    def test_nearly_incompressible_under_pressure(self):
+        """Its exact tangents have factors of their own: those of the frozen matrix, which does not know the deformed volume, take 11,716 iterations."""
+        self.run_cube({"Mesh/box/Cells": "5, 5, 5", "Discretization/Degree": "2", "Loads/Gravity": "0; 0; 0", "Material/Type": "corotational",
+                       "Material/Rotation": "quadrature points", "Material/Young's modulus": "1e6", "Material/Poisson's ratio": "0.4999",
+                       "Boundary conditions/Fixed": "z-min", "Boundary conditions/Pressure": "z-max: 3e5", "Time integration/static/Load steps": "1"})
+        self.assertLess(int(read_history(self.folder / "out")[-1]["linear_iterations"]), 1000)
+
+    def test_plate_under_pressure_in_one_step(self):
+        """The first increment is a hundred times as large as the plate. From there searches get nowhere, and each one after a full increment the same way:
+        the attempt ends with the second of them, after 9 iterations in place of 18, and halves of the step are fast."""
+        run = self.run_cube({"Mesh/box/Size": "1, 1, 0.01", "Mesh/box/Cells": "8, 8, 1", "Discretization/Degree": "2", "Loads/Gravity": "0; 0; 0",
+                             "Material/Type": "corotational", "Material/Rotation": "quadrature points", "Material/Young's modulus": "1e6",
+                             "Boundary conditions/Fixed": "x-min, x-max, y-min, y-max", "Boundary conditions/Pressure": "z-min: 1e4",
+                             "Time integration/static/Load steps": "1"})
+        attempts = re.findall(r"^t = \S+: Newton (\d+) iterations", run.stdout, re.MULTILINE)
+        self.assertEqual(len(attempts), 3)
+        self.assertLessEqual(max(map(int, attempts)), 12)
+        self.assertIn("Newton's method gets no further along its directions", run.stdout)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -13,6 +13,7 @@
 #include <corotet/operators/cell_loop.h>
 #include <corotet/operators/elastic_sweeps.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -200,6 +201,18 @@ namespace corotet
     material(const unsigned int cell) const
     {
       return materials.at(discretization.region(cell));
+    }
+
+    /// Of all materials [-].
+    double
+    largest_poisson_ratio() const
+    {
+      double ratio = -1;
+      for (const auto &[region, material] : materials)
+        ratio =
+          std::max(ratio,
+                   material.lambda / (2 * (material.lambda + material.mu)));
+      return ratio;
     }
 
     dealii::Tensor<2, 3>

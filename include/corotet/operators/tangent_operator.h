@@ -72,6 +72,13 @@ namespace corotet
              forces.has_linearization(tangent);
     }
 
+    /// Whether the last update() was of the exact tangent.
+    bool
+    is_exact() const
+    {
+      return tangent == Tangent::consistent;
+    }
+
     /// Whether J is symmetric with that tangent; it need not be definite.
     static bool
     is_symmetric(const Elasticity &elasticity,

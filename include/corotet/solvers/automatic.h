@@ -29,10 +29,10 @@ namespace corotet
    * twice as long after, as bodies that move far become others. A solve with
    * older factors gets new ones when it has cost as much as these.
    *
-   * Exact tangents get factors only where many cells are flat or stretched.
-   * Those of well-shaped cells are slow where they are indefinite, far from the
-   * solution: they get factors of the frozen matrix, and these not in the
-   * middle of a solve, which may fail with them as well.
+   * Exact tangents get factors only where many cells are flat or stretched, or
+   * a material is nearly incompressible. Others are slow where they are
+   * indefinite, far from the solution: they get factors of the frozen matrix,
+   * and these not in the middle of a solve, which may fail with them as well.
    *
    * Everything is counted and nothing is measured: runs repeat to the last
    * digit.
@@ -143,8 +143,8 @@ namespace corotet
     /// Null until it is first wanted.
     std::unique_ptr<CholeskyDirect> direct;
 
-    /// Whether cells are, once it is known.
-    std::optional<bool> are_poor;
+    /// Whether exact tangents have factors of their own, once it is known.
+    std::optional<bool> has_factors_of_tangents;
     bool                is_direct  = false;
     bool                is_settled = false;
     bool                has_costs  = false;

@@ -141,10 +141,10 @@ namespace corotet
                  const Vector            &x,
                  const Vector            &b) const;
     /// Iterations after which a solve has failed: fewer if the preconditioner
-    /// was made of another operator, unless it @p is_new, and for an exact
-    /// tangent.
+    /// was made of another operator, unless it @p is_new, and for @p J, if that
+    /// is an exact tangent.
     unsigned int
-    largest_number(const bool is_new, const bool is_tangent) const;
+    largest_number(const bool is_new, const TangentOperator *J) const;
     /// These go on from x to a residual of @p wanted and return the number of
     /// iterations. The first lets the preconditioner change meanwhile, which
     /// may be new, made for this solve; the others throw
@@ -194,6 +194,8 @@ namespace corotet
     /// Of the present solve, iterations with a preconditioner that has been
     /// replaced meanwhile.
     unsigned int done_before_change = 0;
+    /// Whether one has been, at the first iteration perhaps.
+    bool has_changed = false;
     /// Of the operator, when the preconditioner last heard of it.
     unsigned int known_version = 0;
     /// Iterations of the first solve after the preconditioner was made.

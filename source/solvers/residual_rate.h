@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_source_solvers_residual_rate_h
+#define corotet_source_solvers_residual_rate_h
+
+#include <cmath>
+#include <vector>
+
+namespace corotet
+{
+  /// Iterations that tell at which rate a residual falls.
+  inline constexpr unsigned int rate_window = 6;
+
+  /// How many more iterations residuals need to come down to @p wanted at the
+  /// rate of the last ones; zero where there are too few of these, or they do
+  /// not fall.
+  inline double
+  iterations_needed(const std::vector<double> &residuals, const double wanted)
+  {
+    const std::size_t n = residuals.size();
+    if (n < 2 * rate_window || residuals[n - 1] <= wanted)
+      return 0;
+    const double ratio = residuals[n - 1] / residuals[n - 1 - rate_window];
+    return ratio < 1 ? rate_window * std::log(wanted / residuals[n - 1]) /
+                         std::log(ratio) :
+                       0;
+  }
+} // namespace corotet
+
+#endif
