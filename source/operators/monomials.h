@@ -21,9 +21,6 @@ namespace corotet::monomials
     return (degree + 1) * (degree + 2) * (degree + 3) / 6;
   }
 
-  /// Of degree 3.
-  inline constexpr int max_size = n_coefficients(3);
-
   template <int degree>
   using Values = std::array<double, n_coefficients(degree)>;
 

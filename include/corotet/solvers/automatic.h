@@ -31,8 +31,9 @@ namespace corotet
    *
    * Exact tangents get factors only where many cells are flat or stretched, or
    * a material is nearly incompressible. Others are slow where they are
-   * indefinite, far from the solution: they get factors of the frozen matrix,
-   * and these not in the middle of a solve, which may fail with them as well.
+   * indefinite alone, far from the solution: they get factors of the frozen
+   * matrix, and where cells are well-shaped not in the middle of a solve, which
+   * may fail with them as well.
    *
    * Everything is counted and nothing is measured: runs repeat to the last
    * digit.
