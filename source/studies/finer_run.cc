@@ -137,8 +137,8 @@ namespace corotet
         log.warning(fmt::format(
           "{}: the body has {:.6g} m^3, in the finer run {:.6g} m^3: as "
           "refinements follow a curved surface, runs are of bodies of other "
-          "shapes, which errors against the finer run do not show as they are; "
-          "an exact solution does, or quantities",
+          "shapes, and errors against the finer run leave that out; an exact "
+          "solution or quantities do not",
           result.study_case.name(),
           volume,
           fine_volume));
