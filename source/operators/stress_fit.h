@@ -26,6 +26,10 @@ namespace corotet
     return monomials::at<degree>(fit.scale * (x - fit.centre));
   }
 
+  /// The most samples of a cell.
+  inline constexpr unsigned int max_samples =
+    ReferenceElement::max_stiffness_points(20);
+
   /**
    * Calls action(number of the first sample, their positions, monomials and
    * weights) for the samples of each cell of a fit.
@@ -36,14 +40,12 @@ namespace corotet
                    const StressSamples &samples,
                    const Action        &action)
   {
-    constexpr unsigned int max_points =
-      ReferenceElement::max_stiffness_points(20);
-    std::array<monomials::Values<degree>, max_points> values;
-    std::array<double, max_points>                    weights;
+    std::array<monomials::Values<degree>, max_samples> values;
+    std::array<double, max_samples>                    weights;
     for (const unsigned int c : fit.cells)
       {
         const auto points = samples.points(c);
-        AssertIndexRange(points.size(), max_points + 1);
+        AssertIndexRange(points.size(), max_samples + 1);
         for (unsigned int q = 0; q < points.size(); ++q)
           {
             values[q]  = monomials_of<degree>(fit, points[q]);

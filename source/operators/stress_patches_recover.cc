@@ -36,9 +36,7 @@ namespace corotet
             const auto       &points,
             const auto       &values,
             const auto       &weights) {
-          std::array<std::array<double, 6>,
-                     std::tuple_size_v<std::remove_cvref_t<decltype(weights)>>>
-            weighted;
+          std::array<std::array<double, 6>, max_samples> weighted;
           for (unsigned int q = 0; q < points.size(); ++q)
             for (unsigned int k = 0; k < 6; ++k)
               weighted[q][k] =

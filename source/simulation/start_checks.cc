@@ -174,8 +174,7 @@ namespace corotet
     for (const auto &[region, material] : body.materials)
       {
         // That it is a round number is known up to round-off.
-        const double nu =
-          material.lambda / (2 * (material.lambda + material.mu));
+        const double      nu = poissons_ratio(material);
         const std::string found =
           fmt::format("Material/Poisson's ratio: {:.9g} of region '{}' ",
                       nu,

@@ -200,7 +200,7 @@ namespace corotet
         // bodies it is most of it.
         if (!has_factors_of_tangents)
           has_factors_of_tangents =
-            A.elasticity().largest_poisson_ratio() > incompressible ||
+            A.elasticity().largest_poissons_ratio() > incompressible ||
             cell_proportions(A.discretization()).are_poor();
         direct->build_for(A,
                           *has_factors_of_tangents ? J : nullptr,

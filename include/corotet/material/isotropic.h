@@ -38,6 +38,13 @@ namespace corotet
             density};
   }
 
+  /// Of a material [-].
+  inline double
+  poissons_ratio(const IsotropicMaterial &material)
+  {
+    return material.lambda / (2 * (material.lambda + material.mu));
+  }
+
   /// Those of several regions [kg/m^3].
   inline std::map<unsigned int, double>
   densities(const std::map<unsigned int, IsotropicMaterial> &materials)

@@ -205,13 +205,11 @@ namespace corotet
 
     /// Of all materials [-].
     double
-    largest_poisson_ratio() const
+    largest_poissons_ratio() const
     {
       double ratio = -1;
       for (const auto &[region, material] : materials)
-        ratio =
-          std::max(ratio,
-                   material.lambda / (2 * (material.lambda + material.mu)));
+        ratio = std::max(ratio, poissons_ratio(material));
       return ratio;
     }
 
