@@ -3,12 +3,18 @@
 
 #include <corotet/base/stop_signals.h>
 
+#include <atomic>
+#include <chrono>
+
 namespace corotet
 {
   namespace
   {
     volatile std::sig_atomic_t stop_signal  = 0;
     volatile std::sig_atomic_t save_request = 0;
+    // When the stop signal came.
+    std::atomic<std::chrono::steady_clock::rep> stop_time = 0;
+    static_assert(decltype(stop_time)::is_always_lock_free);
     // Objects that live.
     int depth = 0;
 
@@ -28,6 +34,8 @@ namespace corotet
           std::signal(signal, SIG_DFL);
           std::raise(signal);
         }
+      if (stop_signal == 0)
+        stop_time = std::chrono::steady_clock::now().time_since_epoch().count();
       if (stop_signal == 0 || signal == SIGINT)
         stop_signal = signal;
     }
@@ -74,6 +82,16 @@ namespace corotet
   StopSignals::received()
   {
     return stop_signal;
+  }
+
+  double
+  StopSignals::waiting_time()
+  {
+    using Clock = std::chrono::steady_clock;
+    if (stop_signal == 0)
+      return 0;
+    const Clock::time_point came(Clock::duration(stop_time.load()));
+    return std::chrono::duration<double>(Clock::now() - came).count();
   }
 
   bool

@@ -85,8 +85,13 @@ namespace corotet
         if (const std::set<unsigned int> &of_group = meaning[group];
             of_group.size() > 1 ||
             (of_group.size() == 1 && *of_group.begin() != group))
-          result.named.sets[name.empty() ? std::to_string(group) : name].assign(
-            of_group.begin(), of_group.end());
+          {
+            const std::vector<unsigned int> all(of_group.begin(),
+                                                of_group.end());
+            result.named.sets[name.empty() ? std::to_string(group) : name] =
+              all;
+            result.named.parts[group] = all;
+          }
         else
           result.named.names[group] = name;
       return result;

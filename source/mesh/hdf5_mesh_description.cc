@@ -26,12 +26,14 @@ namespace corotet::hdf5_mesh
   json
   to_json(const NamedSets &named)
   {
-    json names = json::array(), sets = json::object();
+    json names = json::array(), sets = json::object(), parts = json::array();
     for (const auto &[id, name] : named.names)
       names.push_back({id, name});
     for (const auto &[name, ids] : named.sets)
       sets[name] = ids;
-    return {{"names", names}, {"sets", sets}};
+    for (const auto &[id, ids] : named.parts)
+      parts.push_back({id, ids});
+    return {{"names", names}, {"sets", sets}, {"parts", parts}};
   }
 
 
@@ -51,18 +53,25 @@ namespace corotet::hdf5_mesh
         named.names[static_cast<unsigned int>(id)] =
           entry.at(1).get<std::string>();
       }
+    const auto known_ids = [&](const json &ids, const std::string &set) {
+      auto result = ids.get<std::vector<unsigned int>>();
+      std::ranges::sort(result);
+      for (const unsigned int id : result)
+        if (!named.names.contains(id))
+          refuse(path,
+                 fmt::format("found the id {} in the set '{}', which is "
+                             "not there",
+                             id,
+                             shortened(set)));
+      return result;
+    };
     for (const auto &[name, ids] : text.at("sets").items())
+      named.sets[name] = known_ids(ids, name);
+    // Files of earlier versions have none.
+    for (const json &entry : text.value("parts", json::array()))
       {
-        auto &of_set = named.sets[name];
-        of_set       = ids.get<std::vector<unsigned int>>();
-        std::ranges::sort(of_set);
-        for (const unsigned int id : of_set)
-          if (!named.names.contains(id))
-            refuse(path,
-                   fmt::format("found the id {} in the set '{}', which is "
-                               "not there",
-                               id,
-                               shortened(name)));
+        const auto id   = entry.at(0).get<unsigned int>();
+        named.parts[id] = known_ids(entry.at(1), std::to_string(id));
       }
     return named;
   }

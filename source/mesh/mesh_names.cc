@@ -91,6 +91,10 @@ namespace corotet
         for (auto &[other, ids] : sets)
           if (contains(ids, id))
             ids.push_back(part);
+        parts.try_emplace(id, 1, id);
+        for (auto &[whole, ids] : parts)
+          if (contains(ids, id))
+            ids.push_back(part);
         if (const auto own = names.find(id);
             own != names.end() && !own->second.empty())
           {
@@ -117,6 +121,10 @@ namespace corotet
       std::erase_if(ids,
                     [&](const unsigned int id) { return !kept.contains(id); });
     std::erase_if(sets, [](const auto &set) { return set.second.empty(); });
+    for (auto &[whole, ids] : parts)
+      std::erase_if(ids,
+                    [&](const unsigned int id) { return !kept.contains(id); });
+    std::erase_if(parts, [](const auto &part) { return part.second.empty(); });
     for (const unsigned int id : kept)
       names.emplace(id, "");
   }
@@ -151,6 +159,9 @@ namespace corotet
     for (const auto &[name, of_name] : named.sets)
       if (of_name == ids)
         return name;
+    for (const auto &[id, of_id] : named.parts)
+      if (of_id == ids)
+        return std::to_string(id);
     std::vector<std::string> words;
     for (const unsigned int id : ids)
       words.push_back(name(id));
@@ -186,11 +197,20 @@ namespace corotet
       if (!own.empty())
         meaning.emplace(own, std::vector{id});
     for (const auto &[id, own] : named.names)
-      meaning.emplace(std::to_string(id), std::vector{id});
+      meaning.emplace(std::to_string(id), of_number(id));
     std::vector<std::pair<std::string, std::vector<unsigned int>>> result;
     for (const std::string &name : known())
       result.emplace_back(name, meaning.at(name));
     return result;
+  }
+
+
+
+  std::vector<unsigned int>
+  MeshNames::of_number(const unsigned int id) const
+  {
+    const auto found = named.parts.find(id);
+    return found != named.parts.end() ? found->second : std::vector{id};
   }
 
 
@@ -203,7 +223,10 @@ namespace corotet
       return found;
     for (const auto &[id, own] : named.names)
       if (std::to_string(id) == name_or_id)
-        return {id};
+        return of_number(id);
+    for (const auto &[id, of_id] : named.parts)
+      if (std::to_string(id) == name_or_id)
+        return of_id;
     return named.ids(without_quotes(name_or_id));
   }
 

@@ -77,6 +77,15 @@ namespace corotet
           extent.tag = ++last;
       }
 
+      // Whether a name means these ids.
+      static bool
+      is_set(const NamedSets &named, const std::vector<unsigned int> &ids)
+      {
+        return std::any_of(named.sets.begin(),
+                           named.sets.end(),
+                           [&](const auto &set) { return set.second == ids; });
+      }
+
       // A number that no id is.
       int
       free_group(int &last) const
@@ -128,12 +137,17 @@ namespace corotet
             const auto        found = named.names.find(id);
             const std::string name =
               found == named.names.end() ? "" : found->second;
-            if (name.empty() && in_sets.contains(id))
+            const auto                      parts = named.parts.find(id);
+            const std::vector<unsigned int> of_number =
+              parts == named.parts.end() ? std::vector{id} : parts->second;
+            const bool has_number =
+              of_number.size() > 1 && !is_set(named, of_number);
+            if (name.empty() && in_sets.contains(id) && !has_number)
               continue;
             const bool is_group = id > 0 && id <= largest;
             add(is_group || !name.empty() ? name : std::to_string(id),
                 is_group ? static_cast<int>(id) : free_group(last),
-                std::vector{id});
+                of_number);
           }
       }
     };

@@ -244,8 +244,12 @@ namespace corotet::selections
         if (n_chosen == 0)
           refuse_nothing(name, selected, members, entry);
         give_name(name, chosen);
+        std::string remarks;
+        for (const Shape &shape : selected.shapes)
+          if (!shape.remark.empty())
+            remarks += fmt::format("; '{}' {}", shape.text, shape.remark);
         log.line(fmt::format(
-          "  selection '{}': {} {}s", name, n_chosen, members.kind));
+          "  selection '{}': {} {}s{}", name, n_chosen, members.kind, remarks));
       }
   }
 } // namespace corotet::selections

@@ -75,6 +75,8 @@ namespace corotet::selections
     std::string unit;
     /// Of each member: at most 0 if it is inside.
     std::vector<double> distances;
+    /// What the log says of it, beside the number of members; or empty.
+    std::string remark = {};
   };
 
   /// A selection, and the shapes that it consists of.

@@ -181,11 +181,39 @@ namespace corotet::selections
 
 
 
+    // Whether the patch may have been meant to be larger: coarse meshes have
+    // such edges within a fillet or a hole.
+    std::string
+    remark_on_border(const Members                    &faces,
+                     const std::vector<unsigned char> &is_in_patch,
+                     const double                      angle)
+    {
+      constexpr double doubtful = 20;
+      double           smallest = std::numeric_limits<double>::max();
+      for (std::size_t f = 0; f < is_in_patch.size(); ++f)
+        if (is_in_patch[f])
+          for (const unsigned int other : faces.neighbours[f])
+            if (!is_in_patch[other])
+              smallest = std::min(smallest,
+                                  degrees_between(faces.normals[f],
+                                                  faces.normals[other]));
+      smallest = dealii::Utilities::MPI::min(smallest, faces.communicator);
+      if (smallest > angle + doubtful)
+        return "";
+      return fmt::format("ends at edges of {:.3g} degrees, as it does at all "
+                         "above {:g}",
+                         smallest,
+                         angle);
+    }
+
+
+
     // Of faces in the patch zero, of others how far they are from the point.
     std::vector<double>
     distances_from_patch(const Members  &faces,
                          const Point<3> &x,
-                         const double    angle)
+                         const double    angle,
+                         std::string    &remark)
     {
       std::vector<double> result;
       for (auto p = faces.points.begin(); p != faces.points.end(); p += 3)
@@ -203,6 +231,7 @@ namespace corotet::selections
           has_grown = dealii::Utilities::MPI::max(is_in_patch != before ? 1 : 0,
                                                   faces.communicator) == 1;
         }
+      remark = remark_on_border(faces, is_in_patch, angle);
       // One that touches the point but is no part of the patch is outside.
       for (std::size_t f = 0; f < result.size(); ++f)
         result[f] = is_in_patch[f] ?
@@ -217,7 +246,7 @@ namespace corotet::selections
     Shape
     of_nearest_face(const Shape &of_faces, const Members &members)
     {
-      Shape shape{of_faces.text, of_faces.unit, {}};
+      Shape shape{of_faces.text, of_faces.unit, {}, of_faces.remark};
       for (const std::vector<unsigned int> &faces : members.faces)
         {
           double distance = std::numeric_limits<double>::infinity();
@@ -286,6 +315,9 @@ namespace corotet::selections
       refuse("an axis has no length");
     if ((name == "sphere" || name == "cylinder") && n.back() <= 0)
       refuse("a radius is not positive");
+    if (((is_of_faces && n.size() > 3) || (name == "sharp" && !n.empty())) &&
+        n.back() < 0)
+      refuse("an angle is negative");
 
     if (name == "box")
       set_distances([&](const Point<3> &x) {
@@ -320,7 +352,8 @@ namespace corotet::selections
       shape.distances =
         distances_from_patch(members,
                              point(n, 0),
-                             n.size() > 3 ? n[3] : default_feature_angle);
+                             n.size() > 3 ? n[3] : default_feature_angle,
+                             shape.remark);
     return shape;
   }
 } // namespace corotet::selections

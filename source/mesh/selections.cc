@@ -62,6 +62,7 @@ namespace corotet
         if (!is_meant(named, unnamed))
           std::erase(used, unnamed);
         NamedSets known = named;
+        known.parts.erase(unnamed);
         known.restrict_to(used);
         const std::vector<unsigned int> ids =
           MeshNames(kind, known).ids(name, entry);
@@ -168,6 +169,7 @@ namespace corotet
       std::vector<unsigned int> used = values(ids);
       if (!is_kept)
         std::erase(used, unnamed);
+      boundaries.parts.erase(unnamed);
       boundaries.restrict_to(selections::ids_of_all(used, mesh.communicator));
     }
 

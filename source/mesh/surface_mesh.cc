@@ -241,9 +241,7 @@ namespace corotet
     GmshModel model = run_gmsh(inner, request.path);
     model.groups.clear();
     name_faces(model, surface, patches);
-    const auto names = names_of_bodies(surface, shells);
-    if (names.size() > 1 || !names[0].empty())
-      add_groups(model, 3, "solid", names);
+    add_groups(model, 3, "solid", names_of_bodies(surface, shells));
     SerialMesh mesh = mesh_of_model(model, request.path, true);
     mesh.remarks.insert(mesh.remarks.begin(),
                         surface.remarks.begin(),

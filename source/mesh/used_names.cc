@@ -51,6 +51,7 @@ namespace corotet
     using dealii::Utilities::MPI::broadcast;
     for (NamedSets *named : {&regions, &boundaries, &edges, &corners})
       *named = {broadcast(comm, named->names, 0),
-                broadcast(comm, named->sets, 0)};
+                broadcast(comm, named->sets, 0),
+                broadcast(comm, named->parts, 0)};
   }
 } // namespace corotet

@@ -31,7 +31,7 @@ namespace corotet
     using Json = nlohmann::ordered_json;
 
     // Of what is in a checkpoint and what it means.
-    constexpr int format_version = 4;
+    constexpr int format_version = 5;
 
     class FileDescriptor
     {
@@ -316,14 +316,22 @@ namespace corotet
   {
     const std::string found = mesh_checksum(discretization.mesh());
     const std::size_t cells = content.at("cells");
-    if (cells != discretization.n_global_cells() ||
-        content.at("mesh_checksum") != found)
+    if (cells != discretization.n_global_cells())
       throw InputError(
         "Mesh/Type",
         fmt::format("--restart: found a mesh of {} cells that is "
                     "not that of the checkpoint {}.json, which "
                     "has {}; allowed: the same",
                     discretization.n_global_cells(),
+                    path,
+                    cells));
+    if (content.at("mesh_checksum") != found)
+      throw InputError(
+        "Mesh/Type",
+        fmt::format("--restart: found a mesh that is not that of the "
+                    "checkpoint {}.json: it has as many cells, {}, but other "
+                    "vertices, vertices of cells, regions or boundaries; "
+                    "allowed: the same",
                     path,
                     cells));
   }

@@ -19,11 +19,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <map>
-#include <regex>
-#include <system_error>
 
 namespace corotet
 {
@@ -166,49 +163,22 @@ namespace corotet
     return *order;
   }
 
-  std::string
-  Checkpoints::path_of(const unsigned int step) const
-  {
-    return fmt::format("{}/step_{:06}", directory, step);
-  }
-
-  std::vector<unsigned int>
-  Checkpoints::steps() const
-  {
-    std::vector<unsigned int> result;
-    const std::regex          name(R"(step_(\d{6,10})\.json)");
-    std::error_code           error;
-    for (const auto &entry : fs::directory_iterator(directory, error))
-      {
-        std::smatch       match;
-        const std::string file = entry.path().filename().string();
-        if (!std::regex_match(file, match, name))
-          continue;
-        // No run has written one with a higher number.
-        const unsigned long step = std::stoul(match[1]);
-        if (step <= std::numeric_limits<unsigned int>::max())
-          result.push_back(step);
-      }
-    std::sort(result.begin(), result.end(), std::greater<>());
-    return result;
-  }
-
   bool
   Checkpoints::has_any() const
   {
-    return from_root(comm, [&] { return !steps().empty(); });
+    return from_root(comm, [&] { return !places().empty(); });
   }
 
   std::unique_ptr<CheckpointReader>
   Checkpoints::newest() const
   {
-    const auto all = from_root(comm, [&] { return steps(); });
-    for (const unsigned int step : all)
+    const auto all = from_root(comm, [&] { return places(); });
+    for (const Place &place : all)
       {
         std::unique_ptr<CheckpointReader> reader;
         try
           {
-            reader = std::make_unique<CheckpointReader>(path_of(step),
+            reader = std::make_unique<CheckpointReader>(path_of(place),
                                                         discretization,
                                                         order_of_nodes());
           }
@@ -216,7 +186,7 @@ namespace corotet
           {
             log.warning(fmt::format("{}; {}",
                                     error.what(),
-                                    step == all.back() ?
+                                    place == all.back() ?
                                       "there is none before it" :
                                       "the checkpoint before it is used"));
             continue;
@@ -240,16 +210,16 @@ namespace corotet
     // Which may refuse to go on: then the log is as it was.
     simulation.resume(observers, recording, checkpoint);
     log.resume(log_file, log_size);
-    written_step = simulation.step_number();
-    log.line(fmt::format("Restarted from step {}, t = {:.6g} s",
-                         written_step,
+    written_place = place_of(simulation);
+    log.line(fmt::format("Restarted from {}, t = {:.6g} s",
+                         words_for(simulation),
                          simulation.time()));
     on_root(comm, [&] {
       // Those that are damaged.
-      for (const unsigned int step : steps())
-        if (step > written_step)
+      for (const Place &place : places())
+        if (*written_place < place)
           for (const char *suffix : {".json", ".h5"})
-            fs::remove(path_of(step) + suffix);
+            fs::remove(path_of(place) + suffix);
       remove_unfinished();
     });
   }
@@ -259,12 +229,17 @@ namespace corotet
   {
     const StopSignals signals;
     int               asked = none;
+    // If set-up has taken all the time, a step is made nevertheless: so runs
+    // that are restarted get on.
+    steps_have_time = seconds_since(program_start) < parameters.wall_time_limit;
     while (!simulation.is_done())
       {
-        simulation.step([&] {
-          asked |= requests();
-          return asked != none;
-        });
+        simulation.step({.after_step =
+                           [&] {
+                             asked |= requests();
+                             return asked != none;
+                           },
+                         .within_step = [&] { return is_urgent(); }});
         asked |= requests();
         if (simulation.is_done())
           break;
@@ -272,9 +247,9 @@ namespace corotet
           {
             write(simulation, true);
             const std::string message =
-              fmt::format("step {} (t = {:.6g} s): {}; the run is saved, "
+              fmt::format("{} (t = {:.6g} s): {}; the run is saved, "
                           "--restart goes on with it",
-                          simulation.step_number(),
+                          words_for(simulation),
                           simulation.time(),
                           reason_of(asked));
             log.note(message);
@@ -284,7 +259,8 @@ namespace corotet
         const unsigned int interval = parameters.steps_between;
         if ((asked & save) != 0 ||
             (interval > 0 &&
-             simulation.step_number() / interval > written_step / interval))
+             simulation.step_number() / interval >
+               (written_place ? written_place->step : 0) / interval))
           write(simulation, true);
         asked = none;
       }
@@ -307,20 +283,33 @@ namespace corotet
     return on_any_rank(mine, comm);
   }
 
+  bool
+  Checkpoints::is_urgent() const
+  {
+    // Most steps end before; who kills a process that does not stop waits at
+    // least twice as long.
+    constexpr double patience = 5;
+    return StopSignals::waiting_time() > patience ||
+           (steps_have_time &&
+            dealii::Utilities::MPI::this_mpi_process(comm) == 0 &&
+            seconds_since(program_start) >
+              parameters.wall_time_limit + patience);
+  }
+
   void
   Checkpoints::write(Simulation &simulation, const bool durable)
   {
-    const unsigned int step = simulation.step_number();
-    written                 = Clock::now();
+    const Place place = place_of(simulation);
+    written           = Clock::now();
     // This state is saved.
-    if (step == written_step)
+    if (place == written_place)
       return;
     release_free_memory();
     on_root(comm, [&] { fs::create_directories(directory); });
     // What the checkpoint counts on is there before it is.
     if (durable)
       on_all_ranks(comm, [&] { sync_file_system(directory); });
-    CheckpointWriter writer(path_of(step), discretization, order_of_nodes());
+    CheckpointWriter writer(path_of(place), discretization, order_of_nodes());
     std::int64_t     log_size  = log.size();
     Json             checksums = table_checksums(body.tables);
     for (Json &table : checksums)
@@ -330,36 +319,7 @@ namespace corotet
     writer.transfer("tables", tables);
     simulation.save_state(writer);
     writer.finish(values, durable);
-    written_step = step;
+    written_place = place;
     on_root(comm, [&] { remove_old(); });
-  }
-
-  void
-  Checkpoints::remove_unfinished() const
-  {
-    const std::regex      name(R"((step_\d{6,10})\.(h5|h5\.tmp|json\.tmp))");
-    std::vector<fs::path> unfinished;
-    std::error_code       error;
-    for (const auto &entry : fs::directory_iterator(directory, error))
-      {
-        std::smatch       match;
-        const std::string file = entry.path().filename().string();
-        if (std::regex_match(file, match, name) &&
-            (match[2] != "h5" ||
-             !fs::exists(fmt::format("{}/{}.json", directory, match[1].str()))))
-          unfinished.push_back(entry.path());
-      }
-    for (const fs::path &path : unfinished)
-      fs::remove(path, error);
-  }
-
-  void
-  Checkpoints::remove_old() const
-  {
-    const std::vector<unsigned int> all = steps();
-    for (std::size_t i = parameters.keep; i < all.size(); ++i)
-      for (const char *suffix : {".json", ".h5"})
-        fs::remove(path_of(all[i]) + suffix);
-    remove_unfinished();
   }
 } // namespace corotet

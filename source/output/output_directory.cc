@@ -36,7 +36,7 @@ namespace corotet
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
        R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
-       R"((rows/[^/]+/)?checkpoint/step_[0-9]+\.(h5|json)(\.tmp)?)",
+       R"((rows/[^/]+/)?checkpoint/step_[0-9]+(_[0-9]+)?\.(h5|json)(\.tmp)?)",
        // The page of a run, also as it is while scripts/report writes it.
        R"(report\.html|\.report\.html\..*)"}};
     const std::array<std::string_view, 4> own_folders{

@@ -214,8 +214,8 @@ namespace corotet
     return true;
   }
 
-  double
-  AccelerationSolver::largest_frequency(const State &state, const double time)
+  AccelerationSolver::LargestFrequencies
+  AccelerationSolver::largest_frequencies(const State &state, const double time)
   {
     equation.set_state(state);
     const Discretization &discretization = body.discretization;
@@ -232,11 +232,12 @@ namespace corotet
       elasticity.linearize(equation.displacement(), tangent);
     if (ghosted.size() == 0)
       discretization.initialize_vector(ghosted);
+    bool                  is_supported = springs != nullptr;
     const SymmetricPencil pencil{
       [&](Vector &f, const Vector &v) {
         copy_with_ghosts(ghosted, v);
         elasticity.apply_stiffness(f, ghosted, tangent);
-        if (springs)
+        if (is_supported)
           surface_stiffness.add(f, ghosted);
         body.motion.set_zero(f);
       },
@@ -255,14 +256,15 @@ namespace corotet
           start.local_element(3 * n + a) = s - std::floor(s) - 0.5;
         }
     body.motion.set_zero(start);
-    double largest = largest_eigenvalue(pencil, start, 2e-3);
-    if (equation.terms.damping_shares().stiffness > 0 &&
-        !elasticity.is_by_cell(tangent))
-      {
-        // Damping is that of the frozen rotations, whatever softens.
-        tangent = Tangent::frozen_rotation;
-        largest = std::max(largest, largest_eigenvalue(pencil, start, 2e-3));
-      }
-    return std::sqrt(largest);
+    constexpr double tolerance = 2e-3;
+    const double all = std::sqrt(largest_eigenvalue(pencil, start, tolerance));
+    if (equation.terms.damping_shares().stiffness == 0 ||
+        (!springs && elasticity.is_by_cell(tangent)))
+      return {all, all};
+    // Damping is that of the frozen rotations, whatever softens, and not of
+    // springs.
+    tangent      = Tangent::frozen_rotation;
+    is_supported = false;
+    return {all, std::sqrt(largest_eigenvalue(pencil, start, tolerance))};
   }
 } // namespace corotet

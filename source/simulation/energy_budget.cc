@@ -68,6 +68,8 @@ namespace corotet
     began_unloaded          = true;
     is_unloaded             = true;
     initial_changing_energy = 0;
+    // No work has been done for the guess's energy.
+    initial.energy_balance = initial.elastic_energy;
   }
 
   double

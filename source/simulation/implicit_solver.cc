@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
-#include <corotet/discretization/cell_proportions.h>
 #include <corotet/simulation/implicit_solver.h>
+#include <corotet/solvers/singular_matrix_error.h>
 
 #include <deal.II/base/scope_exit.h>
 
@@ -311,34 +311,15 @@ namespace corotet
         report_linear_solver(n_iterations);
         return n_iterations;
       }
-    catch (const ComputationError &)
+    catch (const ComputationError &error)
       {
-        report_linear_solver(std::numeric_limits<unsigned int>::max());
+        // No cell is to blame for a matrix that is singular, nor for an exact
+        // tangent that may be next to it: the solve with another one tells.
+        if (dynamic_cast<const SingularMatrixError *>(&error) == nullptr &&
+            (J == nullptr || !J->is_exact()))
+          report_linear_solver(std::numeric_limits<unsigned int>::max());
         throw;
       }
-  }
-
-  void
-  ImplicitSolver::report_linear_solver(const unsigned int n_iterations)
-  {
-    const std::string news = linear_solver.take_news();
-    if (!news.empty())
-      log.line(news);
-    constexpr unsigned int slow = 100, many = 1000;
-    if (n_iterations <= slow || slow_iterations > many)
-      return;
-    slow_iterations += std::min(n_iterations, many + 1);
-    if (slow_iterations <= many)
-      return;
-    std::string remedies = "more cells across thin parts or fewer along them, "
-                           "a Poisson's ratio less close to 1/2";
-    if (linear_solver.type() != "automatic" && linear_solver.type() != "direct")
-      remedies = "'Linear solver/Type = automatic', " + remedies;
-    log.line(fmt::format("linear solves take more than {} iterations: {}; what "
-                         "would help: {}",
-                         slow,
-                         cell_proportions(body.discretization).text(),
-                         remedies));
   }
 
   NewtonProblem::Norm

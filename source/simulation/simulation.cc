@@ -191,10 +191,10 @@ namespace corotet
   }
 
   void
-  Simulation::step(const std::function<bool()> &is_interrupted)
+  Simulation::step(const Interruption &interruption)
   {
     guarded([&] {
-      if (!stepper.next(last_record, is_interrupted))
+      if (!stepper.next(last_record, interruption))
         return;
       has_moved             = has_moved || is_moved(last_record);
       stress_is_present     = false;

@@ -118,16 +118,43 @@ namespace corotet
           step_length,
           latest,
           least * latest));
+    // Nobody minds steps that are a little shorter.
+    constexpr double much = 0.5;
+    if (integrator->is_dynamic() && step_length < much * parameters.time_step)
+      log.line(fmt::format("steps of {:.6g} s: found 'Time step' = {:g}, and "
+                           "{:.6g} s to the end time",
+                           step_length,
+                           parameters.time_step,
+                           duration));
     warn_of_steps(n, step_length);
   }
+
+  namespace
+  {
+    // Of the square of a step from that of the stable one, as far as that is
+    // known.
+    constexpr double least_distance_from_limit = 1e-3;
+  } // namespace
 
   void
   TimeLoop::follow_stable_step()
   {
     const StabilityControl &control = *integrator->stability();
-    const double            stable  = integrator->stable_step(
-      system.acceleration_solver().largest_frequency(present, time(done)),
-      system.equation().terms.damping_shares().stiffness);
+    const auto [omega, damped] =
+      system.acceleration_solver().largest_frequencies(present, time(done));
+    // Stable is dt if (dt omega)^2 + 2 alpha_K dt damped^2 is at most that for
+    // one frequency, as the sum's largest eigenvalue is no larger than the sum
+    // of both: so the damping counts by the ratio of these.
+    const double ratio  = omega > 0 ? damped / omega : 1;
+    const double stable = integrator->stable_step(
+      omega,
+      system.equation().terms.damping_shares().stiffness * ratio * ratio);
+    // Close to the limit the energy of the fastest mode, which central
+    // difference has with two velocities, is 1 / (1 - r^2) times as large.
+    const double r =
+      n_steps == 0 ? control.safety_factor : step_length / stable;
+    amplification =
+      r <= 1 ? 1 / std::max(1 - r * r, least_distance_from_limit) : 1;
     if (n_steps == 0)
       {
         if (!std::isfinite(stable))

@@ -4,6 +4,8 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/simulation/time_loop.h>
 
+#include <deal.II/base/scope_exit.h>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -131,70 +133,20 @@ namespace corotet
     return record;
   }
 
-  bool
-  TimeLoop::next(StepRecord                  &record,
-                 const std::function<bool()> &is_interrupted)
+  void
+  TimeLoop::begin_step(StepRecord &record)
   {
-    StepRecord next    = is_between_records ? unrecorded : record;
-    is_between_records = false;
-    // Of the state that a step that fails leaves.
-    StepRecord good = integrator->is_explicit() ? record : next;
-    for (bool is_first = true; is_first || !is_recorded(next.step, from, done);
-         is_first      = false)
-      {
-        if (!is_first && is_interrupted && is_interrupted())
-          {
-            unrecorded         = next;
-            is_between_records = true;
-            return false;
-          }
-        ++next.step;
-        next.dt                = 0;
-        next.parts             = 0;
-        next.newton_iterations = 0;
-        next.linear_iterations = 0;
-        from                   = done;
-        try
-          {
-            if (next.step > largest_number_of_steps)
-              throw ComputationError(
-                fmt::format("found {} steps already; allowed are no more",
-                            largest_number_of_steps));
-            if (integrator->is_explicit())
-              advance_explicitly(next);
-            else if (adaptive)
-              advance_adaptively(next);
-            else
-              advance(done,
-                      end_of_step(next.step),
-                      parameters.max_halvings,
-                      next);
-            if (!integrator->is_explicit() ||
-                is_recorded(next.step, from, done))
-              good = next;
-            if (is_stable_step_due(next.step))
-              follow_stable_step();
-          }
-        catch (const ComputationError &)
-          {
-            if (integrator->is_explicit())
-              {
-                failure = {next.step, time(from)};
-                restore_state();
-                done = good_done;
-              }
-            else if (next.step > good.step && next.parts > 0)
-              {
-                // Part of the step is done.
-                good       = next;
-                is_partial = true;
-              }
-            is_new = good.step > record.step;
-            record = good;
-            throw;
-          }
-      }
-    record = next;
+    ++record.step;
+    record.dt                = 0;
+    record.parts             = 0;
+    record.newton_iterations = 0;
+    record.linear_iterations = 0;
+    from                     = done;
+  }
+
+  void
+  TimeLoop::report(const StepRecord &record) const
+  {
     if (record.parts > 1)
       {
         log.line(
@@ -212,6 +164,80 @@ namespace corotet
                         "\"Smallest step\"",
                         adaptive->n_too_inaccurate()));
       }
+  }
+
+  bool
+  TimeLoop::next(StepRecord &record, const Interruption &interruption)
+  {
+    StepRecord next    = is_between_records ? unrecorded : record;
+    is_between_records = false;
+    // Of the state that a step that fails leaves.
+    StepRecord good = integrator->is_explicit() ? record : next;
+    const auto stay = [&](const StepRecord &reached) {
+      unrecorded         = reached;
+      is_between_records = true;
+      return false;
+    };
+    system.implicit_solver().ask(StopQuestion(interruption.within_step));
+    const dealii::ScopeExit ask_no_more(
+      [&] { system.implicit_solver().ask({}); });
+    for (bool is_first = true; is_first || !is_recorded(next.step, from, done);
+         is_first      = false)
+      {
+        if (!is_first && interruption.after_step && interruption.after_step())
+          return stay(next);
+        if (parts_left.empty())
+          begin_step(next);
+        try
+          {
+            if (next.step > largest_number_of_steps)
+              throw ComputationError(
+                fmt::format("found {} steps already; allowed are no more",
+                            largest_number_of_steps));
+            if (integrator->is_explicit())
+              advance_explicitly(next);
+            else if (adaptive)
+              advance_adaptively(next);
+            else if (!advance(next, interruption.after_step))
+              return stay(next);
+            if (!integrator->is_explicit() ||
+                is_recorded(next.step, from, done))
+              good = next;
+            if (is_stable_step_due(next.step))
+              follow_stable_step();
+          }
+        catch (const StepInterrupted &)
+          {
+            // What is left is a state at which a step or a part of it begins.
+            restore_state();
+            system.equation().set_state(present);
+            if (next.parts > 0)
+              return stay(next);
+            parts_left.clear();
+            return stay(good);
+          }
+        catch (const ComputationError &)
+          {
+            if (integrator->is_explicit())
+              {
+                failure = {next.step, time(from)};
+                restore_state();
+                done = good_done;
+              }
+            else if (!parts_left.empty() && next.parts > 0)
+              {
+                // Part of the step is done.
+                good       = next;
+                is_partial = true;
+              }
+            parts_left.clear();
+            is_new = good.step > record.step;
+            record = good;
+            throw;
+          }
+      }
+    record = next;
+    report(record);
     return true;
   }
 } // namespace corotet

@@ -63,6 +63,8 @@ namespace corotet
         done *= factor;
         good_done *= factor;
       }
+    // With other steps what is left of one that has been begun is one of them.
+    parts_left.clear();
     // Whose steps are all made has no use for another length of them.
     if (is_done())
       return;
@@ -90,6 +92,23 @@ namespace corotet
   }
 
   void
+  TimeLoop::transfer_parts(Archive &archive)
+  {
+    std::vector<double>       ends;
+    std::vector<unsigned int> halvings;
+    for (const Part &part : parts_left)
+      {
+        ends.push_back(part.to);
+        halvings.push_back(part.halvings_left);
+      }
+    archive.transfer("parts_left", ends);
+    archive.transfer("halvings_left", halvings);
+    parts_left.clear();
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      parts_left.push_back({ends[i], halvings.at(i)});
+  }
+
+  void
   TimeLoop::transfer(Archive &archive)
   {
     archive.transfer("done", done);
@@ -98,6 +117,7 @@ namespace corotet
     archive.transfer("first_done", first_done);
     archive.transfer("step_length", step_length);
     archive.transfer("energy_supply", energy_supply);
+    archive.transfer("amplification", amplification);
     archive.transfer("has_warned", has_warned);
     archive.within("state", [&] { present.transfer(archive); });
     if (adaptive)
@@ -109,6 +129,8 @@ namespace corotet
       {
         archive.within("unrecorded", [&] { unrecorded.transfer(archive); });
         archive.transfer("good_done", good_done);
+        archive.transfer("from", from);
+        transfer_parts(archive);
         // Others keep one at each step.
         if (integrator->is_explicit())
           archive.within("good_state", [&] { good_state.transfer(archive); });

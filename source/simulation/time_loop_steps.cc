@@ -67,30 +67,46 @@ namespace corotet
       }
   }
 
-  void
-  TimeLoop::advance(const double       from,
-                    const double       to,
-                    const unsigned int halvings,
-                    StepRecord        &record)
+  bool
+  TimeLoop::advance(StepRecord                  &record,
+                    const std::function<bool()> &is_interrupted)
   {
+    if (parts_left.empty())
+      parts_left = {{end_of_step(record.step), parameters.max_halvings}};
+    while (!parts_left.empty())
+      {
+        const unsigned int n_made = record.parts;
+        make_part(record);
+        if (record.parts > n_made && !parts_left.empty() && is_interrupted &&
+            is_interrupted())
+          return false;
+      }
+    return true;
+  }
+
+  void
+  TimeLoop::make_part(StepRecord &record)
+  {
+    const auto [to, halvings_left] = parts_left.back();
     keep_state();
-    bool is_made = false;
     try
       {
-        integrate(from, to, record);
-        finish_step(from, to, record);
-        is_made = true;
+        const double start = done;
+        integrate(start, to, record);
+        finish_step(start, to, record);
+        parts_left.pop_back();
       }
     catch (const ComputationError &error)
       {
-        const double middle = time(0.5 * (from + to));
+        const double middle = 0.5 * (done + to);
         // In motion there are no halves that round-off of the time swallows.
-        const bool is_swallowed = integrator->is_dynamic() &&
-                                  !(time(from) < middle && middle < time(to));
+        const bool is_swallowed =
+          integrator->is_dynamic() &&
+          !(time() < time(middle) && time(middle) < time(to));
         const bool is_final =
           is_unstable || is_singular_for_good(error) || is_swallowed;
         restore_state();
-        if (halvings == 0 || is_final)
+        if (halvings_left == 0 || is_final)
           {
             if (parameters.max_halvings == 0 || is_final)
               throw;
@@ -100,12 +116,9 @@ namespace corotet
                           parameters.max_halvings));
           }
         announce_half(to, error);
+        parts_left.back().halvings_left = halvings_left - 1;
+        parts_left.push_back({middle, halvings_left - 1});
       }
-    if (is_made)
-      return;
-    const double middle = 0.5 * (from + to);
-    advance(from, middle, halvings - 1, record);
-    advance(middle, to, halvings - 1, record);
   }
 
   void
@@ -221,13 +234,14 @@ namespace corotet
   {
     // Far more than the errors of a stable step may make of what was put in,
     // and no noise of a body at rest. Implicit steps may be long.
-    const double factor = integrator->is_explicit() ? 100. : 1e4;
-    const auto   cause  = [&] {
+    const double factor =
+      integrator->is_explicit() ? std::max(100., 10 * amplification) : 1e4;
+    const auto cause = [&] {
       return integrator->is_explicit() ?
-                  "the time step is too long, or what makes the body stiffer "
-                  "comes between two estimates of the stable step: let 'Steps "
-                  "between estimates' be smaller" :
-                  "the time step is too long";
+               "the time step is too long, or what makes the body stiffer "
+               "comes between two estimates of the stable step: let 'Steps "
+               "between estimates' be smaller" :
+               "the time step is too long";
     };
     // The kinetic energy between steps may be negative where it is unstable.
     const double energy =

@@ -3,12 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/negligible.h>
-#include <corotet/solvers/conjugate_gradients.h>
-#include <corotet/solvers/flexible_cg.h>
 #include <corotet/solvers/linear_solver.h>
-
-#include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/solver_minres.h>
 
 #include <fmt/format.h>
 
@@ -23,40 +18,6 @@ namespace corotet
     // Ratios of mass to stiffness that differ by no more are the same but for
     // round-off in the time step.
     constexpr double same_mass_ratio = 1e-6;
-
-    // Directions that flexible conjugate gradients keep. On bent bodies more do
-    // not save iterations, as long as the solver is not slow.
-    constexpr unsigned int n_directions = 2;
-
-    // After how many iterations GMRES starts again, which stores two vectors
-    // for each: few of them make it stagnate on ill-conditioned systems.
-    unsigned int
-    basis_size(const Vector &b)
-    {
-      constexpr double few = 30, many = 200, memory = 64 << 20;
-      return static_cast<unsigned int>(
-        std::clamp(memory / (2 * sizeof(double) * b.size()), few, many));
-    }
-  } // namespace
-
-  namespace
-  {
-    // The iterations of @p solve; if it does not converge, those that were @p
-    // done before are counted, too.
-    template <typename Solve>
-    unsigned int
-    after(const unsigned int done, const Solve &solve)
-    {
-      try
-        {
-          return solve();
-        }
-      catch (const dealii::SolverControl::NoConvergence &failure)
-        {
-          throw dealii::SolverControl::NoConvergence(done + failure.last_step,
-                                                     failure.last_residual);
-        }
-    }
   } // namespace
 
   LinearSolver::LinearSolver(const LinearSolverParameters &parameters,
@@ -65,114 +26,6 @@ namespace corotet
     , tolerance(std::min(parameters.tolerance, largest_tolerance))
     , preconditioner(parameters.preconditioner.make())
   {}
-
-  template <typename Matrix>
-  unsigned int
-  LinearSolver::minimal_residuals(const Matrix      &A,
-                                  const unsigned int limit,
-                                  Vector            &x,
-                                  const Vector      &b,
-                                  const double       wanted) const
-  {
-    // MINRES measures residuals in the norm of the preconditioner, and a
-    // preconditioner in single precision blurs them: it starts again from the
-    // residual proper until that is small.
-    Vector       r(b), dx(b);
-    unsigned int iterations = 0;
-    for (unsigned int round = 0; round < 10; ++round)
-      {
-        A.vmult(r, x);
-        r.sadd(-1., 1., b);
-        const double missing = wanted / norm(r);
-        if (!(missing < 1) || iterations >= limit)
-          break;
-        dx = 0;
-        preconditioner->vmult(dx, r);
-        const double start = std::sqrt(std::abs(dx * r));
-        dx                 = 0;
-        dealii::SolverControl        control(limit - iterations,
-                                      0.3 * std::max(missing, 1e-6) * start);
-        dealii::SolverMinRes<Vector> minres(control);
-        try
-          {
-            minres.solve(A, dx, r, *preconditioner);
-          }
-        catch (const dealii::SolverControl::NoConvergence &)
-          {
-            // How far it has come is seen below.
-          }
-        iterations += std::min(control.last_step(), limit - iterations);
-        x += dx;
-      }
-    A.vmult(r, x);
-    r.sadd(-1., 1., b);
-    if (!(norm(r) <= wanted))
-      throw dealii::SolverControl::NoConvergence(iterations, norm(r));
-    return iterations;
-  }
-
-  template <typename Matrix>
-  unsigned int
-  LinearSolver::iterate(const Matrix      &A,
-                        const bool         symmetric,
-                        Vector            &x,
-                        const Vector      &b,
-                        const double       wanted,
-                        const unsigned int limit) const
-  {
-    const KrylovMethod    method = parameters.method;
-    dealii::SolverControl control(limit, wanted);
-    if (method == KrylovMethod::gmres || !symmetric)
-      {
-        unsigned int done = 0;
-        if (method != KrylovMethod::gmres)
-          {
-            FlexibleCG cg(control, n_directions);
-            const bool has_converged = cg.solve(A, x, b, *preconditioner);
-            done                     = control.last_step();
-            if (has_converged)
-              return done;
-          }
-        dealii::SolverControl left(limit - done, control.tolerance());
-        // The flexible variant: a preconditioner in single precision is not
-        // quite linear, and the plain one trusts that it is.
-        using GMRES = dealii::SolverFGMRES<Vector>;
-        GMRES gmres(left, GMRES::AdditionalData(basis_size(b)));
-        return done + after(done, [&] {
-                 gmres.solve(A, x, b, *preconditioner);
-                 return left.last_step();
-               });
-      }
-    if (method == KrylovMethod::minres)
-      return minimal_residuals(A, limit, x, b, wanted);
-    // Exact tangents may be indefinite, which the user's own choice of method
-    // overrides.
-    const bool is_watched = method != KrylovMethod::conjugate_gradients &&
-                            std::is_same_v<Matrix, TangentOperator>;
-    ConjugateGradients cg(control, is_watched);
-    const bool         has_converged = cg.solve(A, x, b, *preconditioner);
-    const unsigned int done          = control.last_step();
-    if (has_converged)
-      return done;
-    return done + after(done, [&] {
-             return minimal_residuals(A, limit - done, x, b, wanted);
-           });
-  }
-
-  unsigned int
-  LinearSolver::solve_with(const EffectiveOperator &A,
-                           const TangentOperator   *J,
-                           Vector                  &x,
-                           const Vector            &b,
-                           const double             wanted,
-                           const unsigned int       limit) const
-  {
-    if (J != nullptr)
-      return iterate(*J, J->is_symmetric(), x, b, wanted, limit);
-    if (parameters.is_assembled)
-      return iterate(A.matrix(), true, x, b, wanted, limit);
-    return iterate(A, true, x, b, wanted, limit);
-  }
 
   unsigned int
   LinearSolver::largest_number(const bool             is_new,
@@ -207,11 +60,9 @@ namespace corotet
       largest_number(is_new || (J == nullptr && A.version() == built_version),
                      J);
     const auto change_it = [&](const double expected) {
-      // If that throws, there is none.
-      const bool was_built = std::exchange(is_built, false);
+      stop_question.ask(b.get_mpi_communicator());
       const bool is_other =
         preconditioner->change(A, J, displacement, done, expected);
-      is_built = was_built;
       if (!is_other)
         return;
       done_before_change = done;
@@ -271,6 +122,40 @@ namespace corotet
     return norm(r) <= round_off && round_off < norm(b);
   }
 
+  void
+  LinearSolver::take_note(const unsigned int       iterations,
+                          const bool               was_built,
+                          const EffectiveOperator &A,
+                          const TangentOperator   *J,
+                          const double             loosest)
+  {
+    // In terms of solves to the tolerance.
+    const double digits =
+      loosest > tolerance ? std::log(loosest) / std::log(tolerance) : 1.;
+    const auto with_this =
+      static_cast<unsigned int>((iterations - done_before_change) / digits);
+    if (was_built)
+      {
+        first_iterations = with_this;
+        more_iterations  = 0;
+      }
+    // For the operator that it was made of, another one would be the same.
+    else if (with_this > first_iterations &&
+             (J != nullptr || A.version() != built_version))
+      more_iterations += with_this - first_iterations;
+    unsigned int acceptable =
+      preconditioner->acceptable_iterations(first_iterations);
+    // A new preconditioner is not better than the first solve with it, as most
+    // are made of the effective operator.
+    if (J != nullptr)
+      acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
+    is_built = with_this <= acceptable &&
+               more_iterations <= preconditioner->build_cost() &&
+               !preconditioner->is_worth_another(with_this);
+    if (preconditioner->take_note(with_this, was_built))
+      is_built = false;
+  }
+
   unsigned int
   LinearSolver::solve(const EffectiveOperator &A,
                       Vector                  &x,
@@ -297,6 +182,7 @@ namespace corotet
     const bool first_solve = !is_built;
     if (first_solve)
       {
+        stop_question.ask(b.get_mpi_communicator());
         preconditioner->build_for(A, J, displacement);
         built_mass_ratio = A.mass_ratio();
         built_surface    = A.surface_size();
@@ -308,6 +194,8 @@ namespace corotet
     known_version = A.version();
 
     unsigned int iterations = 0;
+    // Until the solve has come to its end.
+    is_built = false;
     try
       {
         iterations =
@@ -316,8 +204,10 @@ namespace corotet
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
         if (is_round_off(A, J, x, b))
-          return failure.last_step;
-        is_built = false;
+          {
+            is_built = !first_solve;
+            return failure.last_step;
+          }
         if (!first_solve)
           // Perhaps only the preconditioner was outdated.
           return solve(A, x, b, displacement, J, limit, loosest);
@@ -330,32 +220,7 @@ namespace corotet
           parameters.max_iterations));
       }
 
-    const bool was_built = first_solve || has_changed;
-    // In terms of solves to the tolerance.
-    const double digits =
-      loosest > tolerance ? std::log(loosest) / std::log(tolerance) : 1.;
-    const auto with_this =
-      static_cast<unsigned int>((iterations - done_before_change) / digits);
-    if (was_built)
-      {
-        first_iterations = with_this;
-        more_iterations  = 0;
-      }
-    // For the operator that it was made of, another one would be the same.
-    else if (with_this > first_iterations &&
-             (J != nullptr || A.version() != built_version))
-      more_iterations += with_this - first_iterations;
-    unsigned int acceptable =
-      preconditioner->acceptable_iterations(first_iterations);
-    // A new preconditioner is not better than the first solve with it, as most
-    // are made of the effective operator.
-    if (J != nullptr)
-      acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
-    is_built = with_this <= acceptable &&
-               more_iterations <= preconditioner->build_cost() &&
-               !preconditioner->is_worth_another(with_this);
-    if (preconditioner->take_note(with_this, was_built))
-      is_built = false;
+    take_note(iterations, first_solve || has_changed, A, J, loosest);
     return iterations;
   }
 } // namespace corotet

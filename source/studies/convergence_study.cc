@@ -251,12 +251,9 @@ namespace corotet
         StudyResult result = result_from_json(study_case, kept.at("result"));
         if (result.quantities.size() != quantities.size())
           return {};
-        if (kept.contains("finer_quantities"))
-          for (unsigned int i = 0; i < quantities.size(); ++i)
-            if (!quantities[i].reference &&
-                kept.at("finer_quantities").at(i).is_number())
-              quantities[i].reference =
-                kept.at("finer_quantities").at(i).get<double>();
+        if (kept.contains("finer_run"))
+          take_finer_result(
+            result_from_json(finer_case(), kept.at("finer_run")));
         return result;
       }
     catch (const Json::exception &)
@@ -308,7 +305,7 @@ namespace corotet
         compare_with_finer_run(result, *run);
         if (!failure_of_finer_run.empty())
           return result;
-        file["finer_quantities"] = finer_quantities;
+        file["finer_run"] = result_to_json(*finer_result);
       }
     file["result"] = result_to_json(result);
     on_root(comm, [&] {
@@ -348,12 +345,14 @@ namespace corotet
       summary["failed_runs"]    = n_failed;
       double        wall_time   = 0;
       std::uint64_t peak_memory = 0;
-      for (const StudyResult &result : results)
-        {
-          wall_time += result.total_wall_time;
-          peak_memory =
-            std::max<std::uint64_t>(peak_memory, result.peak_memory_bytes);
-        }
+      const auto    count       = [&](const StudyResult &result) {
+        wall_time += result.total_wall_time;
+        peak_memory =
+          std::max<std::uint64_t>(peak_memory, result.peak_memory_bytes);
+      };
+      std::for_each(results.begin(), results.end(), count);
+      if (finer_result)
+        count(*finer_result);
       summary["wall_time"]         = {{"total", wall_time}};
       summary["peak_memory_bytes"] = peak_memory;
       write_whole_file(directory + "/summary.json",

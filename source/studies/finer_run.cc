@@ -74,6 +74,15 @@ namespace corotet
     return finest;
   }
 
+  void
+  ConvergenceStudy::take_finer_result(const StudyResult &result)
+  {
+    finer_result = result;
+    for (unsigned int i = 0; i < quantities.size(); ++i)
+      if (!quantities[i].reference)
+        quantities[i].reference = result.quantities.at(i);
+  }
+
   const StudyRun *
   ConvergenceStudy::finer_run()
   {
@@ -101,10 +110,7 @@ namespace corotet
         failure_of_finer_run = "the finer run has failed: " + result.message;
         return nullptr;
       }
-    finer_quantities = result.quantities;
-    for (unsigned int i = 0; i < quantities.size(); ++i)
-      if (!quantities[i].reference)
-        quantities[i].reference = finer_quantities[i];
+    take_finer_result(result);
     if (const Simulation *simulation = finer->simulation())
       finer_norms = error_norms(simulation->body().discretization,
                                 simulation->body().materials,

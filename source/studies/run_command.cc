@@ -39,18 +39,16 @@ namespace corotet
     void
     compute_modes(ModalAnalysis &analysis, ModesWriter &writer)
     {
-      std::string failure;
       try
         {
           analysis.compute();
         }
       catch (const ComputationError &error)
         {
-          failure = error.what();
+          writer.write(error.what());
+          throw;
         }
-      writer.write(failure);
-      if (!failure.empty())
-        throw ComputationError(failure);
+      writer.write("");
     }
   } // namespace
 

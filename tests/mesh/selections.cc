@@ -147,6 +147,12 @@ namespace
       EXPECT_NEAR(tests::area(mesh, name), 1, 1e-13);
     EXPECT_NEAR(tests::volume(mesh, "left"), 1, 1e-14);
     EXPECT_NEAR(tests::volume(mesh, "lower left"), 0.5, 1e-14);
+    // Numbers mean what they meant, too.
+    for (const std::string number : {"0", "1"})
+      EXPECT_NEAR(tests::area(mesh, number), 1, 1e-13);
+    for (const std::string number : {"2", "3", "4", "5"})
+      EXPECT_NEAR(tests::area(mesh, number), 2, 1e-13);
+    EXPECT_NEAR(tests::volume(mesh, "0"), 2, 1e-13);
     EXPECT_NEAR(total(region_volumes(mesh)), 2, 1e-13);
   }
 
@@ -161,6 +167,8 @@ namespace
     const SerialMesh part = with(mesh, "top: normal 0 0 1");
     EXPECT_NEAR(tests::area(part, "top"), 2, 1e-14);
     EXPECT_EQ(part.faces.size(), 64u);
+    // Which id the others had meanwhile is nobody's business.
+    EXPECT_EQ(part.boundaries.parts.size(), 0u);
     const SerialMesh all = with(mesh, "all: sphere 0 0 0 9");
     EXPECT_NEAR(tests::area(all, "all"), 10, 1e-13);
 

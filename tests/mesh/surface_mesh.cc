@@ -38,7 +38,8 @@ namespace
     EXPECT_NEAR(total(region_volumes(mesh)), volume_inside(triangles), 1e-13);
     // All of the surface, and as it was.
     EXPECT_EQ(mesh.faces.size(), triangles.size());
-    EXPECT_TRUE(mesh.regions.names.empty());
+    EXPECT_EQ(MeshNames("region", mesh.regions).known(),
+              std::vector<std::string>{"solid 1"});
     for (const SerialMesh::Face &face : mesh.faces)
       for (const unsigned int v : face.vertices)
         EXPECT_NEAR(mesh.vertices[v].norm(), 1, 1e-14);

@@ -208,6 +208,29 @@ class Checkpoints(ProgramTest):
                 self.assertEqual(rows_without_time(run.output), rows_without_time(reference.output))
                 shutil.rmtree(run.folder)
 
+    def test_between_parts_of_a_step(self):
+        """A step that is halved is saved between its parts, too, and goes on there."""
+        run = Run(self.folder / "halved", "static", 1, {"Time integration/static/Load steps": "2", "Loads/Gravity": "0; 0; -10",
+                                                        "Newton/Maximum iterations": "5", "Checkpoint/Minutes between checkpoints": "1e-9",
+                                                        "Checkpoint/Steps between checkpoints": "0", "Checkpoint/Keep": "1000"})
+        status, out, errors = run.finish()
+        self.assertEqual((status, errors), (0, ""), out)
+        whole, results = rows_without_time(run.output), results_of(run.output)
+        names = sorted(path.stem for path in (run.output / "checkpoint").glob("*.json"))
+        for name in [name for name in names if name.count("_") == 2]:
+            with self.subTest(name=name):
+                # Those that come after it, whole steps behind their parts.
+                later = [path for path in (run.output / "checkpoint").iterdir()
+                         if path.name.split(".")[0].split("_")[1:] > name.split("_")[1:] or path.stem == name.rsplit("_", 1)[0]]
+                for path in later:
+                    path.unlink()
+                status, out, errors = run.finish("--restart")
+                self.assertEqual((status, errors), (0, ""), out)
+                self.assertIn(f"Restarted from within step {int(name.split('_')[1])}, t = ", out)
+                self.assertEqual((rows_without_time(run.output), results_of(run.output)), (whole, results))
+                self.assertEqual(sorted(path.stem for path in (run.output / "checkpoint").glob("*.json")), names)
+        self.assertGreaterEqual(len(names), 4)
+
     def test_unfinished_checkpoints_are_removed(self):
         """What a run that was killed while it saved has left would be there for ever: vectors without the rest, files under way. Others' files stay."""
         run = Run(self.folder / "run", "generalized-alpha", 1)

@@ -96,6 +96,25 @@ class Signals(ProgramTest):
         self.assertEqual(read_summary(self.folder / "run")["status"], "stopped")
         self.assertEqual(self.signal_within_step(signal.SIGINT, signal.SIGINT)[0], -signal.SIGINT)
 
+    def test_long_step(self):
+        """A step that would take minutes is given up, and made by the run that goes on."""
+        entries = {**BEAM, "Time integration/Type": "static", "Discretization/Degree": "3", "Mesh/box/Size": "10, 0.1, 0.1",
+                   "Mesh/box/Cells": "200, 2, 2", "Material/Young's modulus": "1e9", "Linear solver/Type": "jacobi", "Linear solver/Maximum iterations": "1000000"}
+        process = self.start(entries)
+        while not (self.folder / "run" / "history.csv").exists() or len(read_history(self.folder / "run")) < 1:
+            time.sleep(0.01)
+        start = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 4, errors)
+        self.assertIn("step 0 (t = 0 s): SIGTERM; the run is saved", errors)
+        self.assertGreater(time.monotonic() - start, 5)
+        self.assertEqual(read_summary(self.folder / "run")["status"], "stopped")
+        self.assertEqual(len(read_history(self.folder / "run")), 1)
+        other = self.start({**entries, "Linear solver/Type": "automatic"}, "--restart")
+        self.assertEqual((other.communicate(timeout=60)[1], other.returncode), ("", 0))
+        self.assertEqual([row["step"] for row in read_history(self.folder / "run")], ["0", "1"])
+
     def test_hangup_that_is_ignored(self):
         """As by nohup: MPI's libraries have a use of their own for the signal, which changes nothing of that."""
         for ignored in (True, False):

@@ -163,6 +163,10 @@ TEST(Statics, AGuessDoesNoWork)
                        &b = with.recorder().steps.back();
       EXPECT_NEAR(b.external_work, a.external_work, 1e-7 * a.external_work);
       EXPECT_NEAR(b.energy_balance, 0, 1e-7 * a.external_work);
+      // Of the guess itself nothing is taken off either.
+      const StepRecord &first = with.recorder().records.front();
+      EXPECT_GT(first.elastic_energy, 0.1);
+      EXPECT_EQ(first.energy_balance, first.elastic_energy);
     }
 }
 

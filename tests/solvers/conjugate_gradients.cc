@@ -69,6 +69,7 @@ namespace
       vmult(dst, src);
     }
   };
+  const StopQuestion nobody;
 } // namespace
 
 TEST(ConjugateGradients, AreThoseOfDealii)
@@ -82,8 +83,8 @@ TEST(ConjugateGradients, AreThoseOfDealii)
       dealii::SolverControl    control(300, 1e-10), reference(300, 1e-10);
       dealii::SolverCG<Vector> cg(reference);
       cg.solve(Matrix{1}, expected, b, Scaling());
-      EXPECT_TRUE(
-        ConjugateGradients(control, true).solve(Matrix{1}, x, b, Scaling()));
+      EXPECT_TRUE(ConjugateGradients(control, nobody, true)
+                    .solve(Matrix{1}, x, b, Scaling()));
       // Round-off may make one more or less of them.
       EXPECT_NEAR(control.last_step(), reference.last_step(), 1);
       EXPECT_GT(control.last_step(), 20u);
@@ -99,8 +100,8 @@ TEST(ConjugateGradients, StopAtNegativeCurvatureIfAsked)
   Vector                x(b);
   dealii::SolverControl control(300, 1e-10);
   x = 0;
-  EXPECT_FALSE(
-    ConjugateGradients(control, true).solve(Matrix{-1e5}, x, b, Scaling()));
+  EXPECT_FALSE(ConjugateGradients(control, nobody, true)
+                 .solve(Matrix{-1e5}, x, b, Scaling()));
   for (const double entry : x)
     EXPECT_TRUE(std::isfinite(entry));
 }
@@ -112,8 +113,28 @@ TEST(ConjugateGradients, FailureIsThrown)
   dealii::SolverControl control(3, 1e-10);
   x = 0;
   EXPECT_THROW(
-    ConjugateGradients(control, true).solve(Matrix{1}, x, b, Scaling()),
+    ConjugateGradients(control, nobody, true).solve(Matrix{1}, x, b, Scaling()),
     dealii::SolverControl::NoConvergence);
+}
+
+// One rank is enough.
+TEST(ConjugateGradients, StopWhenAskedTo)
+{
+  const Vector          b = some_vector();
+  Vector                x(b);
+  dealii::SolverControl control(300, 1e-10);
+  unsigned int          n = 0;
+  const unsigned int    last =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
+  const StopQuestion question([&] {
+    return ++n > 5 &&
+           dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == last;
+  });
+  x = 0;
+  EXPECT_THROW(ConjugateGradients(control, question, true)
+                 .solve(Matrix{1}, x, b, Scaling()),
+               StepInterrupted);
+  EXPECT_EQ(n, 6u);
 }
 
 // Steps that leave a millionth of the residual and less: sums of squares would

@@ -81,6 +81,19 @@ namespace corotet
   };
 
   /**
+   * A step was given up because the run is to stop; it can be made again.
+   */
+  class StepInterrupted : public std::exception
+  {
+  public:
+    const char *
+    what() const noexcept override
+    {
+      return "a step was given up";
+    }
+  };
+
+  /**
    * A signal or a limit ended the run before its end time, and it was saved:
    * exit status 4.
    */

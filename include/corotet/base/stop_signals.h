@@ -35,6 +35,10 @@ namespace corotet
     static int
     received();
 
+    /// How long ago it came [s]; 0 if none did.
+    static double
+    waiting_time();
+
     /// Whether SIGUSR1 came since the last call.
     static bool
     take_save_request();

@@ -35,6 +35,9 @@ namespace corotet
     std::map<unsigned int, std::string> names;
     /// Names that mean several ids (ascending), or one that has others, too.
     std::map<std::string, std::vector<unsigned int>> sets;
+    /// What the number of an id that has been split means: all ids that its
+    /// members have now (ascending).
+    std::map<unsigned int, std::vector<unsigned int>> parts;
 
     /// The ids that @p name means; none if nothing has this name.
     std::vector<unsigned int>
@@ -43,8 +46,8 @@ namespace corotet
     /**
      * Makes @p name mean the members whose places in @p id_of_member, which has
      * the ids of all cells or faces, are @p members: an id that others have,
-     * too, is split. What names meant before they mean still. A name that there
-     * is gets the members in addition.
+     * too, is split. What names and numbers meant before they mean still. A
+     * name that there is gets the members in addition.
      */
     void
     add(const std::string                 &name,
@@ -139,6 +142,10 @@ namespace corotet
     }
 
   private:
+    /// What the number @p id means.
+    std::vector<unsigned int>
+    of_number(const unsigned int id) const;
+
     std::string kind;
     NamedSets   named;
   };

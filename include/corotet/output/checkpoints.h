@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace corotet
@@ -116,9 +117,47 @@ namespace corotet
     run(Simulation &simulation, const bool saves_end = true);
 
   private:
+    /// A state of the run, and the name of its checkpoint's files.
+    struct Place
+    {
+      /// The last step that has been begun, and the parts of it that are made,
+      /// if others are not; else 0.
+      unsigned int step;
+      unsigned int parts;
+
+      bool
+      operator==(const Place &) const = default;
+
+      /// Whether it comes before @p other.
+      bool
+      operator<(const Place &other) const
+      {
+        const auto key = [](const Place &place) {
+          return std::tuple(place.step, place.parts == 0, place.parts);
+        };
+        return key(*this) < key(other);
+      }
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive & step & parts;
+      }
+    };
+
+    static Place
+    place_of(const Simulation &simulation);
+    /// As the log has it.
+    static std::string
+    words_for(const Simulation &simulation);
     /// What the run is asked for, as bits, the same on all ranks.
     int
     requests();
+    /// Whether a step has to be given up, as the run was to stop a while ago,
+    /// as far as this rank knows.
+    bool
+    is_urgent() const;
     void
     write(Simulation &simulation, const bool durable);
     /// Removes what is left of checkpoints that were never finished. On rank 0,
@@ -128,11 +167,11 @@ namespace corotet
     /// Removes checkpoints but for the newest ones. On rank 0.
     void
     remove_old() const;
-    /// Steps of all checkpoints in the folder, the newest first. On rank 0.
-    std::vector<unsigned int>
-    steps() const;
+    /// Those of all checkpoints in the folder, the newest first. On rank 0.
+    std::vector<Place>
+    places() const;
     std::string
-    path_of(const unsigned int step) const;
+    path_of(const Place &place) const;
     /// Of tables in files; found when the first one is read or written.
     /// Collective.
     const FileOrder &
@@ -154,8 +193,11 @@ namespace corotet
     Log                          &log;
     /// See order_of_nodes().
     mutable std::optional<FileOrder> order;
-    Clock::time_point                written      = Clock::now();
-    unsigned int                     written_step = 0;
+    Clock::time_point                written = Clock::now();
+    std::optional<Place>             written_place;
+    /// Whether the limit of wall time, if there is one, was not over when steps
+    /// began.
+    bool steps_have_time = false;
   };
 } // namespace corotet
 

@@ -35,12 +35,23 @@ namespace corotet
     bool
     can_step_many() const;
 
-    /// Estimate of the largest angular frequency of M^-1 K [rad/s], from above
-    /// by less than 0.1 percent. K is the tangent at @p state, with frozen
-    /// rotations if the exact one is not symmetric, and the stiffness that
-    /// force terms have on the surface at @p time.
-    double
-    largest_frequency(const State &state, const double time = 0);
+    /// Angular frequencies that bound an explicit step [rad/s], estimated from
+    /// above by less than 0.1 percent.
+    struct LargestFrequencies
+    {
+      /// Of M^-1 K: K is the tangent at a state, with frozen rotations if the
+      /// exact one is not symmetric, and the stiffness that force terms have on
+      /// the surface.
+      double all;
+      /// With the stiffness only that damping may be proportional to: that of
+      /// the cells, with frozen rotations.
+      double damped;
+    };
+
+    /// Those at @p state and @p time. The second one is the first where that
+    /// is no less sharp a bound, and where nothing is damped.
+    LargestFrequencies
+    largest_frequencies(const State &state, const double time = 0);
 
     /// Gives back all memory until the next solve: implicit runs need only the
     /// first one. Not collective.

@@ -42,6 +42,13 @@ namespace corotet
     StageReport
     move_supports(State &state, const double time, const double load_factor);
 
+    /// From now on solves ask @p question, and may throw StepInterrupted.
+    void
+    ask(const StopQuestion &question)
+    {
+      linear_solver.ask(question);
+    }
+
     /// Cells where the derivative of a rotation was clamped, over all ranks,
     /// largest number since the last call.
     unsigned int

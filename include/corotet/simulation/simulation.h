@@ -104,11 +104,10 @@ namespace corotet
     void
     save_state(Archive &archive);
 
-    /// Goes on to the next step that is to be recorded, or, if @p
-    /// is_interrupted says so after a step, to that one. It must say the same
-    /// on all ranks.
+    /// Goes on to the next step that is to be recorded, or, if
+    /// @p interruption says so, to an earlier state.
     void
-    step(const std::function<bool()> &is_interrupted = {});
+    step(const Interruption &interruption = {});
 
     bool
     is_done() const
@@ -136,6 +135,13 @@ namespace corotet
     step_number() const
     {
       return stepper.step_number(last_record);
+    }
+
+    /// Parts of that step that are made, if others are not; else 0.
+    unsigned int
+    parts_made() const
+    {
+      return stepper.parts_made();
     }
 
     double

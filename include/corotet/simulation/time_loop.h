@@ -31,6 +31,20 @@ namespace corotet
   };
 
   /**
+   * Questions whether a run is to do something else than steps. One that is
+   * empty says no.
+   */
+  struct Interruption
+  {
+    /// Asked after steps, and after the parts of one that is made in parts. It
+    /// says the same on all ranks.
+    std::function<bool()> after_step = {};
+    /// Asked while systems are solved: if a rank says yes, the step or the part
+    /// that is being made is given up.
+    std::function<bool()> within_step = {};
+  };
+
+  /**
    * Moves the body from step to step, from the start time to the end time:
    * in equal steps, by their error, or by stability, as the parameters say.
    * Steps that fail are made in halves.
@@ -66,15 +80,15 @@ namespace corotet
     save(Archive &archive);
 
     /**
-     * Goes on to the next step that is to be recorded, or to an earlier one if
-     * @p is_interrupted, which is asked after each (or after some, if they are
-     * made together), says so; then it returns false. @p record, that of the
-     * last one, becomes its record, but for the wall time. Throws
+     * Goes on to the next step that is to be recorded, or to an earlier state
+     * if @p interruption, which is asked after each step (or after some, if
+     * they are made together), says so; then it returns false. @p record, that
+     * of the last one, becomes its record, but for the wall time. Throws
      * ComputationError; then record, state and time are the last good ones, and
      * has_new_record() says whether @p record has changed.
      */
     bool
-    next(StepRecord &record, const std::function<bool()> &is_interrupted = {});
+    next(StepRecord &record, const Interruption &interruption = {});
 
     bool
     is_done() const
@@ -125,6 +139,13 @@ namespace corotet
       return is_between_records ? unrecorded.step : record.step;
     }
 
+    /// Parts of that step that are made, if others are not; else 0.
+    unsigned int
+    parts_made() const
+    {
+      return parts_left.empty() ? 0 : unrecorded.parts;
+    }
+
     /// The end of the first step [s].
     double
     first_time() const
@@ -156,6 +177,8 @@ namespace corotet
   private:
     void
     transfer(Archive &archive);
+    void
+    transfer_parts(Archive &archive);
     /// Where equal steps begin and how many there are, from now on: step
     /// @p step has been reached. Throws InputError.
     void
@@ -204,13 +227,20 @@ namespace corotet
                 const double       from,
                 const double       to) const;
 
-    /// Makes the part (from, to] of the run in one step, or in two halves if
-    /// that fails, each with one halving less.
+    /// @p record becomes that of a step of which nothing is done.
     void
-    advance(const double       from,
-            const double       to,
-            const unsigned int halvings,
-            StepRecord        &record);
+    begin_step(StepRecord &record);
+    /// What the log says after a step.
+    void
+    report(const StepRecord &record) const;
+    /// Makes the step of @p record, or what is left of it. Returns false if
+    /// @p is_interrupted, which is asked after each part, ends that.
+    bool
+    advance(StepRecord &record, const std::function<bool()> &is_interrupted);
+    /// Makes the next part of the step; if that fails, it is two parts from
+    /// then on, each with one halving less.
+    void
+    make_part(StepRecord &record);
     /// Whether the load step that ended with @p error, at the present state,
     /// would meet the same singular matrix if it were shorter: that of a linear
     /// body, or of the state at its start. (The mass of dynamics makes the
@@ -328,6 +358,15 @@ namespace corotet
     StepRecord unrecorded;
     bool       is_between_records = false;
 
+    /// A part of a step, with its end as a part of the run.
+    struct Part
+    {
+      double       to;
+      unsigned int halvings_left;
+    };
+    /// What is left of a step that has been begun, the next one last.
+    std::vector<Part> parts_left;
+
     bool is_new     = false;
     bool is_partial = false;
     /// See last_failure().
@@ -336,6 +375,9 @@ namespace corotet
     double  n_planned  = 0;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
+    /// How much more energy the fastest mode of an explicit run may have than
+    /// was put into it [-].
+    double amplification = 1;
     /// Largest energy so far [J], after a restart no less than the supply.
     double largest_energy = 0;
   };

@@ -5,10 +5,12 @@
 #define corotet_solvers_conjugate_gradients_h
 
 #include <corotet/base/vector.h>
+#include <corotet/solvers/stop_question.h>
 
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/vector_memory.h>
 
+#include <array>
 #include <cmath>
 
 namespace corotet
@@ -53,11 +55,13 @@ namespace corotet
   class ConjugateGradients
   {
   public:
-    /// @p control must outlive this object. @p stops_at_negative_curvature: see
-    /// solve().
+    /// @p control and @p question, which each iteration asks, must outlive this
+    /// object. @p stops_at_negative_curvature: see solve().
     ConjugateGradients(dealii::SolverControl &control,
+                       const StopQuestion    &question,
                        const bool             stops_at_negative_curvature)
       : control(control)
+      , question(question)
       , stops_at_negative_curvature(stops_at_negative_curvature)
     {}
 
@@ -66,8 +70,8 @@ namespace corotet
      * residual b - A x. Returns whether it is; not, if it stops at a direction
      * of negative curvature, p . A p < 0, which it has not gone along. Throws
      * dealii::SolverControl::NoConvergence after the control's largest number
-     * of steps. The preconditioner @p P is symmetric and positive definite.
-     * Collective.
+     * of steps, and StepInterrupted. The preconditioner @p P is symmetric and
+     * positive definite. Collective.
      */
     template <typename Matrix, typename Preconditioner>
     bool
@@ -95,8 +99,11 @@ namespace corotet
 
           P.vmult_with_norm(*z, *r, residual);
           const double last_slope = slope;
-          const auto   of_r = inner_products<2>({{{&*r, &*z}, {&*r, &*r}}});
-          slope             = of_r[0];
+          const auto own = local_inner_products<2>({{{&*r, &*z}, {&*r, &*r}}});
+          std::array<double, 3> of_r{{own[0], own[1], question.share()}};
+          sum_over_ranks(of_r, b.get_mpi_communicator());
+          StopQuestion::obey(of_r[2]);
+          slope = of_r[0];
           p->sadd(step == 0 ? 0. : slope / last_slope, 1., *z);
           A.vmult(*Ap, *p);
           const auto of_step =
@@ -114,6 +121,7 @@ namespace corotet
 
   private:
     dealii::SolverControl &control;
+    const StopQuestion    &question;
     const bool             stops_at_negative_curvature;
   };
 } // namespace corotet

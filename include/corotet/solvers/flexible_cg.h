@@ -29,9 +29,13 @@ namespace corotet
   class FlexibleCG
   {
   public:
-    /// @p control must outlive this object.
-    FlexibleCG(dealii::SolverControl &control, const unsigned int k)
+    /// @p control and @p question, which each iteration asks, must outlive this
+    /// object.
+    FlexibleCG(dealii::SolverControl &control,
+               const StopQuestion    &question,
+               const unsigned int     k)
       : control(control)
+      , question(question)
       , directions(k)
       , images(k)
       , curvatures(k)
@@ -44,7 +48,7 @@ namespace corotet
      * curvature, p . A p <= 0, or if it converges so slowly that a method with
      * a longer memory should go on from @p x. Throws
      * dealii::SolverControl::NoConvergence after the control's largest number
-     * of steps. Collective.
+     * of steps, and StepInterrupted. Collective.
      */
     template <typename Matrix, typename Preconditioner>
     bool
@@ -146,7 +150,9 @@ namespace corotet
       sums.assign(own.begin(), own.end());
       for (unsigned int i = begin; i < step; ++i)
         sums.push_back(local_inner_product(p, images[i % k]));
+      sums.push_back(question.share());
       sum_over_ranks(sums, p.get_mpi_communicator());
+      StopQuestion::obey(sums.back());
       for (unsigned int i = begin; i < step; ++i)
         crosses[(step % k) * k + i % k] = sums[own.size() + i - begin];
       return {sums[0], sums[1], sums[2], sums[3], sums[4]};
@@ -170,6 +176,7 @@ namespace corotet
     }
 
     dealii::SolverControl &control;
+    const StopQuestion    &question;
     std::vector<Vector>    directions;
     std::vector<Vector>    images;
     std::vector<double>    curvatures;

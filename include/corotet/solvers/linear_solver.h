@@ -8,6 +8,7 @@
 #include <corotet/base/selectable.h>
 #include <corotet/operators/tangent_operator.h>
 #include <corotet/solvers/preconditioner.h>
+#include <corotet/solvers/stop_question.h>
 
 #include <deal.II/lac/solver_control.h>
 
@@ -92,6 +93,14 @@ namespace corotet
           const double limit         = std::numeric_limits<double>::infinity(),
           const double loosest       = 0);
 
+    /// From now on asks @p question in iterations and before a preconditioner
+    /// is made: then solve() may throw StepInterrupted.
+    void
+    ask(const StopQuestion &question)
+    {
+      stop_question = question;
+    }
+
     /// Lines for the log on how it solves, new since the last call.
     std::string
     take_news()
@@ -134,6 +143,9 @@ namespace corotet
     }
 
   private:
+    /// The preconditioner, which asks now and then.
+    class AskingPreconditioner;
+
     /// Whether b - J x is nothing but round-off.
     bool
     is_round_off(const EffectiveOperator &A,
@@ -145,6 +157,14 @@ namespace corotet
     /// is an exact tangent.
     unsigned int
     largest_number(const bool is_new, const TangentOperator *J) const;
+    /// Decides whether the next solve is to have the same preconditioner, after
+    /// one with J, or with A if that is null, for which it @p was_built.
+    void
+    take_note(const unsigned int       iterations,
+              const bool               was_built,
+              const EffectiveOperator &A,
+              const TangentOperator   *J,
+              const double             loosest);
     /// These go on from x to a residual of @p wanted and return the number of
     /// iterations. The first lets the preconditioner change meanwhile, which
     /// may be new, made for this solve; the others throw
@@ -183,6 +203,7 @@ namespace corotet
     const LinearSolverParameters         &parameters;
     const double                          tolerance;
     const std::unique_ptr<Preconditioner> preconditioner;
+    StopQuestion                          stop_question;
 
     bool   is_built         = false;
     double built_mass_ratio = 0;

@@ -71,6 +71,10 @@ namespace corotet
     /// Null if it has failed.
     const StudyRun *
     finer_run();
+    /// Quantities without a value to be compared with have those of the finer
+    /// run.
+    void
+    take_finer_result(const StudyResult &result);
     /// Of a run that finds an error that the checks before the first one, of
     /// the coarsest mesh, did not: a step that is too long for it, say.
     StudyResult
@@ -100,9 +104,10 @@ namespace corotet
     std::string                            directory;
     std::unique_ptr<StudyRun>              finer;
     FieldNorms                             finer_norms;
-    /// Quantities of the finer run, once it is done; also of those that have a
-    /// value to be compared with.
-    std::vector<double> finer_quantities;
+    /// Of the finer run, once it is done, in this process or in one that the
+    /// study was begun by. Quantities are also those that have a value to be
+    /// compared with.
+    std::optional<StudyResult> finer_result;
     /// Empty if it has not failed.
     std::string failure_of_finer_run;
     /// Sizes of the body's parts in the first run of each degree, and whether

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+// Steps that are left between their parts, or given up while systems are
+// solved, and gone on with later.
+
+#include <gtest/gtest.h>
+
+#include "../memory_archive.h"
+#include "complete_run.h"
+
+using namespace corotet;
+using namespace corotet::tests;
+
+namespace
+{
+  // A bar of 1 x 0.1 x 0.1 that is bent far, in two load steps: with few
+  // iterations these are made in parts.
+  std::string
+  bent_bar(const std::string &integration,
+           const unsigned int max_iterations,
+           const std::string &traction,
+           const std::string &solver = "jacobi")
+  {
+    return box_mesh("1, 0.1, 0.1", "5, 1, 1") + element_text(2) +
+           rotation_at("quadrature points") + material_text(1e6) +
+           fixed("x-min") + tractions("x-max: 0; 0; " + traction) +
+           section("Newton",
+                   {{"Tangent", "consistent"},
+                    {"Maximum iterations", max_iterations}}) +
+           newton_tolerances(1e-9) + linear_solver(solver, 1e-10) + integration;
+  }
+
+  void
+  expect_same(const StepRecord &a, const StepRecord &b)
+  {
+    EXPECT_EQ(a.step, b.step);
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_EQ(a.dt, b.dt);
+    EXPECT_EQ(a.parts, b.parts);
+    EXPECT_EQ(a.newton_iterations, b.newton_iterations);
+    EXPECT_EQ(a.linear_iterations, b.linear_iterations);
+    EXPECT_EQ(a.elastic_energy, b.elastic_energy);
+    EXPECT_EQ(a.external_work, b.external_work);
+    EXPECT_EQ(a.energy_balance, b.energy_balance);
+  }
+
+  std::string
+  moved_by_adaptive_steps()
+  {
+    return bent_bar(time_integration("generalized-alpha",
+                                     0.2,
+                                     0.01,
+                                     {section("Adaptive step",
+                                              {{"Enabled", true},
+                                               {"Target error", 3e-3}})}),
+                    50,
+                    "8");
+  }
+} // namespace
+
+// Left after each of its parts, saved, and gone on with by another process, a
+// step is the same to the last bit.
+TEST(InterruptedSteps, BetweenParts)
+{
+  for (const std::string &text :
+       {bent_bar(statics(2, 8), 5, "5000"),
+        bent_bar(time_integration("generalized-alpha", 0.4, 0.2), 2, "8")})
+    {
+      CompleteRun whole(text);
+      ASSERT_EQ(whole.run(), "");
+      std::vector<StepRecord>      steps;
+      std::unique_ptr<CompleteRun> run = std::make_unique<CompleteRun>(text);
+      run->simulation.start(run->observers);
+      unsigned int n_left = 0;
+      for (;;)
+        {
+          run->simulation.step({.after_step = [] { return true; }});
+          for (const StepRecord &record : run->recorder().steps)
+            steps.push_back(record);
+          if (run->simulation.is_done())
+            break;
+          n_left += run->simulation.parts_made() > 0;
+          MemoryArchive archive;
+          run->simulation.save_state(archive);
+          archive.reading = true;
+          auto next       = std::make_unique<CompleteRun>(text);
+          next->simulation.resume(next->observers, {}, archive);
+          EXPECT_EQ(next->simulation.time(), run->simulation.time());
+          EXPECT_EQ(next->simulation.parts_made(),
+                    run->simulation.parts_made());
+          run = std::move(next);
+        }
+      report("states between parts", n_left);
+      EXPECT_GE(n_left, 1u);
+      const std::vector<StepRecord> &expected = whole.recorder().steps;
+      ASSERT_EQ(steps.size(), expected.size());
+      for (std::size_t i = 0; i < steps.size(); ++i)
+        expect_same(steps[i], expected[i]);
+      EXPECT_EQ(largest_difference(run->simulation.state().u,
+                                   whole.simulation.state().u),
+                0);
+    }
+}
+
+// What is given up in the middle of a solve leaves the state before, from which
+// the run goes on, here or by another process.
+TEST(InterruptedSteps, WithinSolves)
+{
+  for (const std::string &text :
+       {bent_bar(statics(2, 8), 5, "5000"),
+        bent_bar(statics(4, 8), 5, "5000", "p-multigrid"),
+        bent_bar(time_integration("generalized-alpha", 0.4, 0.2), 2, "8"),
+        moved_by_adaptive_steps()})
+    {
+      CompleteRun whole(text), run(text);
+      ASSERT_EQ(whole.run(), "");
+      run.simulation.start(run.observers);
+      unsigned int n_steps = 0, n_given_up = 0;
+      while (!run.simulation.is_done())
+        {
+          const double time = run.simulation.time();
+          const Vector u    = run.simulation.state().u;
+          // Every other time, at another question each time.
+          const unsigned int when = n_steps % 2 == 0 ? n_steps % 7 + 1 : 0;
+          ++n_steps;
+          bool         is_given_up = false;
+          unsigned int n_asked     = 0;
+          run.simulation.step({.within_step = [&] {
+            is_given_up = ++n_asked == when;
+            return is_given_up;
+          }});
+          if (!is_given_up)
+            continue;
+          ++n_given_up;
+          ASSERT_FALSE(run.simulation.is_done());
+          EXPECT_GE(run.simulation.time(), time);
+          if (run.simulation.time() == time)
+            {
+              EXPECT_EQ(largest_difference(run.simulation.state().u, u), 0);
+            }
+          else
+            {
+              EXPECT_GT(run.simulation.parts_made(), 0u);
+            }
+          EXPECT_EQ(largest_difference(run.simulation.displacement(),
+                                       run.simulation.state().u),
+                    0);
+          if (n_given_up > 3)
+            continue;
+          MemoryArchive archive;
+          run.simulation.save_state(archive);
+          archive.reading = true;
+          CompleteRun other(text);
+          other.simulation.resume(other.observers, {}, archive);
+          while (!other.simulation.is_done())
+            other.simulation.step();
+          // To the tolerances of solvers and, in adaptive runs, of steps that
+          // have been chosen anew.
+          EXPECT_LE(largest_difference(other.simulation.state().u,
+                                       whole.simulation.state().u),
+                    1e-7 * whole.simulation.state().u.linfty_norm());
+        }
+      report("steps given up", n_given_up);
+      EXPECT_GE(n_given_up, 1u);
+      EXPECT_LE(largest_difference(run.simulation.state().u,
+                                   whole.simulation.state().u),
+                1e-7 * whole.simulation.state().u.linfty_norm());
+    }
+}
