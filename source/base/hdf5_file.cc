@@ -123,6 +123,20 @@ namespace corotet
   }
 
   void
+  Hdf5File::create(const std::vector<NewTable> &tables)
+  {
+    std::vector<std::uint64_t> places;
+    places.reserve(tables.size());
+    for (const auto &[name, n_rows, n_columns] : tables)
+      places.push_back(
+        create_table(name, H5T_NATIVE_DOUBLE, {0, 0, n_rows, n_columns}));
+    MPI_Bcast(
+      places.data(), static_cast<int>(places.size()), MPI_UINT64_T, 0, comm);
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      place_of_table[tables[i].name] = places[i];
+  }
+
+  void
   Hdf5File::write_bytes(const char *data, std::size_t size, haddr_t place)
   {
     while (size > 0)
@@ -144,8 +158,15 @@ namespace corotet
                   const Number      *data,
                   const Hdf5Rows    &rows)
   {
-    std::uint64_t place = create_table(name, hdf5_type<Number>(), rows);
-    MPI_Bcast(&place, 1, MPI_UINT64_T, 0, comm);
+    std::uint64_t place = HADDR_UNDEF;
+    if (const auto known = place_of_table.find(name);
+        known != place_of_table.end())
+      place = known->second;
+    else
+      {
+        place = create_table(name, hdf5_type<Number>(), rows);
+        MPI_Bcast(&place, 1, MPI_UINT64_T, 0, comm);
+      }
     if (place == HADDR_UNDEF || descriptor < 0)
       return;
     const std::size_t row_size =

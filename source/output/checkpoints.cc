@@ -258,9 +258,8 @@ namespace corotet
           }
         const unsigned int interval = parameters.steps_between;
         if ((asked & save) != 0 ||
-            (interval > 0 &&
-             simulation.step_number() / interval >
-               (written_place ? written_place->step : 0) / interval))
+            (interval > 0 && place_of(simulation).last_whole_step() / interval >
+                               last_whole_step_written() / interval))
           write(simulation, true);
         asked = none;
       }

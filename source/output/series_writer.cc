@@ -53,6 +53,7 @@ namespace corotet
     const unsigned int step = state.record.step;
     Hdf5File           file(series.result_file(step), comm);
     VtkhdfSeries::create_groups(file);
+    file.create(series.tables());
     write_tables(file, state);
     file.finish();
     series.add_result(step, state.record.time, comm);

@@ -176,13 +176,26 @@ namespace corotet
     times.push_back(time);
     blocks.push_back({0, step, 1});
     result_steps.push_back(step);
-    result_sizes.push_back(from_root(comm, [&] {
+    std::size_t size = 0;
+    on_root(comm, [&] {
       join_blocks();
       write_index();
       std::error_code error;
-      const auto size = std::filesystem::file_size(result_file(step), error);
-      return error ? std::size_t(0) : std::size_t(size);
-    }));
+      const auto found = std::filesystem::file_size(result_file(step), error);
+      size             = error ? 0 : found;
+    });
+    result_sizes.push_back(size);
+  }
+
+  std::vector<Hdf5File::NewTable>
+  VtkhdfSeries::tables() const
+  {
+    std::vector<Hdf5File::NewTable> result;
+    for (const auto &[name, n_columns] : point_data)
+      result.push_back({"PointData/" + name, n_points, n_columns});
+    for (const auto &[name, n_columns] : cell_data)
+      result.push_back({"CellData/" + name, n_cells, n_columns});
+    return result;
   }
 
   void

@@ -10,7 +10,8 @@
 // exchanges    of all ranks with all
 // barriers
 // Bytes are those that this rank sends: of gathers and exchanges its own part,
-// of broadcasts and scatters what is sent to each.
+// of broadcasts and scatters what is sent to each. What a rank does with itself
+// alone does not count.
 
 #include <mpi.h>
 
@@ -53,7 +54,8 @@ namespace
 #define COUNTED(kind, count, type, name, parameters, arguments) \
   int MPI_##name parameters                                     \
   {                                                             \
-    kind.add(count, type);                                      \
+    if (n_ranks(comm) > 1)                                      \
+      kind.add(count, type);                                    \
     return PMPI_##name arguments;                               \
   }
 

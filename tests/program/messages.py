@@ -60,6 +60,17 @@ class Messages(ProgramTest):
         # The work of the step; what else the row has; whether the step's support moves, probes, and whether a signal has come.
         self.check_steps(EXPLICIT, {"messages": 4 * MOST_NEIGHBOURS, "reductions": 5, "gathers": 1, "exchanges": 0, "barriers": 0})
 
+    def test_states(self):
+        # A row for each state. Beside what the row takes: the file, the places of its tables, whether all have written and whether it got
+        # its name, and whether the index was written; and values of ghosts for the results of cells.
+        row = {**EXPLICIT, "Output/Time between results": "0"}
+        without = self.each(3, EXPLICIT, {**EXPLICIT, "Time integration/End time": "3e-4"}, lambda summary: summary["steps"])
+        for ranks in (3, 8):
+            found = self.each(ranks, row, {**row, "Time integration/End time": "3e-4"}, lambda summary: summary["steps"])
+            print(f"{ranks} ranks, each step with a state: {found}, without: {without}")
+            for kind, most in {"reductions": 1, "gathers": 4, "exchanges": 5, "barriers": 0}.items():
+                self.assertLessEqual(found[kind] - without[kind], most, kind)
+
     def check_iterations(self, case, messages):
         # Conjugate gradients have two sums; rank 0 gathers the unknowns of the last level and scatters them.
         for ranks in (3, 8):

@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -143,6 +144,19 @@ namespace corotet
     Hdf5File &
     operator=(const Hdf5File &) = delete;
 
+    /// A table of double that is to be made; 0 columns: a plain list.
+    struct NewTable
+    {
+      std::string name;
+      hsize_t     n_rows;
+      hsize_t     n_columns;
+    };
+
+    /// Makes tables, with one message for all of them: write() of these takes
+    /// none. Collective.
+    void
+    create(const std::vector<NewTable> &tables);
+
     /**
      * Writes a table; @p data are the rows of this rank. Types: double,
      * std::int32_t, std::int64_t, std::uint8_t. A name with slashes needs its
@@ -240,6 +254,8 @@ namespace corotet
     Hdf5Id file;
     /// Of the file, on each rank; -1 if it is not open.
     int descriptor = -1;
+    /// As create_table() gives them, of those that create() has made.
+    std::map<std::string, std::uint64_t> place_of_table;
   };
 } // namespace corotet
 

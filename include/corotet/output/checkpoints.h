@@ -125,6 +125,12 @@ namespace corotet
       unsigned int step;
       unsigned int parts;
 
+      unsigned int
+      last_whole_step() const
+      {
+        return parts == 0 ? step : step - 1;
+      }
+
       bool
       operator==(const Place &) const = default;
 
@@ -148,6 +154,11 @@ namespace corotet
 
     static Place
     place_of(const Simulation &simulation);
+    unsigned int
+    last_whole_step_written() const
+    {
+      return written_place ? written_place->last_whole_step() : 0;
+    }
     /// As the log has it.
     static std::string
     words_for(const Simulation &simulation);

@@ -104,6 +104,10 @@ namespace corotet
     static void
     create_groups(Hdf5File &file, const std::string &parent = "");
 
+    /// All tables of that file.
+    std::vector<Hdf5File::NewTable>
+    tables() const;
+
     /// The results up to now.
     void
     transfer(Archive &archive);
@@ -174,7 +178,8 @@ namespace corotet
     /// Of all results so far.
     std::vector<double>    times;
     std::vector<DataBlock> blocks;
-    /// Their steps, and the sizes of their files [byte].
+    /// Their steps, and the sizes of their files [byte], which only rank 0
+    /// knows.
     std::vector<unsigned int> result_steps;
     std::vector<std::size_t>  result_sizes;
   };
