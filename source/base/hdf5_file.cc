@@ -130,8 +130,7 @@ namespace corotet
     for (const auto &[name, n_rows, n_columns] : tables)
       places.push_back(
         create_table(name, H5T_NATIVE_DOUBLE, {0, 0, n_rows, n_columns}));
-    MPI_Bcast(
-      places.data(), static_cast<int>(places.size()), MPI_UINT64_T, 0, comm);
+    MPI_Bcast(places.data(), places.size(), MPI_UINT64_T, 0, comm);
     for (std::size_t i = 0; i < tables.size(); ++i)
       place_of_table[tables[i].name] = places[i];
   }
@@ -158,9 +157,9 @@ namespace corotet
                   const Number      *data,
                   const Hdf5Rows    &rows)
   {
+    const auto    known = place_of_table.find(name);
     std::uint64_t place = HADDR_UNDEF;
-    if (const auto known = place_of_table.find(name);
-        known != place_of_table.end())
+    if (known != place_of_table.end())
       place = known->second;
     else
       {

@@ -91,7 +91,9 @@ namespace corotet
         for (auto &[other, ids] : sets)
           if (contains(ids, id))
             ids.push_back(part);
-        parts.try_emplace(id, 1, id);
+        // Others are of no use but to be split.
+        if (names.contains(id))
+          parts.try_emplace(id, 1, id);
         for (auto &[whole, ids] : parts)
           if (contains(ids, id))
             ids.push_back(part);

@@ -27,11 +27,11 @@ namespace corotet
   }
 
   std::string
-  Checkpoints::words_for(const Simulation &simulation)
+  Checkpoints::in_words(const Place &place)
   {
     return fmt::format("{}step {}",
-                       simulation.parts_made() > 0 ? "within " : "",
-                       simulation.step_number());
+                       place.parts > 0 ? "within " : "",
+                       place.step);
   }
 
   std::string

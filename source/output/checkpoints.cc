@@ -207,12 +207,18 @@ namespace corotet
   {
     std::int64_t log_size = 0;
     checkpoint.transfer("log_size", log_size);
+    // The run may go on with other steps, for which the one that was within is
+    // no more.
+    const auto all = from_root(comm, [&] { return places(); });
+    written_place.reset();
+    for (const Place &place : all)
+      if (path_of(place) == checkpoint.base_path())
+        written_place = place;
     // Which may refuse to go on: then the log is as it was.
     simulation.resume(observers, recording, checkpoint);
     log.resume(log_file, log_size);
-    written_place = place_of(simulation);
     log.line(fmt::format("Restarted from {}, t = {:.6g} s",
-                         words_for(simulation),
+                         in_words(*written_place),
                          simulation.time()));
     on_root(comm, [&] {
       // Those that are damaged.
@@ -229,17 +235,17 @@ namespace corotet
   {
     const StopSignals signals;
     int               asked = none;
-    // If set-up has taken all the time, a step is made nevertheless: so runs
-    // that are restarted get on.
-    steps_have_time = seconds_since(program_start) < parameters.wall_time_limit;
+    has_advanced            = false;
     while (!simulation.is_done())
       {
         simulation.step({.after_step =
                            [&] {
+                             has_advanced = true;
                              asked |= requests();
                              return asked != none;
                            },
                          .within_step = [&] { return is_urgent(); }});
+        has_advanced = true;
         asked |= requests();
         if (simulation.is_done())
           break;
@@ -249,7 +255,7 @@ namespace corotet
             const std::string message =
               fmt::format("{} (t = {:.6g} s): {}; the run is saved, "
                           "--restart goes on with it",
-                          words_for(simulation),
+                          in_words(place_of(simulation)),
                           simulation.time(),
                           reason_of(asked));
             log.note(message);
@@ -288,11 +294,13 @@ namespace corotet
     // Most steps end before; who kills a process that does not stop waits at
     // least twice as long.
     constexpr double patience = 5;
-    return StopSignals::waiting_time() > patience ||
-           (steps_have_time &&
-            dealii::Utilities::MPI::this_mpi_process(comm) == 0 &&
-            seconds_since(program_start) >
-              parameters.wall_time_limit + patience);
+    if (StopSignals::waiting_time() > patience)
+      return true;
+    // A limit that is shorter than a step would else stop each restart where it
+    // began.
+    return parameters.wall_time_limit > 0 && has_advanced &&
+           dealii::Utilities::MPI::this_mpi_process(comm) == 0 &&
+           seconds_since(program_start) > parameters.wall_time_limit + patience;
   }
 
   void

@@ -5,6 +5,21 @@
 
 namespace corotet
 {
+  namespace
+  {
+    // Those of the file of a result.
+    std::vector<Hdf5File::NewTable>
+    tables_of(const VtkhdfSeries &series)
+    {
+      std::vector<Hdf5File::NewTable> result;
+      for (const auto &[name, n_columns] : series.point_data)
+        result.push_back({"PointData/" + name, series.n_points, n_columns});
+      for (const auto &[name, n_columns] : series.cell_data)
+        result.push_back({"CellData/" + name, series.n_cells, n_columns});
+      return result;
+    }
+  } // namespace
+
   SeriesWriter::SeriesWriter(const VtkhdfSeries &series)
     : series(series)
   {}
@@ -53,7 +68,7 @@ namespace corotet
     const unsigned int step = state.record.step;
     Hdf5File           file(series.result_file(step), comm);
     VtkhdfSeries::create_groups(file);
-    file.create(series.tables());
+    file.create(tables_of(series));
     write_tables(file, state);
     file.finish();
     series.add_result(step, state.record.time, comm);

@@ -187,17 +187,6 @@ namespace corotet
     result_sizes.push_back(size);
   }
 
-  std::vector<Hdf5File::NewTable>
-  VtkhdfSeries::tables() const
-  {
-    std::vector<Hdf5File::NewTable> result;
-    for (const auto &[name, n_columns] : point_data)
-      result.push_back({"PointData/" + name, n_points, n_columns});
-    for (const auto &[name, n_columns] : cell_data)
-      result.push_back({"CellData/" + name, n_cells, n_columns});
-    return result;
-  }
-
   void
   VtkhdfSeries::check_files() const
   {

@@ -257,7 +257,8 @@ namespace corotet
         }
     body.motion.set_zero(start);
     constexpr double tolerance = 2e-3;
-    const double all = std::sqrt(largest_eigenvalue(pencil, start, tolerance));
+    Vector           vector    = start;
+    const double all = std::sqrt(largest_eigenvalue(pencil, vector, tolerance));
     if (equation.terms.damping_shares().stiffness == 0 ||
         (!springs && elasticity.is_by_cell(tangent)))
       return {all, all};

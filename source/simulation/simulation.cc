@@ -287,7 +287,7 @@ namespace corotet
     summary.message = message;
     the_body.fill_in(summary);
     // Of the state, which may be some steps after its last record.
-    summary.steps        = step_number();
+    summary.steps        = step_number() - (parts_made() > 0 ? 1 : 0);
     summary.end_time     = time();
     summary.final_record = last_record;
     summary.preconditioner_builds =

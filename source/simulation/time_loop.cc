@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace corotet
 {
@@ -141,7 +142,7 @@ namespace corotet
     record.parts             = 0;
     record.newton_iterations = 0;
     record.linear_iterations = 0;
-    from                     = done;
+    from = std::exchange(start_of_left_step, {}).value_or(done);
   }
 
   void

@@ -62,9 +62,16 @@ namespace corotet
                               (parameters.end_time - parameters.start_time);
         done *= factor;
         good_done *= factor;
+        from *= factor;
       }
-    // With other steps what is left of one that has been begun is one of them.
-    parts_left.clear();
+    // What is left of a step that has been begun is made of other steps, the
+    // first of which has its number.
+    if (!parts_left.empty())
+      {
+        parts_left.clear();
+        --unrecorded.step;
+        start_of_left_step = from;
+      }
     // Whose steps are all made has no use for another length of them.
     if (is_done())
       return;

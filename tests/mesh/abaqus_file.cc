@@ -6,9 +6,12 @@
 
 #include <corotet/base/text.h>
 #include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/mesh_target.h>
+#include <corotet/mesh/used_names.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <set>
 
@@ -56,6 +59,31 @@ TEST_F(AbaqusFile, SetsAndSurfaces)
   EXPECT_EQ(mesh.corners.size(), 2u);
   EXPECT_TRUE(mesh.edges.empty());
   EXPECT_NE(remarks.find("*ELASTIC, *MATERIAL"), std::string::npos);
+}
+
+// What no set has is known by a number, also in files that are written.
+TEST_F(AbaqusFile, TheRestHasANumber)
+{
+  SerialMesh mesh = read(nodes + "*ELEMENT, type=C3D4\n7, 10, 20, 30, 40\n"
+                                 "9, 20, 30, 40, 50\n*ELSET, ELSET=far\n9\n");
+  check_mesh(mesh);
+  // As runs know it.
+  mesh.regions = UsedNames(mesh).regions;
+  std::vector<SerialMesh> meshes{mesh};
+  for (const char *const file : {"two.msh", "two.h5"})
+    {
+      write_mesh(folder / file, mesh);
+      meshes.push_back(read_file(folder / file));
+    }
+  for (const SerialMesh &one : meshes)
+    {
+      // gmsh has no group 0: its name comes back as one of others.
+      Known known = known_regions(one);
+      std::sort(known.begin(), known.end());
+      EXPECT_EQ(known, (Known{"0", "far"}));
+      EXPECT_NEAR(volume(one, "far"), 1 / 3., 1e-15);
+      EXPECT_NEAR(volume(one, "0"), 1 / 6., 1e-15);
+    }
 }
 
 // Triangles and lines give their names; a file of ten nodes has curved cells

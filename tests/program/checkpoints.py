@@ -231,6 +231,30 @@ class Checkpoints(ProgramTest):
                 self.assertEqual(sorted(path.stem for path in (run.output / "checkpoint").glob("*.json")), names)
         self.assertGreaterEqual(len(names), 4)
 
+    def test_whole_steps_after_a_part(self):
+        """A checkpoint within a step does not count for that step: one with another step length, too, has a row with its number."""
+        entries = {"Time integration/Time step": "0.2", "Newton/Maximum iterations": "2", "Checkpoint/Minutes between checkpoints": "1e-9",
+                   "Checkpoint/Steps between checkpoints": "0", "Checkpoint/Keep": "1000"}
+        later = ("--set", "Checkpoint/Minutes between checkpoints = 0", "--set", "Checkpoint/Steps between checkpoints = 1")
+        for step in ("0.2", "0.05"):
+            with self.subTest(step=step):
+                run = Run(self.folder / step, "BDF2", 1, entries)
+                self.assertEqual(run.finish()[0], 0)
+                folder = run.output / "checkpoint"
+                name = min(path.stem for path in folder.glob("*.json") if path.stem.count("_") == 2)
+                number = int(name.split("_")[1])
+                for path in folder.iterdir():
+                    if int(path.stem.split("_")[1].split(".")[0]) >= number and path.name.split(".")[0] != name:
+                        path.unlink()
+                status, out, errors = run.finish("--restart", *later, "--set", f"Time integration/Time step = {step}")
+                self.assertEqual((status, errors), (0, ""), out)
+                rows = read_history(run.output)
+                self.assertEqual([int(row["step"]) for row in rows], list(range(len(rows))))
+                times = [float(row["time"]) for row in rows]
+                self.assertEqual(times, sorted(set(times)))
+                self.assertEqual(times[-1], 1)
+                self.assertTrue((folder / f"step_{number:06}.json").exists())
+
     def test_unfinished_checkpoints_are_removed(self):
         """What a run that was killed while it saved has left would be there for ever: vectors without the rest, files under way. Others' files stay."""
         run = Run(self.folder / "run", "generalized-alpha", 1)

@@ -61,6 +61,7 @@ class Signals(ProgramTest):
         process.communicate()
         self.assertEqual(len(list((run.output / "checkpoint").glob("*.json"))), 1)
 
+        # A limit that is over when steps begin: each run makes one.
         limited = Run(self.folder / "limited", "generalized-alpha", 1, {"Checkpoint/Wall time limit": "0.05"})
         for _ in range(200):
             status, _, errors = limited.finish("--restart")

@@ -35,8 +35,8 @@ namespace corotet
     std::map<unsigned int, std::string> names;
     /// Names that mean several ids (ascending), or one that has others, too.
     std::map<std::string, std::vector<unsigned int>> sets;
-    /// What the number of an id that has been split means: all ids that its
-    /// members have now (ascending).
+    /// What the number of an id in @p names that has been split means: all ids
+    /// that its members have now (ascending).
     std::map<unsigned int, std::vector<unsigned int>> parts;
 
     /// The ids that @p name means; none if nothing has this name.

@@ -85,6 +85,13 @@ namespace corotet
     void
     check_mesh() const;
 
+    /// Of its files, without their endings.
+    const std::string &
+    base_path() const
+    {
+      return path;
+    }
+
     /// Of the run that wrote it.
     const nlohmann::ordered_json &
     parameters() const

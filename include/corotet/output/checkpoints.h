@@ -161,7 +161,7 @@ namespace corotet
     }
     /// As the log has it.
     static std::string
-    words_for(const Simulation &simulation);
+    in_words(const Place &place);
     /// What the run is asked for, as bits, the same on all ranks.
     int
     requests();
@@ -206,9 +206,8 @@ namespace corotet
     mutable std::optional<FileOrder> order;
     Clock::time_point                written = Clock::now();
     std::optional<Place>             written_place;
-    /// Whether the limit of wall time, if there is one, was not over when steps
-    /// began.
-    bool steps_have_time = false;
+    /// Whether run() has got a step further, or a part of one.
+    bool has_advanced = false;
   };
 } // namespace corotet
 

@@ -104,10 +104,6 @@ namespace corotet
     static void
     create_groups(Hdf5File &file, const std::string &parent = "");
 
-    /// All tables of that file.
-    std::vector<Hdf5File::NewTable>
-    tables() const;
-
     /// The results up to now.
     void
     transfer(Archive &archive);

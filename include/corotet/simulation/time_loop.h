@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace corotet
@@ -366,6 +367,8 @@ namespace corotet
     };
     /// What is left of a step that has been begun, the next one last.
     std::vector<Part> parts_left;
+    /// Of one that a run with other steps has left, as a part of the run.
+    std::optional<double> start_of_left_step;
 
     bool is_new     = false;
     bool is_partial = false;
