@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "bent_bar.h"
 #include "complete_run.h"
 
 using namespace corotet;
@@ -24,22 +25,13 @@ namespace
     const std::string message;
   };
 
-  // A bar of 1 x 0.1 x 0.1 that is bent far. Too few iterations for large
-  // steps.
   std::string
   bar(const std::string &integration,
       const unsigned int max_iterations,
       const std::string &traction,
       const double       tolerance = 1e-11)
   {
-    return box_mesh("1, 0.1, 0.1", "5, 1, 1") + element_text(2) +
-           rotation_at("quadrature points") + material_text(1e6) +
-           fixed("x-min") + tractions("x-max: 0; 0; " + traction) +
-           section("Newton",
-                   {{"Tangent", "consistent"},
-                    {"Maximum iterations", max_iterations}}) +
-           newton_tolerances(tolerance) + linear_solver("direct", 1e-10) +
-           integration;
+    return bent_bar(integration, max_iterations, traction, tolerance);
   }
 
   std::string
