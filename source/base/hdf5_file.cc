@@ -130,7 +130,7 @@ namespace corotet
     for (const auto &[name, n_rows, n_columns] : tables)
       places.push_back(
         create_table(name, H5T_NATIVE_DOUBLE, {0, 0, n_rows, n_columns}));
-    MPI_Bcast(places.data(), places.size(), MPI_UINT64_T, 0, comm);
+    dealii::Utilities::MPI::broadcast(places.data(), places.size(), 0, comm);
     for (std::size_t i = 0; i < tables.size(); ++i)
       place_of_table[tables[i].name] = places[i];
   }

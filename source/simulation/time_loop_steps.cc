@@ -102,7 +102,7 @@ namespace corotet
         // In motion there are no halves that round-off of the time swallows.
         const bool is_swallowed =
           integrator->is_dynamic() &&
-          !(time() < time(middle) && time(middle) < time(to));
+          (time() >= time(middle) || time(middle) >= time(to));
         const bool is_final =
           is_unstable || is_singular_for_good(error) || is_swallowed;
         restore_state();

@@ -107,10 +107,9 @@ namespace corotet
           {
             minres.solve(A, dx, r, AskingPreconditioner(*this));
           }
+        // NOLINTNEXTLINE(bugprone-empty-catch): how far it is, is seen below.
         catch (const dealii::SolverControl::NoConvergence &)
-          {
-            // How far it has come is seen below.
-          }
+          {}
         iterations += std::min(control.last_step(), limit - iterations);
         x += dx;
       }

@@ -55,7 +55,7 @@ namespace
   int MPI_##name parameters                                     \
   {                                                             \
     if (n_ranks(comm) > 1)                                      \
-      kind.add(count, type);                                    \
+      (kind).add(count, type);                                  \
     return PMPI_##name arguments;                               \
   }
 

@@ -68,7 +68,8 @@ TEST(InterruptedSteps, BetweenParts)
       unsigned int n_left = 0;
       for (;;)
         {
-          run->simulation.step({.after_step = [] { return true; }});
+          run->simulation.step(
+            {.after_step = [] { return true; }, .within_step = {}});
           for (const StepRecord &record : run->recorder().steps)
             steps.push_back(record);
           if (run->simulation.is_done())
@@ -119,10 +120,10 @@ TEST(InterruptedSteps, WithinSolves)
           ++n_steps;
           bool         is_given_up = false;
           unsigned int n_asked     = 0;
-          run.simulation.step({.within_step = [&] {
-            is_given_up = ++n_asked == when;
-            return is_given_up;
-          }});
+          run.simulation.step({.after_step = {}, .within_step = [&] {
+                                 is_given_up = ++n_asked == when;
+                                 return is_given_up;
+                               }});
           if (!is_given_up)
             continue;
           ++n_given_up;

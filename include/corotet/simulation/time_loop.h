@@ -39,10 +39,10 @@ namespace corotet
   {
     /// Asked after steps, and after the parts of one that is made in parts. It
     /// says the same on all ranks.
-    std::function<bool()> after_step = {};
+    std::function<bool()> after_step;
     /// Asked while systems are solved: if a rank says yes, the step or the part
     /// that is being made is given up.
-    std::function<bool()> within_step = {};
+    std::function<bool()> within_step;
   };
 
   /**
