@@ -209,9 +209,7 @@ namespace corotet
     checkpoint.transfer("log_size", log_size);
     // The run may go on with other steps, for which the one that was within is
     // no more.
-    const auto all = from_root(comm, [&] { return places(); });
-    written_place.reset();
-    for (const Place &place : all)
+    for (const Place &place : from_root(comm, [&] { return places(); }))
       if (path_of(place) == checkpoint.base_path())
         written_place = place;
     // Which may refuse to go on: then the log is as it was.
@@ -235,7 +233,6 @@ namespace corotet
   {
     const StopSignals signals;
     int               asked = none;
-    has_advanced            = false;
     while (!simulation.is_done())
       {
         simulation.step({.after_step =

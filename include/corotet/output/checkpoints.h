@@ -154,6 +154,7 @@ namespace corotet
 
     static Place
     place_of(const Simulation &simulation);
+    /// 0 if none is.
     unsigned int
     last_whole_step_written() const
     {

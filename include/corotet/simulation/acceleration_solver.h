@@ -48,8 +48,9 @@ namespace corotet
       double damped;
     };
 
-    /// Those at @p state and @p time. The second one is the first where that
-    /// is no less sharp a bound, and where nothing is damped.
+    /// Those at @p state and @p time. The second one is not estimated, and is
+    /// the first, where nothing is damped by its stiffness and where both are
+    /// of the same one. Collective.
     LargestFrequencies
     largest_frequencies(const State &state, const double time = 0);
 
