@@ -48,9 +48,10 @@ namespace corotet
   StageReport
   TimeLoop::solve_first_half_step(const double half)
   {
-    // Of dashpots that would take more than this part of a velocity in the half
-    // step.
-    constexpr double  strong     = 0.5;
+    // Of damping that would take more than this part of a velocity in the half
+    // step. What it takes is wrong by the square of that part, which is a
+    // hundredth here.
+    constexpr double  strong     = 0.1;
     const double      start_time = parameters.start_time;
     const StageReport report = system.solve_acceleration(present, start_time);
     if (!system.equation().terms.has_damping())
