@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
 namespace corotet
@@ -58,16 +59,6 @@ namespace corotet
         pointers.push_back(word.data());
       pointers.push_back(nullptr);
       return pointers;
-    }
-
-    // Waits for the end of @p process and returns what waitpid() says of it.
-    int
-    wait_for(const pid_t process)
-    {
-      int status = 0;
-      while (waitpid(process, &status, 0) < 0 && errno == EINTR)
-        ;
-      return status;
     }
 
     // A descriptor that is closed with its scope.
@@ -149,6 +140,50 @@ namespace corotet
                            ": cannot be started: " + std::strerror(failure));
       return process;
     }
+
+    // A program that runs; with this object it is ended.
+    class Process
+    {
+    public:
+      explicit Process(const pid_t number)
+        : number(number)
+      {}
+
+      Process(const Process &) = delete;
+      Process &
+      operator=(const Process &) = delete;
+
+      ~Process()
+      {
+        if (number > 0)
+          wait_after_kill();
+      }
+
+      int
+      wait_after_kill()
+      {
+        kill(number, SIGKILL);
+        int status = 0;
+        while (waitpid(number, &status, 0) < 0 && errno == EINTR)
+          ;
+        number = 0;
+        return status;
+      }
+
+      // What waitpid() says of its end; nothing if it still runs.
+      std::optional<int>
+      status_of_end()
+      {
+        int status = 0;
+        if (waitpid(number, &status, WNOHANG) == 0)
+          return {};
+        number = 0;
+        return status;
+      }
+
+    private:
+      pid_t number;
+    };
   } // namespace
 
   std::string
@@ -177,26 +212,6 @@ namespace corotet
     return "";
   }
 
-  std::optional<int>
-  run_and_wait(const std::string              &path,
-               const std::vector<std::string> &arguments)
-  {
-    std::vector<std::string> words = {path};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    pid_t process = 0;
-    if (posix_spawn(&process,
-                    path.c_str(),
-                    nullptr,
-                    nullptr,
-                    pointers_to(words).data(),
-                    environ) != 0)
-      return {};
-    const int status = wait_for(process);
-    if (!WIFEXITED(status))
-      return {};
-    return WEXITSTATUS(status);
-  }
-
   ProgramEnd
   run_for_output(const std::string              &path,
                  const std::vector<std::string> &arguments,
@@ -209,7 +224,7 @@ namespace corotet
     Descriptor               to(ends[1]);
     std::vector<std::string> words = {path};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    const pid_t process = start(path, words, to.number);
+    Process process(start(path, words, to.number));
     close(to.number);
     to.number = -1;
 
@@ -217,7 +232,10 @@ namespace corotet
     const auto        begin = Clock::now();
     ProgramEnd        end;
     std::vector<char> buffer(1 << 16);
-    for (;;)
+    // The output may end before the program does.
+    bool               has_output = true;
+    std::optional<int> status;
+    while (!status)
       {
         const double left =
           time_limit -
@@ -225,25 +243,51 @@ namespace corotet
         if (left <= 0)
           {
             end.has_exceeded = true;
-            kill(process, SIGKILL);
+            status           = process.wait_after_kill();
             break;
+          }
+        if (!has_output)
+          {
+            status = process.status_of_end();
+            if (!status)
+              poll(nullptr, 0, 1);
+            continue;
           }
         pollfd    event{from.number, POLLIN, 0};
         const int milliseconds = std::ceil(std::min(left, 1e3) * 1e3);
-        if (poll(&event, 1, milliseconds) <= 0)
+        const int n_ready      = poll(&event, 1, milliseconds);
+        if (n_ready == 0 || (n_ready < 0 && errno == EINTR))
           continue;
-        const ssize_t n = read(from.number, buffer.data(), buffer.size());
-        if (n < 0 && errno == EINTR)
-          continue;
-        if (n <= 0)
-          break;
-        end.output.append(buffer.data(), n);
+        const ssize_t n =
+          n_ready > 0 ? read(from.number, buffer.data(), buffer.size()) : -1;
+        if (n > 0)
+          end.output.append(buffer.data(), n);
+        else
+          has_output = n < 0 && errno == EINTR;
       }
-    const int status = wait_for(process);
-    if (WIFSIGNALED(status))
-      end.signal = WTERMSIG(status);
+    if (WIFSIGNALED(*status))
+      end.signal = WTERMSIG(*status);
     else
-      end.status = WEXITSTATUS(status);
+      end.status = WEXITSTATUS(*status);
     return end;
+  }
+
+  bool
+  run_installed_script(const std::string              &name,
+                       const std::vector<std::string> &arguments)
+  {
+    const std::string script = find_installed("share/corotet/scripts/" + name);
+    if (script.empty())
+      return false;
+    constexpr double hour = 3600;
+    try
+      {
+        const ProgramEnd end = run_for_output(script, arguments, hour);
+        return end.status == 0 && end.signal == 0 && !end.has_exceeded;
+      }
+    catch (const MachineError &)
+      {
+        return false;
+      }
   }
 } // namespace corotet

@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <array>
@@ -39,6 +40,18 @@ namespace corotet
     throw MachineError(path + ": " + what +
                        " cannot be written (is the disk full, or permission "
                        "missing?)");
+  }
+
+  void
+  write_json_file(const std::string            &path,
+                  const nlohmann::ordered_json &values,
+                  const std::string            &what)
+  {
+    write_whole_file(
+      path,
+      values.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+        "\n",
+      what);
   }
 
   std::string

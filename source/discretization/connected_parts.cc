@@ -1,50 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/disjoint_sets.h>
 #include <corotet/discretization/connected_parts.h>
 #include <corotet/mesh/ghost_cells.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace corotet
 {
   using dealii::numbers::invalid_unsigned_int;
-
-  DisjointSets::DisjointSets(const unsigned int n)
-    : parents(n)
-  {
-    std::iota(parents.begin(), parents.end(), 0u);
-  }
-
-  unsigned int
-  DisjointSets::root(unsigned int a)
-  {
-    while (parents[a] != a)
-      a = parents[a] = parents[parents[a]];
-    return a;
-  }
-
-  void
-  DisjointSets::unite(const unsigned int a, const unsigned int b)
-  {
-    // The first element is the root.
-    const auto [first, second] = std::minmax({root(a), root(b)});
-    parents[second]            = first;
-  }
-
-  std::pair<std::vector<unsigned int>, unsigned int>
-  DisjointSets::numbers()
-  {
-    std::vector<unsigned int> result(parents.size());
-    unsigned int              n = 0;
-    for (unsigned int a = 0; a < parents.size(); ++a)
-      result[a] = parents[a] == a ? n++ : result[root(a)];
-    return {result, n};
-  }
 
   std::set<std::pair<unsigned int, unsigned int>>
   of_all_ranks(const std::set<std::pair<unsigned int, unsigned int>> &pairs,

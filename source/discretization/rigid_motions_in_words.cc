@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/disjoint_sets.h>
 #include <corotet/base/text.h>
 #include <corotet/discretization/rigid_motions.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/disjoint_sets.h>
 #include <corotet/base/text.h>
 #include <corotet/mesh/edges.h>
 #include <corotet/mesh/face_neighbors.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace corotet
 {
@@ -106,34 +106,6 @@ namespace corotet
                         surface[sides[0]].normal * surface[sides[1]].normal)});
       return result;
     }
-
-    // Sets of numbers that are joined two by two.
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const unsigned int n)
-        : parents(n)
-      {
-        std::iota(parents.begin(), parents.end(), 0);
-      }
-
-      unsigned int
-      find(unsigned int i)
-      {
-        while (parents[i] != i)
-          i = parents[i] = parents[parents[i]];
-        return i;
-      }
-
-      void
-      join(const unsigned int i, const unsigned int j)
-      {
-        parents[find(i)] = find(j);
-      }
-
-    private:
-      std::vector<unsigned int> parents;
-    };
   } // namespace
 
   std::set<unsigned int>
@@ -149,7 +121,7 @@ namespace corotet
     std::vector<unsigned char>       is_bent(mesh.vertices.size());
     for (const Bend &bend : bends)
       if (bend.angle < flat)
-        facets.join(bend.triangles[0], bend.triangles[1]);
+        facets.unite(bend.triangles[0], bend.triangles[1]);
       else
         is_bent[bend.edge[0]] = is_bent[bend.edge[1]] = 1;
     // Vertices on edges between boundaries or at sharp ones are on the rim of
@@ -158,27 +130,27 @@ namespace corotet
     for (unsigned int t = 0; t < surface.size(); ++t)
       for (const unsigned int v : surface[t].corners)
         if (facet_at[v] == no_boundary)
-          facet_at[v] = facets.find(t);
-        else if (facet_at[v] != facets.find(t))
+          facet_at[v] = facets.root(t);
+        else if (facet_at[v] != facets.root(t))
           is_bent[v] = 1;
     std::vector<unsigned char> is_wide(surface.size());
     for (unsigned int t = 0; t < surface.size(); ++t)
       for (const unsigned int v : surface[t].corners)
         if (is_bent[v] == 0)
-          is_wide[facets.find(t)] = 1;
+          is_wide[facets.root(t)] = 1;
 
     DisjointSets sequences(surface.size());
     for (const Bend &bend : bends)
       {
-        const unsigned int a = facets.find(bend.triangles[0]),
-                           b = facets.find(bend.triangles[1]);
+        const unsigned int a = facets.root(bend.triangles[0]),
+                           b = facets.root(bend.triangles[1]);
         if (bend.angle < sharp && is_wide[a] == 0 && is_wide[b] == 0)
-          sequences.join(a, b);
+          sequences.unite(a, b);
       }
     std::map<unsigned int, unsigned int> lengths;
     for (unsigned int t = 0; t < surface.size(); ++t)
-      if (facets.find(t) == t && is_wide[t] == 0)
-        ++lengths[sequences.find(t)];
+      if (facets.root(t) == t && is_wide[t] == 0)
+        ++lengths[sequences.root(t)];
     std::set<unsigned int> result;
     for (const auto &[sequence, length] : lengths)
       if (length >= n_in_sequence)

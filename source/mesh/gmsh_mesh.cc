@@ -208,8 +208,6 @@ namespace corotet
                UsedNodes            &nodes,
                const PhysicalGroups &groups)
     {
-      // Of the types that triangles of degree 1, 2, 3 have; corners come first.
-      const std::map<int, unsigned int> n_nodes{{2, 3}, {9, 6}, {21, 10}};
       // In the order of the entities.
       std::multimap<int, const GmshModel::Elements *> surfaces;
       for (const GmshModel::Elements &elements : model.surfaces)
@@ -220,7 +218,8 @@ namespace corotet
           if (group == groups.of_entity.end())
             continue;
           const std::vector<std::uint64_t> &tags = elements->nodes;
-          const std::size_t                 n    = n_nodes.at(elements->type);
+          const std::size_t                 n =
+            gmsh_elements::triangle_nodes.at(elements->type);
           for (std::size_t i = 0; i + n <= tags.size(); i += n)
             mesh.faces.push_back({{{nodes.vertex(mesh, tags[i]),
                                     nodes.vertex(mesh, tags[i + 1]),
@@ -243,13 +242,9 @@ namespace corotet
                const int                               dimension,
                const Add                              &add)
     {
-      // By their types: points, and lines of degree 1, 2, 3, whose ends come
-      // first.
-      const std::map<int, std::size_t> n_nodes{{15, 1},
-                                               {1, 2},
-                                               {8, 3},
-                                               {26, 4}};
-      const std::size_t                last = dimension == 1 ? 1 : 0;
+      const gmsh_elements::NodeNumbers &n_nodes =
+        dimension == 1 ? gmsh_elements::line_nodes : gmsh_elements::point_nodes;
+      const std::size_t last = dimension == 1 ? 1 : 0;
       std::multimap<int, const GmshModel::Elements *> of_entity;
       for (const GmshModel::Elements &elements : all)
         of_entity.emplace(elements.entity, &elements);

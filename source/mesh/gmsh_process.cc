@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/programs.h>
 #include <corotet/mesh/check_mesh.h>
+#include <corotet/mesh/gmsh_elements.h>
 #include <corotet/mesh/gmsh_process.h>
 
 #include <fmt/format.h>
@@ -92,20 +93,9 @@ namespace corotet
 
 
 
-    // Elements of gmsh that a model consists of, by its number of their type:
-    // how many nodes they have. Tetrahedra, triangles and lines of degree 1, 2,
-    // 3, and points.
-    using NodeNumbers = std::map<int, std::size_t>;
-    const NodeNumbers gmsh_tetrahedra{{4, 4}, {11, 10}, {29, 20}};
-    const NodeNumbers gmsh_triangles{{2, 3}, {9, 6}, {21, 10}};
-    const NodeNumbers gmsh_lines{{1, 2}, {8, 3}, {26, 4}};
-    const NodeNumbers gmsh_points{{15, 1}};
-
-
-
     bool
     have_all_nodes(const std::vector<GmshModel::Elements> &all,
-                   const NodeNumbers                      &n_nodes)
+                   const gmsh_elements::NodeNumbers       &n_nodes)
     {
       return std::all_of(all.begin(), all.end(), [&](const auto &elements) {
         const auto found = n_nodes.find(elements.type);
@@ -125,8 +115,8 @@ namespace corotet
         return group.dimension >= 0 && group.dimension <= 3 && group.id >= 0;
       };
       const auto has_whole_nodes = [](const GmshModel::ElementType &type) {
-        const auto found = gmsh_tetrahedra.find(type.type);
-        return found == gmsh_tetrahedra.end() ||
+        const auto found = gmsh_elements::tetrahedron_nodes.find(type.type);
+        return found == gmsh_elements::tetrahedron_nodes.end() ||
                type.nodes.size() == 3 * found->second;
       };
       std::set<int> types;
@@ -142,10 +132,10 @@ namespace corotet
              std::all_of(model.volumes.begin(),
                          model.volumes.end(),
                          is_announced) &&
-             have_all_nodes(model.volumes, gmsh_tetrahedra) &&
-             have_all_nodes(model.surfaces, gmsh_triangles) &&
-             have_all_nodes(model.curves, gmsh_lines) &&
-             have_all_nodes(model.points, gmsh_points) &&
+             have_all_nodes(model.volumes, gmsh_elements::tetrahedron_nodes) &&
+             have_all_nodes(model.surfaces, gmsh_elements::triangle_nodes) &&
+             have_all_nodes(model.curves, gmsh_elements::line_nodes) &&
+             have_all_nodes(model.points, gmsh_elements::point_nodes) &&
              model.coordinates.size() == 3 * model.node_tags.size();
     }
 

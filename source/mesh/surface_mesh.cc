@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
 #include <corotet/base/whole_file.h>
+#include <corotet/mesh/gmsh_elements.h>
 #include <corotet/mesh/gmsh_mesh.h>
 #include <corotet/mesh/gmsh_process.h>
 #include <corotet/mesh/surface_mesh.h>
@@ -176,7 +177,6 @@ namespace corotet
                const TriangleSurface           &surface,
                const std::vector<unsigned int> &patches)
     {
-      const std::map<int, std::size_t> n_nodes{{2, 3}, {9, 6}, {21, 10}};
       std::unordered_map<std::uint64_t, std::size_t> positions;
       for (std::size_t i = 0; i < model.node_tags.size(); ++i)
         positions.emplace(model.node_tags[i], i);
@@ -184,7 +184,7 @@ namespace corotet
       std::map<std::pair<int, int>, GmshModel::Elements> by_patch;
       for (const GmshModel::Elements &elements : model.surfaces)
         {
-          const std::size_t n = n_nodes.at(elements.type);
+          const std::size_t n = gmsh_elements::triangle_nodes.at(elements.type);
           for (std::size_t i = 0; i + n <= elements.nodes.size(); i += n)
             {
               dealii::Tensor<1, 3> centre;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/disjoint_sets.h>
 #include <corotet/base/exceptions.h>
 #include <corotet/base/text.h>
 #include <corotet/base/whole_file.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "surface_lines.h"
 
@@ -56,48 +56,6 @@ namespace corotet
         }
       return angle / (4 * std::numbers::pi);
     }
-
-
-
-    // Sets of triangles that are connected.
-    class Pieces
-    {
-    public:
-      explicit Pieces(const std::size_t n)
-        : parents(n)
-      {
-        std::iota(parents.begin(), parents.end(), 0);
-      }
-
-      void
-      connect(const unsigned int i, const unsigned int j)
-      {
-        const unsigned int a = root(i), b = root(j);
-        parents[std::max(a, b)] = std::min(a, b);
-      }
-
-      // From 0, in the order of the triangles.
-      std::vector<unsigned int>
-      numbers()
-      {
-        std::vector<unsigned int> result(parents.size());
-        unsigned int              n = 0;
-        for (unsigned int i = 0; i < result.size(); ++i)
-          result[i] = root(i) == i ? n++ : result[root(i)];
-        return result;
-      }
-
-    private:
-      std::vector<unsigned int> parents;
-
-      unsigned int
-      root(unsigned int i)
-      {
-        while (parents[i] != i)
-          i = parents[i] = parents[parents[i]];
-        return i;
-      }
-    };
   } // namespace
 
 
@@ -155,10 +113,10 @@ namespace corotet
                  const std::vector<SurfaceEdge> &edges)
   {
     SurfaceShells result;
-    Pieces        pieces(surface.triangles.size());
+    DisjointSets  pieces(surface.triangles.size());
     for (const SurfaceEdge &edge : edges)
-      pieces.connect(edge.triangles[0], edge.triangles[1]);
-    result.of_triangle = pieces.numbers();
+      pieces.unite(edge.triangles[0], edge.triangles[1]);
+    result.of_triangle = pieces.numbers().first;
 
     struct Shell
     {
@@ -222,7 +180,7 @@ namespace corotet
                   const double                    feature_angle)
   {
     const double least = std::cos(feature_angle * std::numbers::pi / 180);
-    Pieces       pieces(surface.triangles.size());
+    DisjointSets pieces(surface.triangles.size());
     for (const SurfaceEdge &edge : edges)
       {
         const auto [i, j] = edge.triangles;
@@ -230,8 +188,8 @@ namespace corotet
                    b      = area_vector(surface, surface.triangles[j]);
         if (surface.groups[i] == surface.groups[j] &&
             a * b >= least * a.norm() * b.norm())
-          pieces.connect(i, j);
+          pieces.unite(i, j);
       }
-    return pieces.numbers();
+    return pieces.numbers().first;
   }
 } // namespace corotet

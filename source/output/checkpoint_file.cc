@@ -31,7 +31,7 @@ namespace corotet
     using Json = nlohmann::ordered_json;
 
     // Of what is in a checkpoint and what it means.
-    constexpr int format_version = 5;
+    constexpr int format_version = 6;
 
     class FileDescriptor
     {

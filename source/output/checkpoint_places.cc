@@ -90,10 +90,20 @@ namespace corotet
   void
   Checkpoints::remove_old() const
   {
+    remove_unfinished();
     const std::vector<Place> all = places();
     for (std::size_t i = parameters.keep; i < all.size(); ++i)
       for (const char *suffix : {".json", ".h5"})
-        fs::remove(path_of(all[i]) + suffix);
-    remove_unfinished();
+        {
+          const std::string path = path_of(all[i]) + suffix;
+          std::error_code   error;
+          fs::remove(path, error);
+          if (!error)
+            continue;
+          // The run can go on with more checkpoints than it needs.
+          log.warning(
+            path + ": an old checkpoint cannot be removed: " + error.message());
+          return;
+        }
   }
 } // namespace corotet

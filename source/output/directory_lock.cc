@@ -53,13 +53,14 @@ namespace corotet
   }
 
   DirectoryLock::DirectoryLock(const std::string &directory,
-                               const MPI_Comm     comm)
+                               const MPI_Comm     comm,
+                               Log               &log)
   {
-    on_root(comm, [&] { take(directory); });
+    on_root(comm, [&] { take(directory, log); });
   }
 
   void
-  DirectoryLock::take(const std::string &directory)
+  DirectoryLock::take(const std::string &directory, Log &log)
   {
     const std::string path = directory + "/" + file_name;
     std::error_code   error;
@@ -77,10 +78,9 @@ namespace corotet
     descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0)
       fail(error ? error.value() : errno);
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (!is_locked && errno == EWOULDBLOCK)
       {
-        if (errno != EWOULDBLOCK)
-          fail(errno);
         close(descriptor);
         descriptor = -1;
         throw MachineError(
@@ -89,6 +89,15 @@ namespace corotet
                       directory,
                       owner_in(path)));
       }
+    // Lustre and NFS may be set up without locks.
+    if (!is_locked && errno != ENOLCK && errno != ENOSYS && errno != EOPNOTSUPP)
+      fail(errno);
+    if (!is_locked)
+      log.warning(
+        fmt::format("the output directory '{}' cannot be locked ({}): "
+                    "let no other run write there",
+                    directory,
+                    std::generic_category().message(errno)));
     const std::string text = fmt::format("{}\nprocess {} on {}\n",
                                          signature,
                                          getpid(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/modes_writer.h>
 #include <corotet/output/stress_points_writer.h>
@@ -10,8 +10,6 @@
 #include <corotet/output/vtkhdf_writer.h>
 
 #include <nlohmann/json.hpp>
-
-#include <fstream>
 
 namespace corotet
 {
@@ -122,12 +120,7 @@ namespace corotet
         text += csv_line(row, false);
       }
     on_root(analysis.body().discretization.communicator(), [&] {
-      const std::string path = directory + "/modes.csv";
-      std::ofstream     file(path);
-      file << text << std::flush;
-      if (!file)
-        throw MachineError(path + ": the modes cannot be written (is the disk "
-                                  "full, or permission missing?)");
+      write_whole_file(directory + "/modes.csv", text, "the modes");
     });
   }
 

@@ -94,6 +94,16 @@ namespace corotet
                         (*nearest)[2]));
           return *nearest;
         }
+    refuse_probe(probe, entry, discretization, nearby);
+  }
+
+  void
+  refuse_probe(const ProbePoint     &probe,
+               const std::string    &entry,
+               const Discretization &discretization,
+               const NearbyCells    &nearby)
+  {
+    const auto &[name, x] = probe;
     throw InputError(entry,
                      fmt::format("probe '{}' at ({}, {}, {}) lies outside the "
                                  "body, {:.3g} m from its nearest node; the "
@@ -131,6 +141,8 @@ namespace corotet
                      search,
                      nearby);
             outside = mpi::max(location.outside, comm);
+            if (outside == far_outside)
+              refuse_probe(point, "Output/Probes", discretization, nearby);
           }
         const unsigned int owner =
           mpi::min(location.outside == outside ? rank : nobody, comm);

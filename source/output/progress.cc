@@ -91,8 +91,8 @@ namespace corotet
       }
     else
       log.progress(text,
-                   end_time > start_time ?
-                     (time - start_time) / (end_time - start_time) :
+                   end_time > run_start ?
+                     (time - run_start) / (end_time - run_start) :
                      -1);
   }
 } // namespace corotet

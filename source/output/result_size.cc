@@ -4,6 +4,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/output/output_directory.h>
 #include <corotet/output/result_size.h>
+#include <corotet/output/stress_tables.h>
 
 #include <fmt/format.h>
 
@@ -32,27 +33,34 @@ namespace corotet
     // Of so many rows and states at least [byte].
     double
     size_of_records(const OutputParameters &parameters,
-                    const Discretization   &discretization,
+                    const Body             &body,
                     const double            n_rows,
                     const double            n_states)
     {
       // Numbers of 64 bits: displacement and velocity, and three of each cell;
-      // with stress at nodes, two tensors there. Those of a row are text, of 12
-      // characters or more where they are not zero.
+      // displacement and stress at each quadrature point. Those of a row are
+      // text, of 12 characters or more where they are not zero.
+      double n_of_stress = 0;
+      for (const VtkhdfSeries::Table &table : StressTables::tables())
+        n_of_stress += std::max(1U, static_cast<unsigned int>(table.n_columns));
+      const double n_points =
+        body.elasticity.reference_element().stiffness_rule.weights.size();
       const double of_node =
-        8 * (6 + (parameters.has_stress_at_nodes() ? 12 : 0));
-      const double of_cell = 8 * 3;
+        8 * (6 + (parameters.has_stress_at_nodes() ? n_of_stress : 0));
+      const double of_cell = 8 * (3 + (parameters.has_stress_at_points() ?
+                                         n_points * (3 + n_of_stress) :
+                                         0));
       const double of_row  = 12 * 20;
       return n_rows * of_row +
-             n_states * (of_node * discretization.n_global_nodes() +
-                         of_cell * discretization.n_global_cells());
+             n_states * (of_node * body.discretization.n_global_nodes() +
+                         of_cell * body.discretization.n_global_cells());
     }
   } // namespace
 
   void
   warn_of_size(const OutputParameters &parameters,
                const std::string      &directory,
-               const Discretization   &discretization,
+               const Body             &body,
                const double            n_steps,
                const double            duration,
                Log                    &log)
@@ -61,9 +69,8 @@ namespace corotet
     constexpr double many     = 100 * gigabyte;
     const auto [rows, states] =
       numbers_of_records(parameters, n_steps, duration);
-    const double size =
-      size_of_records(parameters, discretization, rows, states);
-    const double free = from_root(discretization.communicator(), [&] {
+    const double size = size_of_records(parameters, body, rows, states);
+    const double free = from_root(body.discretization.communicator(), [&] {
       return static_cast<double>(
         std::filesystem::space(existing_place(directory)).available);
     });
@@ -71,7 +78,7 @@ namespace corotet
       return;
     log.warning(fmt::format(
       "Output: results will have some {:.3g} GB, and the disk has {:.3g} GB "
-      "left: {:.3g} rows of history.csv and {:.3g} states of solution.vtkhdf; "
+      "left: {:.3g} rows of history.csv and {:.3g} states of the time series; "
       "Steps between rows and Time between results make them fewer",
       size / gigabyte,
       free / gigabyte,

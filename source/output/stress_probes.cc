@@ -38,9 +38,11 @@ namespace corotet
     };
     for (const ProbePoint &point : points)
       {
-        if (locate(point.position) == 0)
-          locate(nearest_point_to_probe(
-            point, "Output/Stress probes", discretization, nearby, log));
+        const std::string entry = "Output/Stress probes";
+        if (locate(point.position) == 0 &&
+            locate(nearest_point_to_probe(
+              point, entry, discretization, nearby, log)) == 0)
+          refuse_probe(point, entry, discretization, nearby);
         probe_names.push_back(point.name);
       }
     std::set<unsigned int> each;

@@ -118,12 +118,9 @@ namespace corotet
   {
     const std::uint64_t peak = peak_memory(comm);
     on_root(comm, [&] {
-      write_whole_file(
-        directory + "/summary.json",
-        summary_object(summary, results, peak)
-            .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-          "\n",
-        "the summary");
+      write_json_file(directory + "/summary.json",
+                      summary_object(summary, results, peak),
+                      "the summary");
     });
   }
 } // namespace corotet

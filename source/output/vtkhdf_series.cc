@@ -102,15 +102,20 @@ namespace corotet
       archive.transfer("result_steps", result_steps);
       archive.transfer("result_sizes", result_sizes);
     });
-    if (steps.size() != levels.size() || n_results.size() != levels.size())
+    if (steps.size() != levels.size() || n_results.size() != levels.size() ||
+        result_steps.size() != times.size() ||
+        result_sizes.size() != times.size())
       throw InputError(
         "",
-        fmt::format("a checkpoint has {} levels, {} steps and {} "
-                    "numbers of results for the files of '{}'; "
-                    "needed are as many of each",
+        fmt::format("a checkpoint has {} levels, {} steps and {} numbers of "
+                    "results, and {} times, {} steps and {} sizes of results "
+                    "for the files of '{}'; needed are as many of each",
                     levels.size(),
                     steps.size(),
                     n_results.size(),
+                    times.size(),
+                    result_steps.size(),
+                    result_sizes.size(),
                     name));
     blocks.clear();
     for (std::size_t i = 0; i < levels.size(); ++i)
@@ -200,9 +205,6 @@ namespace corotet
                     found,
                     needed));
     };
-    AssertThrow(result_steps.size() == times.size() &&
-                  result_sizes.size() == times.size(),
-                dealii::ExcInternalError());
     for (std::size_t i = 0; i < times.size(); ++i)
       {
         const std::string path = result_file(result_steps[i]);

@@ -287,9 +287,8 @@ namespace corotet
     summary.message = message;
     the_body.fill_in(summary);
     // Of the state, which may be some steps after its last record.
-    summary.steps        = step_number() - (parts_made() > 0 ? 1 : 0);
-    summary.end_time     = time();
-    summary.final_record = last_record;
+    summary.steps    = step_number() - (parts_made() > 0 ? 1 : 0);
+    summary.end_time = time();
     summary.preconditioner_builds =
       system.implicit_solver().preconditioner_builds();
     if (is_started)

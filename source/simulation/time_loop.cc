@@ -216,6 +216,9 @@ namespace corotet
             if (next.parts > 0)
               return stay(next);
             parts_left.clear();
+            // The step to come is again the rest of one that was left.
+            if (from < done)
+              start_of_left_step = from;
             return stay(good);
           }
         catch (const ComputationError &)

@@ -63,6 +63,8 @@ namespace corotet
         done *= factor;
         good_done *= factor;
         from *= factor;
+        if (start_of_left_step)
+          *start_of_left_step *= factor;
       }
     // What is left of a step that has been begun is made of other steps, the
     // first of which has its number.
@@ -108,8 +110,15 @@ namespace corotet
         ends.push_back(part.to);
         halvings.push_back(part.halvings_left);
       }
+    std::vector<double> left;
+    if (start_of_left_step)
+      left.push_back(*start_of_left_step);
     archive.transfer("parts_left", ends);
     archive.transfer("halvings_left", halvings);
+    archive.transfer("start_of_left_step", left);
+    start_of_left_step.reset();
+    if (!left.empty())
+      start_of_left_step = left.front();
     parts_left.clear();
     for (std::size_t i = 0; i < ends.size(); ++i)
       parts_left.push_back({ends[i], halvings.at(i)});

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -89,7 +91,12 @@ namespace corotet
       throw ComputationError("the matrix with " + std::to_string(n_rows) +
                              " unknowns is too large to be factorised: its "
                              "factor has more than 2^31 entries");
-    AssertThrow(common.status >= CHOLMOD_OK, dealii::ExcInternalError());
+    if (common.status < CHOLMOD_OK)
+      throw ComputationError(
+        fmt::format("the matrix with {} unknowns cannot be factorised: CHOLMOD "
+                    "ends with status {}",
+                    n_rows,
+                    common.status));
   }
 
   /// The graph of points with @p size unknowns each: whose columns each row of

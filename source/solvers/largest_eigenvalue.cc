@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
@@ -21,7 +22,11 @@ namespace corotet
     double size = 0;
     for (const auto *entries : {&diagonal, &beside})
       for (const double entry : *entries)
-        size = std::max(size, std::abs(entry));
+        {
+          if (!std::isfinite(entry))
+            return {std::numeric_limits<double>::quiet_NaN(), 1.};
+          size = std::max(size, std::abs(entry));
+        }
     if (size == 0)
       return {0., 1.};
 
@@ -41,9 +46,11 @@ namespace corotet
     dealii::Vector<double>     eigenvalues;
     dealii::FullMatrix<double> eigenvectors;
     // To round-off: what a bisection leaves would change with any rounding of
-    // T.
+    // T. The norm bounds all eigenvalues, but the interval is without its lower
+    // end.
     T.compute_eigenvalues_symmetric(
-      -norm, norm, 1e-14 * norm, eigenvalues, eigenvectors);
+      -1.1 * norm, 1.1 * norm, 1e-14 * norm, eigenvalues, eigenvectors);
+    AssertThrow(eigenvalues.size() == n, dealii::ExcInternalError());
     // In ascending order.
     return {size * eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
   }

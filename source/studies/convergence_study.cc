@@ -308,9 +308,7 @@ namespace corotet
         file["finer_run"] = result_to_json(*finer_result);
       }
     file["result"] = result_to_json(result);
-    on_root(comm, [&] {
-      write_whole_file(path + ".json", file.dump(2) + "\n", "the result");
-    });
+    on_root(comm, [&] { write_json_file(path + ".json", file, "the result"); });
     remove_checkpoints(path, comm);
     return result;
   }
@@ -355,9 +353,7 @@ namespace corotet
         count(*finer_result);
       summary["wall_time"]         = {{"total", wall_time}};
       summary["peak_memory_bytes"] = peak_memory;
-      write_whole_file(directory + "/summary.json",
-                       summary.dump(2) + "\n",
-                       "the summary");
+      write_json_file(directory + "/summary.json", summary, "the summary");
     });
   }
 
@@ -365,11 +361,10 @@ namespace corotet
   ConvergenceStudy::draw() const
   {
     on_root(comm, [&] {
-      const std::string script =
-        find_installed("share/corotet/scripts/draw_study");
-      if (script.empty() || run_and_wait(script, {directory}) != 0)
+      if (!run_installed_script("draw_study", {directory}))
         log.warning("the pictures of the study could not be drawn; "
-                    "scripts/draw_study needs Python and matplotlib");
+                    "scripts/draw_study, which needs Python and matplotlib, "
+                    "says why");
     });
   }
 } // namespace corotet

@@ -45,15 +45,4 @@ namespace corotet
     return (is_named ? toolchain + std::string(" ") : "") + script + " " +
            quoted(directory);
   }
-
-  bool
-  write_page_of_run(const std::string &directory)
-  {
-    const std::string script = find_installed("share/corotet/scripts/report");
-    if (script.empty())
-      return false;
-    constexpr double hour = 3600;
-    const ProgramEnd end  = run_for_output(script, {directory}, hour);
-    return end.status == 0 && end.signal == 0 && !end.has_exceeded;
-  }
 } // namespace corotet

@@ -12,10 +12,6 @@ namespace corotet
   /// libraries of scripts may be elsewhere.
   std::string
   command_for_page(const std::string &directory);
-
-  /// Makes it. Whether that worked. On one rank.
-  bool
-  write_page_of_run(const std::string &directory);
 } // namespace corotet
 
 #endif

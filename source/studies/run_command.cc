@@ -5,6 +5,7 @@
 #include <corotet/base/log.h>
 #include <corotet/base/memory.h>
 #include <corotet/base/mpi.h>
+#include <corotet/base/programs.h>
 #include <corotet/base/stop_signals.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
@@ -169,7 +170,9 @@ namespace corotet
       {
         if (!command.report || command.validate)
           return;
-        if (from_root(comm, [&] { return write_page_of_run(directory); }))
+        if (from_root(comm, [&] {
+              return run_installed_script("report", {directory});
+            }))
           log.line("The page of the run is " + directory + "/report.html");
         else
           log.warning("the page of the run could not be written; " +
@@ -189,7 +192,7 @@ namespace corotet
       take_checkpoint(const Checkpoints &checkpoints)
       {
         if (!command.validate)
-          lock.emplace(directory, comm);
+          lock.emplace(directory, comm, log);
         auto checkpoint = checkpoints.newest();
         if (checkpoint)
           return checkpoint;
@@ -248,8 +251,7 @@ namespace corotet
         parameters.verification.initialize(
           column_names(history_example(output)));
         Simulation simulation(parameters.simulation, file.folder(), comm, log);
-        const Discretization &discretization = simulation.body().discretization;
-        const auto            observers =
+        const auto observers =
           make_observers(output,
                          directory,
                          HistoryColumns(output, simulation.body(), log),
@@ -259,7 +261,7 @@ namespace corotet
                          log);
         warn_of_size(output,
                      directory,
-                     discretization,
+                     simulation.body(),
                      simulation.planned_steps(),
                      simulation.end_time() - simulation.start_time(),
                      log);
@@ -326,7 +328,7 @@ namespace corotet
             return;
           }
         if (!lock)
-          lock.emplace(directory, comm);
+          lock.emplace(directory, comm, log);
         if (!goes_on)
           prepare_output_directory(directory, may_overwrite(), comm);
         release_library_pages();

@@ -83,7 +83,7 @@ namespace corotet
                                simulation->start_time(),
                                simulation->end_time(),
                                log);
-    lock.emplace(directory, comm);
+    lock.emplace(directory, comm, log);
     prepare_output_directory(directory, output.overwrite, comm);
     log.open(directory + "/log.txt");
     on_root(comm, [&] { file.write_effective(directory + "/parameters.prm"); });

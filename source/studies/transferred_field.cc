@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exchange.h>
+#include <corotet/base/mpi.h>
 #include <corotet/discretization/finite_element.h>
 #include <corotet/studies/transferred_field.h>
 
@@ -169,7 +170,10 @@ namespace corotet
     , stride(n_geometry + 3 * source.n_nodes_per_cell())
     , data(cells_at(cells_with_values(source, u, stride), stride, target))
   {
-    AssertThrow(!data.empty(), dealii::ExcMessage("The meshes are far apart."));
+    on_all_ranks(target.communicator(), [&] {
+      AssertThrow(!data.empty() || target.n_owned_cells() == 0,
+                  dealii::ExcMessage("The meshes are far apart."));
+    });
     std::vector<BoundingBox> boxes;
     for (std::size_t c = 0; c < data.size() / stride; ++c)
       boxes.push_back(box_of_cell(data.data() + c * stride));

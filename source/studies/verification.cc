@@ -4,13 +4,13 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/text.h>
+#include <corotet/base/whole_file.h>
 #include <corotet/studies/verification.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <set>
 
 namespace corotet
@@ -70,8 +70,7 @@ namespace corotet
       const auto csv_line = [](const std::string &first, const Cells &cells) {
         return first + "," + join({cells.begin(), cells.end()}, ",") + "\n";
       };
-      std::ofstream file(path);
-      file << csv_line("case", header);
+      std::string text  = csv_line("case", header);
       std::string first = name;
       if (first.find_first_of(",\"\n") != std::string::npos)
         {
@@ -81,11 +80,8 @@ namespace corotet
           first = '"' + first + '"';
         }
       for (const CheckResult &result : results)
-        file << csv_line(first, cells_of(result));
-      file.close();
-      if (!file)
-        throw MachineError(path + ": the comparison cannot be written (is the "
-                                  "disk full, or permission missing?)");
+        text += csv_line(first, cells_of(result));
+      write_whole_file(path, text, "the comparison");
     }
   } // namespace
 

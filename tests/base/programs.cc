@@ -4,10 +4,13 @@
 // Programs that the library starts: found without knowing where it was built,
 // run without a shell.
 
+#include <corotet/base/exceptions.h>
 #include <corotet/base/programs.h>
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 
 #include "../source_path.h"
@@ -25,27 +28,60 @@ TEST(Programs, AreFoundFromTheProgram)
   EXPECT_EQ(find_installed("share/no such file"), "");
 }
 
+namespace
+{
+  ProgramEnd
+  end_of_shell(const std::string              &text,
+               const std::vector<std::string> &arguments  = {},
+               const double                    time_limit = 60)
+  {
+    std::vector<std::string> words = {"-c", text, "sh"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_for_output("/bin/sh", words, time_limit);
+  }
+} // namespace
+
 TEST(Programs, ExitStatus)
 {
-  EXPECT_EQ(run_and_wait("/bin/sh", {"-c", "exit 0"}), 0);
-  EXPECT_EQ(run_and_wait("/bin/sh", {"-c", "exit 3"}), 3);
-  EXPECT_EQ(run_and_wait("/bin/sh", {"-c", "kill -9 $$"}), std::nullopt);
-  EXPECT_NE(run_and_wait("/no such/program", {}).value_or(127), 0);
+  EXPECT_EQ(end_of_shell("exit 0").status, 0);
+  EXPECT_EQ(end_of_shell("exit 3").status, 3);
+  const ProgramEnd killed = end_of_shell("kill -9 $$");
+  EXPECT_EQ(killed.signal, SIGKILL);
+  EXPECT_FALSE(killed.has_exceeded);
+  try
+    {
+      run_for_output("/no such/program", {}, 60);
+      ADD_FAILURE() << "no error";
+    }
+  catch (const MachineError &error)
+    {
+      EXPECT_STREQ(error.what(),
+                   "/no such/program: cannot be started: No such file or "
+                   "directory");
+    }
+  EXPECT_FALSE(run_installed_script("no such script", {}));
 }
 
 // As they are: no shell splits or expands them.
 TEST(Programs, Arguments)
 {
   const std::string text = "two words; $HOME 'quoted' *";
-  EXPECT_EQ(run_and_wait("/bin/sh", {"-c", "[ \"$#\" = 2 ]", "sh", text, ""}),
-            0);
-  EXPECT_EQ(run_and_wait("/bin/sh",
-                         {"-c", "[ \"$1\" = \"$2\" ]", "sh", text, text}),
-            0);
-  EXPECT_EQ(run_and_wait("/bin/sh",
-                         {"-c",
-                          "[ \"$1\" = 'two words; $HOME '\"'quoted'\"' *' ]",
-                          "sh",
-                          text}),
-            0);
+  EXPECT_EQ(end_of_shell("printf '%s|' \"$@\"", {text, ""}).output,
+            text + "||");
+}
+
+// Also a program that has closed its output and goes on.
+TEST(Programs, TimeLimit)
+{
+  for (const char *text : {"exec sleep 100", "exec sleep 100 >&-"})
+    {
+      const auto       begin = std::chrono::steady_clock::now();
+      const ProgramEnd end   = end_of_shell(text, {}, 0.2);
+      EXPECT_TRUE(end.has_exceeded) << text;
+      EXPECT_EQ(end.signal, SIGKILL);
+      // The system may be slow; sleep is not waited for.
+      EXPECT_LT(std::chrono::steady_clock::now() - begin,
+                std::chrono::seconds(50));
+    }
+  EXPECT_EQ(end_of_shell("exec >&-; sleep 0.1; exit 4").status, 4);
 }

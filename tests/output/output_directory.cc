@@ -40,7 +40,8 @@ namespace
   void
   make_results(const std::string &folder, const std::vector<std::string> &names)
   {
-    const corotet::DirectoryLock mark(folder, MPI_COMM_WORLD);
+    Log                          log(MPI_COMM_WORLD, true);
+    const corotet::DirectoryLock mark(folder, MPI_COMM_WORLD, log);
     make_files(folder, names);
   }
 
@@ -197,11 +198,13 @@ TEST(DirectoryLock, KeepsOthersOut)
 {
   const ScratchFolder scratch;
   const std::string   directory = scratch.path + "/run";
+  Log                 log(MPI_COMM_WORLD, true);
   for (unsigned int run = 0; run < 2; ++run)
     {
-      const corotet::DirectoryLock lock(directory, MPI_COMM_WORLD);
-      const std::string            message = message_of<MachineError>(
-        [&] { const corotet::DirectoryLock other(directory, MPI_COMM_WORLD); });
+      const corotet::DirectoryLock lock(directory, MPI_COMM_WORLD, log);
+      const std::string            message = message_of<MachineError>([&] {
+        const corotet::DirectoryLock other(directory, MPI_COMM_WORLD, log);
+      });
       EXPECT_TRUE(message.starts_with("the output directory '" + directory +
                                       "' is in use by process "))
         << message;

@@ -21,6 +21,7 @@
 #endif
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -247,6 +248,18 @@ extern "C"
     return original(NAME, #NAME)(descriptor); \
   }
   COROTET_SYNC(fsync)
+
+  // As file systems that are set up without locks.
+  int
+  flock(int descriptor, int operation) noexcept
+  {
+    if (is_chosen(descriptor) && has_mode("no locks"))
+      {
+        errno = ENOLCK;
+        return -1;
+      }
+    return original(flock, "flock")(descriptor, operation);
+  }
 
   int
   syncfs(int descriptor) noexcept

@@ -91,6 +91,34 @@ class Faults(ProgramTest):
             self.sample(mode, 1, 9)
             self.sample(mode, 2, 3)
 
+    def test_no_locks(self):
+        """File systems of clusters may have no locks: the run says so, and goes on."""
+        (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in CASE.items() if value}), encoding="utf-8")
+        status, errors = self.start(1, LD_PRELOAD=os.environ["COROTET_FAILING_FILES"], COROTET_TEST_RANK="all", COROTET_TEST_FROM=10**9,
+                                    COROTET_TEST_FILES="/results", COROTET_TEST_MODE="no locks", ASAN_OPTIONS="verify_asan_link_order=0")
+        self.assertEqual(status, 0, errors)
+        self.assertIn("results' cannot be locked (No locks available): let no other run write there",
+                      (self.folder / "results" / "log.txt").read_text(encoding="utf-8"))
+
+    def test_old_checkpoint_stays(self):
+        """A checkpoint that is no longer needed and cannot be removed does not end the run."""
+        settings = {**CASE, "Checkpoint/Keep": "1"}
+        (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in settings.items() if value}), encoding="utf-8")
+        environment = {"LD_PRELOAD": os.environ["COROTET_FAILING_FILES"], "COROTET_TEST_RANK": "all", "COROTET_TEST_MODE": "once",
+                       "COROTET_TEST_FILES": "/checkpoint/step_000003.json", "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        count = self.folder / "count"
+        results = self.folder / "results"
+        self.start(1, COROTET_TEST_FROM=10**9, COROTET_TEST_COUNT=count, **environment)
+        old = results / "checkpoint" / "step_000003.json"
+        self.assertFalse(old.exists())
+        shutil.rmtree(results)
+        # The last operation on it removes it.
+        status, errors = self.start(1, COROTET_TEST_FROM=int(count.read_text(encoding="utf-8")), **environment)
+        self.assertEqual(status, 0, errors)
+        self.assertIn("step_000003.json: an old checkpoint cannot be removed: Permission denied",
+                      (results / "log.txt").read_text(encoding="utf-8"))
+        self.assertFalse(old.exists())
+
     def test_failed_step(self):
         """Of a step that fails, and then a file that cannot be written, both are said: who makes room knows what is to come."""
         case = {**CASE, "Newton/Maximum iterations": "1", "Loads/Gravity": "0; 0; -1e12"}

@@ -162,3 +162,41 @@ TEST(InterruptedSteps, WithinSolves)
                 1e-7 * whole.simulation.state().u.linfty_norm());
     }
 }
+
+// A result is due within a step that a run with other steps has left behind a
+// part: the first of these gives it, also if it was given up once.
+TEST(InterruptedSteps, LeftForOtherSteps)
+{
+  const auto bar = [](const double step) {
+    return halved_bar(time_integration("generalized-alpha", 0.4, step), 2, "8");
+  };
+  CompleteRun run(bar(0.2));
+  run.simulation.start(run.observers);
+  run.simulation.step({.after_step = [] { return true; }, .within_step = {}});
+  const double time = run.simulation.time();
+  ASSERT_GT(run.simulation.parts_made(), 0u);
+  const OutputTimes times{1000, 0.9 * time};
+  MemoryArchive     left;
+  run.simulation.save_state(left);
+
+  for (const bool is_given_up : {false, true})
+    {
+      MemoryArchive archive = left;
+      archive.reading       = true;
+      auto other            = std::make_unique<CompleteRun>(bar(0.01));
+      other->simulation.resume(other->observers, times, archive);
+      if (is_given_up)
+        {
+          other->simulation.step(
+            {.after_step = {}, .within_step = [] { return true; }});
+          EXPECT_EQ(other->simulation.time(), time);
+          MemoryArchive again;
+          other->simulation.save_state(again);
+          again.reading = true;
+          other         = std::make_unique<CompleteRun>(bar(0.01));
+          other->simulation.resume(other->observers, times, again);
+        }
+      other->simulation.step();
+      EXPECT_NEAR(other->simulation.time(), time + 0.01, 1e-12);
+    }
+}

@@ -94,8 +94,8 @@ namespace
 } // namespace
 
 // The condition number of these boxes is below 1e4. Single precision of the
-// right hand side counts too. The second box has more nodes than are ordered by
-// minimum degree.
+// right hand side and of the solution counts too, with 6e-8 of each. The second
+// box has more nodes than are ordered by minimum degree.
 TEST(SparseCholesky, InvertsMatrix)
 {
   for (const auto &cells : {Cells{{8, 2, 2}}, Cells{{20, 16, 15}}})
@@ -105,7 +105,7 @@ TEST(SparseCholesky, InvertsMatrix)
       inverse.factorize(*box.matrix);
       EXPECT_EQ(inverse.precision(), Precision::double_precision);
       EXPECT_LT(error<double>(box, inverse), 1e-11);
-      EXPECT_LT(error<float>(box, inverse), 1e-2);
+      EXPECT_LT(error<float>(box, inverse), 2e-3);
       EXPECT_GT(inverse.n_entries(),
                 static_cast<std::size_t>(3 * box.pattern->nodes().n_global()));
     }
@@ -133,9 +133,9 @@ TEST(SparseCholesky, InvertsMatrixInSinglePrecision)
   SparseCholesky  inverse(Precision::single_precision);
   inverse.factorize(*box.matrix);
   EXPECT_EQ(inverse.precision(), Precision::single_precision);
-  EXPECT_LT(error<float>(box, inverse), 1e-2);
+  EXPECT_LT(error<float>(box, inverse), 2e-3);
   const double error_of_double = error<double>(box, inverse);
-  EXPECT_LT(error_of_double, 1e-2);
+  EXPECT_LT(error_of_double, 2e-3);
   // It is single precision indeed.
   EXPECT_GT(error_of_double, 1e-9);
 }

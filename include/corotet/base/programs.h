@@ -4,7 +4,6 @@
 #ifndef corotet_base_programs_h
 #define corotet_base_programs_h
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,15 +20,6 @@ namespace corotet
   std::string
   find_installed(const std::string &name);
 
-  /**
-   * Runs the program at @p path with @p arguments, without a shell, and waits
-   * for its end. Returns its exit status; nothing if it could not be started or
-   * was ended by a signal.
-   */
-  std::optional<int>
-  run_and_wait(const std::string              &path,
-               const std::vector<std::string> &arguments);
-
   /// How a program has ended.
   struct ProgramEnd
   {
@@ -43,16 +33,22 @@ namespace corotet
   };
 
   /**
-   * The same with the program's standard output taken. It reads nothing from
-   * its standard input, its messages are thrown away, and it does not know that
-   * this program is a rank of several. After @p time_limit
-   * seconds it is ended by SIGKILL (ProgramEnd::has_exceeded). Throws
-   * MachineError if it cannot be started.
+   * Runs the program at @p path with @p arguments, without a shell, waits for
+   * its end and takes its standard output. It reads nothing from its standard
+   * input, its messages are thrown away, and it does not know that this program
+   * is a rank of several. After @p time_limit seconds it is ended by SIGKILL
+   * (ProgramEnd::has_exceeded). Throws MachineError if it cannot be started.
    */
   ProgramEnd
   run_for_output(const std::string              &path,
                  const std::vector<std::string> &arguments,
                  const double                    time_limit);
+
+  /// Runs a script that is installed with the library ("report"). Whether it
+  /// was found, and has ended with status 0 within an hour.
+  bool
+  run_installed_script(const std::string              &name,
+                       const std::vector<std::string> &arguments);
 } // namespace corotet
 
 #endif

@@ -4,6 +4,8 @@
 #ifndef corotet_base_whole_file_h
 #define corotet_base_whole_file_h
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
 #include <fstream>
 #include <istream>
@@ -19,6 +21,13 @@ namespace corotet
                    const std::string &text,
                    const std::string &what,
                    const bool         durable = false);
+
+  /// The same of @p values, indented; bytes of names that are no UTF-8 are
+  /// replaced.
+  void
+  write_json_file(const std::string            &path,
+                  const nlohmann::ordered_json &values,
+                  const std::string            &what);
 
   /// The content of a file. Throws MachineError if it cannot be read, or not to
   /// its end.

@@ -59,27 +59,6 @@ namespace corotet
     measure(const Discretization &discretization);
   };
 
-  /// Sets that are united pair by pair.
-  class DisjointSets
-  {
-  public:
-    explicit DisjointSets(const unsigned int n);
-
-    void
-    unite(const unsigned int a, const unsigned int b);
-
-    /// Of each element the number of its set, in the order of their first
-    /// elements; and how many sets there are.
-    std::pair<std::vector<unsigned int>, unsigned int>
-    numbers();
-
-  private:
-    unsigned int
-    root(unsigned int a);
-
-    std::vector<unsigned int> parents;
-  };
-
   /// Those of all ranks, the same on each. Collective.
   std::set<std::pair<unsigned int, unsigned int>>
   of_all_ranks(const std::set<std::pair<unsigned int, unsigned int>> &pairs,

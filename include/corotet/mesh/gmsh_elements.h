@@ -6,6 +6,7 @@
 
 #include <corotet/mesh/gmsh_model.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@
  */
 namespace corotet::gmsh_elements
 {
+  /// How many nodes elements have, by gmsh's number of their type.
+  using NodeNumbers = std::map<int, std::size_t>;
+  /// Of degree 1, 2 and 3, corners first: the elements that a model may have.
+  inline const NodeNumbers tetrahedron_nodes{{4, 4}, {11, 10}, {29, 20}};
+  inline const NodeNumbers triangle_nodes{{2, 3}, {9, 6}, {21, 10}};
+  inline const NodeNumbers line_nodes{{1, 2}, {8, 3}, {26, 4}};
+  inline const NodeNumbers point_nodes{{15, 1}};
+
   /// The tetrahedra of a model, which are all of one kind.
   struct Tetrahedra
   {

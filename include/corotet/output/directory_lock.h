@@ -4,6 +4,8 @@
 #ifndef corotet_output_directory_lock_h
 #define corotet_output_directory_lock_h
 
+#include <corotet/base/log.h>
+
 #include <mpi.h>
 
 #include <string>
@@ -20,8 +22,9 @@ namespace corotet
   {
   public:
     /// Makes the directory. Throws MachineError if another process has the
-    /// lock, or if there can be none. Collective.
-    DirectoryLock(const std::string &directory, const MPI_Comm comm);
+    /// lock; where the file system has no locks, @p log gets a warning instead.
+    /// Collective.
+    DirectoryLock(const std::string &directory, const MPI_Comm comm, Log &log);
     ~DirectoryLock();
 
     DirectoryLock(const DirectoryLock &) = delete;
@@ -37,9 +40,9 @@ namespace corotet
 
   private:
     void
-    take(const std::string &directory);
+    take(const std::string &directory, Log &log);
 
-    /// Of the file, on rank 0; -1 elsewhere.
+    /// The open file on rank 0; -1 elsewhere.
     int descriptor = -1;
   };
 } // namespace corotet

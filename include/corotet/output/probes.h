@@ -26,6 +26,14 @@ namespace corotet
                          const NearbyCells    &nearby,
                          Log *const            log);
 
+  /// Throws the InputError that no cell has @p probe of the entry @p entry.
+  /// Collective.
+  [[noreturn]] void
+  refuse_probe(const ProbePoint     &probe,
+               const std::string    &entry,
+               const Discretization &discretization,
+               const NearbyCells    &nearby);
+
   /**
    * Points of the undeformed body, anywhere in it, at which a displacement is
    * evaluated: u(x) = sum_i u_i N_i(x) in the cell that contains x.

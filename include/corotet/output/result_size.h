@@ -5,8 +5,8 @@
 #define corotet_output_result_size_h
 
 #include <corotet/base/log.h>
-#include <corotet/discretization/discretization.h>
 #include <corotet/output/output_parameters.h>
+#include <corotet/simulation/body.h>
 
 #include <string>
 
@@ -20,7 +20,7 @@ namespace corotet
   void
   warn_of_size(const OutputParameters &parameters,
                const std::string      &directory,
-               const Discretization   &discretization,
+               const Body             &body,
                const double            n_steps,
                const double            duration,
                Log                    &log);

@@ -47,9 +47,10 @@ namespace corotet
    */
   struct RunSummary
   {
-    /// "done", or "failed" if the computation failed.
+    /// "done", "failed" if the computation failed, or "stopped" by a signal or
+    /// the limit of wall time.
     std::string status;
-    /// Why it failed; empty if it is done.
+    /// Why it failed or stopped; empty if it is done.
     std::string message;
 
     unsigned int ranks    = 1;
@@ -64,7 +65,6 @@ namespace corotet
 
     unsigned int steps    = 0;
     double       end_time = 0;
-    StepRecord   final_record;
     /// How often a preconditioner was made.
     unsigned int preconditioner_builds = 0;
     /// Of the last displacement, where the exact one is known.
@@ -102,7 +102,7 @@ namespace corotet
     resume(const Snapshot & /*state*/)
     {}
 
-    /// After every step.
+    /// After every step that is recorded (see OutputTimes).
     virtual void
     step(const Snapshot & /*state*/)
     {}
