@@ -11,12 +11,12 @@
 namespace corotet
 {
   /**
-   * Path of a file that is installed with the library, @p name relative to the
-   * installation ("share/corotet/scripts/draw_study"): in the nearest folder
-   * above the running program that has it, or above the file that this code is
-   * in (the shared library), or above the `corotet` that a shell would start.
-   * So it is found wherever the installation, or the folder of the build, was
-   * moved to. Empty if there is none.
+   * The path of a file that is installed with the library; @p name is relative
+   * to the installation ("share/corotet/scripts/draw_study"). It is looked for
+   * in the nearest folder above the running program that has it, above the file
+   * with this code (the shared library), or above the `corotet` that a shell
+   * would start. So it is found wherever the installation, or the folder of the
+   * build, was moved to. Empty if there is none.
    */
   std::string
   find_installed(const std::string &name);
@@ -30,10 +30,10 @@ namespace corotet
   run_and_wait(const std::string              &path,
                const std::vector<std::string> &arguments);
 
-  /// How a program has ended.
+  /// The end of a program.
   struct ProgramEnd
   {
-    /// What it wrote to its standard output.
+    /// The standard output of the program.
     std::string output;
     /// Exit status; 0 if a signal ended it.
     int status = 0;
@@ -43,9 +43,9 @@ namespace corotet
   };
 
   /**
-   * The same with the program's standard output taken. It reads nothing from
-   * its standard input, its messages are thrown away, and it does not know that
-   * this program is a rank of several. After @p time_limit
+   * Like run_and_wait(), but returns the program's standard output. The
+   * program's standard input is empty, its messages are discarded, and it does
+   * not know that this program is a rank of several. After @p time_limit
    * seconds it is ended by SIGKILL (ProgramEnd::has_exceeded). Throws
    * MachineError if it cannot be started.
    */
