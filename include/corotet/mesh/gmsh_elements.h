@@ -10,23 +10,23 @@
 #include <vector>
 
 /**
- * The kinds of elements that a model of gmsh has.
+ * The types of elements in a model of gmsh.
  */
 namespace corotet::gmsh_elements
 {
-  /// The tetrahedra of a model, which are all of one kind.
+  /// The tetrahedra of a model, which are all of one type.
   struct Tetrahedra
   {
     /// gmsh's number of the type.
     int type;
-    /// Of the map from the reference cell: 1, 2 or 3.
+    /// The degree of the map from the reference cell: 1, 2 or 3.
     unsigned int degree;
-    /// Where gmsh has the nodes that FE_SimplexP(degree) has.
+    /// The positions in gmsh's order of the nodes of FE_SimplexP(degree).
     std::vector<unsigned int> order;
   };
 
-  /// Those of @p model. Throws InputError, blamed on the file @p path, if there
-  /// are no tetrahedra, several kinds of them, or other cells.
+  /// The tetrahedra of @p model. Throws InputError, blamed on the file @p path,
+  /// if there are no tetrahedra, several types of them, or other cells.
   Tetrahedra
   tetrahedra(const GmshModel &model, const std::string &path);
 } // namespace corotet::gmsh_elements
