@@ -42,7 +42,7 @@ namespace corotet
     const auto &fe = finite_element(element);
     AssertDimension(fe.dofs_per_cell, n_nodes);
 
-    // The rule has to be exact for degrees 0, 2, 4 with 1, 4, 14 points.
+    // The stiffness rule is exact for degree 0, 2, 4, with 1, 4, 14 points.
     dealii::Quadrature<3> stiffness = dealii::QWitherdenVincentSimplex<3>(3);
     if (degree == 1)
       stiffness = dealii::QGaussSimplex<3>(1);
@@ -56,8 +56,7 @@ namespace corotet
     load_rule      = tabulate(fe, loads.get_points(), loads.get_weights());
     centre         = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
 
-    // Follower pressures need degree 3p-2 = 1, 4, 7; with bubbles 3 and twice
-    // 2.
+    // Follower pressures need degree 3p-2 = 1, 4, 7, with bubbles 3 + 4 = 7.
     const dealii::QWitherdenVincentSimplex<2> on_face(n);
     for (unsigned int f = 0; f < 4; ++f)
       {

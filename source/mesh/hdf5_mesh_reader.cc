@@ -143,7 +143,7 @@ namespace corotet
           mesh.names.corners    = from_json(text.at("corners"), path);
           mesh.part.geometry_degree =
             text.at("geometry degree").get<unsigned int>();
-          // Files of the first versions do not have this entry.
+          // Files of the first program versions do not have this entry.
           mesh.faceted =
             text.value("faceted", json::array()).get<std::set<unsigned int>>();
         }

@@ -14,7 +14,7 @@ namespace corotet
 {
   namespace
   {
-    // Rows of the history, and states of the time series.
+    // The numbers of rows of the history, and of states of the time series.
     std::pair<double, double>
     numbers_of_records(const OutputParameters &parameters,
                        const double            n_steps,
@@ -29,16 +29,17 @@ namespace corotet
       return {n_all, std::min(n_intended, n_all)};
     }
 
-    // Of so many rows and states at least [byte].
+    // The least size of so many rows and states [byte].
     double
     size_of_records(const OutputParameters &parameters,
                     const Discretization   &discretization,
                     const double            n_rows,
                     const double            n_states)
     {
-      // Numbers of 64 bits: displacement and velocity, and three of each cell;
-      // with stress at nodes, two tensors there. Those of a row are text, of 12
-      // characters or more where they are not zero.
+      // A state has numbers of 64 bits: displacement and velocity at nodes, and
+      // three numbers for each cell; with stress at nodes, also two tensors
+      // there. A row of the history is text, with 12 characters or more for
+      // each nonzero number.
       const double of_node =
         8 * (6 + (parameters.has_stress_at_nodes() ? 12 : 0));
       const double of_cell = 8 * 3;

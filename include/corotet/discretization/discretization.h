@@ -63,8 +63,8 @@ namespace corotet
   class Discretization : public Nodes
   {
   public:
-    /// Throws InputError if a curved cell is folded at a quadrature point or
-    /// node. Collective.
+    /// Throws InputError if a curved cell is folded at its centre or a
+    /// quadrature point. Collective.
     Discretization(const Mesh &mesh, const Element element);
 
     const Mesh &

@@ -62,8 +62,8 @@ namespace corotet
          Log                  &log,
          const unsigned int    element_degree = 3);
 
-    /// Does the same with a mesh that exists already (on rank 0; it is not read
-    /// on others).
+    /// Does the same with a mesh that exists already; only that of rank 0 is
+    /// used.
     Mesh(SerialMesh         mesh,
          const unsigned int n_refinements,
          const double       scale,

@@ -12,15 +12,15 @@ namespace corotet
 {
   /**
    * Marks an output directory as one of corotet by the file ".corotet", and
-   * keeps other runs out of it while it lives: rank 0 holds a lock on that
-   * file. The system ends the lock with the process: the file that a run
-   * leaves, killed or not, locks nothing.
+   * keeps other runs out of it during its lifetime: rank 0 holds a lock on that
+   * file. The system ends the lock with the process, so the file of a run that
+   * was killed locks nothing.
    */
   class DirectoryLock
   {
   public:
-    /// Makes the directory. Throws MachineError if another process has the
-    /// lock, or if there can be none. Collective.
+    /// Makes the directory and locks it. Throws MachineError if another process
+    /// has the lock, or if locking is not possible. Collective.
     DirectoryLock(const std::string &directory, const MPI_Comm comm);
     ~DirectoryLock();
 
@@ -28,7 +28,7 @@ namespace corotet
     DirectoryLock &
     operator=(const DirectoryLock &) = delete;
 
-    /// Name of the file.
+    /// The name of the file.
     static const std::string file_name;
 
     /// Whether a directory has been marked. Not collective.
@@ -39,7 +39,7 @@ namespace corotet
     void
     take(const std::string &directory);
 
-    /// Of the file, on rank 0; -1 elsewhere.
+    /// The descriptor of the file, on rank 0; -1 elsewhere.
     int descriptor = -1;
   };
 } // namespace corotet
