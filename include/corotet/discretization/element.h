@@ -11,6 +11,7 @@ namespace corotet
    * (FE_SimplexP), or those of degree 2 with five bubbles
    * (FE_SimplexP_Bubbles): 27 lambda_a lambda_b lambda_c for each face, and 256
    * lambda_0 lambda_1 lambda_2 lambda_3. With the bubbles, quadrature at the
+   * nodes has positive weights and a diagonal mass matrix of full order
    * (Geevers, Mulder, van der Vegt 2018, @cite geevers2018).
    */
   class Element
