@@ -13,7 +13,8 @@ namespace corotet
 {
   namespace
   {
-    // Where a text stands: what binds less needs parentheses there.
+    // The operation that a text is an operand of: a text of lower precedence
+    // needs parentheses there.
     enum class Position
     {
       sum,

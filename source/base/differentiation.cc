@@ -21,12 +21,12 @@ namespace corotet
 {
   namespace
   {
-    // Formulas and their derivatives have so many parts at most: the second
-    // derivative may have as many as the square of the first one's number.
+    // The largest number of parts of a formula or a derivative: the second
+    // derivative may have as many as the square of the number of the first one.
     constexpr std::size_t max_parts = 20000;
 
-    // Derivatives nest deeper than formulas, and GiNaC's functions call
-    // themselves.
+    // The largest number of powers in a formula: derivatives nest deeper than
+    // formulas, and GiNaC's functions are recursive.
     constexpr unsigned int max_powers = 100;
 
 
@@ -34,7 +34,7 @@ namespace corotet
     GiNaC::symtab
     symbols()
     {
-      // Of one name there must be one symbol, in all formulas.
+      // Each name must have one and the same symbol in all formulas.
       static const GiNaC::symtab table = [] {
         GiNaC::symtab result;
         for (const std::string &name : formula_variables)
@@ -47,7 +47,7 @@ namespace corotet
 
 
 
-    // The first function that GiNaC must not see, because it has it under
+    // The first function that GiNaC must not see, because GiNaC has it under
     // another name or not at all; empty if there is none.
     std::string
     foreign_function(const GiNaC::ex &formula)
@@ -142,9 +142,10 @@ namespace corotet
 
 
 
-    // Exponents as the numbers that they are: then the derivative of x^2 is 2*x
-    // and not x^2*2/x, which is none at zero. Of integers GiNaC writes products
-    // with as many factors: large ones are floating-point numbers.
+    // Replaces constant exponents by numbers: then the derivative of x^2 is 2*x
+    // and not x^2*2/x, which does not exist at zero. GiNaC expands integer
+    // powers to products with as many factors, so large exponents become
+    // floating-point numbers.
     struct ExponentsAsNumbers : public GiNaC::map_function
     {
       GiNaC::ex
@@ -203,7 +204,7 @@ namespace corotet
         return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
       }
 
-      // Each returns where it ends.
+      // add_name() and add_number() return the position behind what they read.
       std::size_t
       add_name(const std::size_t begin)
       {
@@ -258,7 +259,8 @@ namespace corotet
 
 
 
-    // What GiNaC must not be asked to read, as it calls itself for each level.
+    // Throws if GiNaC must not read @p formula, because its recursive functions
+    // would need too much of the stack.
     void
     check_depth(const std::string &formula)
     {

@@ -13,12 +13,13 @@ namespace corotet
 {
   namespace
   {
-    // Of the length of a message, and of the message: those of nothing else.
+    // The tags of the length of a message and of the message itself. No other
+    // messages have these tags.
     constexpr int length_tag = 7301, message_tag = 7302;
 
 
 
-    // Sends messages, and gets what others send, while it goes.
+    // Sends messages and meanwhile receives those of other ranks.
     class Exchange
     {
     public:
@@ -48,7 +49,8 @@ namespace corotet
                   &moving.emplace_back());
       }
 
-      // Until all ranks have got all lengths, and this one its messages.
+      // Returns when all ranks have received all lengths, and this rank all its
+      // messages.
       void
       receive(Messages &received)
       {
@@ -73,7 +75,8 @@ namespace corotet
               }
           }
         MPI_Waitall(moving.size(), moving.data(), MPI_STATUSES_IGNORE);
-        // Before others know that all is got, nobody may begin the next one.
+        // No rank may begin the next exchange before all ranks have completed
+        // this one.
         MPI_Barrier(comm);
       }
 
@@ -109,7 +112,8 @@ namespace corotet
       }
 
       MPI_Comm comm;
-      // They must stay where they are.
+      // The lengths that are being sent; a list, so that they keep their
+      // addresses.
       std::list<std::uint64_t> lengths;
       std::vector<MPI_Request> started, moving;
     };

@@ -85,8 +85,8 @@ namespace corotet
                          join(known));
     }
 
-    // Things that muParser would accept or report in a way that helps nobody:
-    // the reason, or an empty string.
+    // The reason to refuse a formula that muParser would accept, or whose error
+    // it would report without any help; otherwise an empty string.
     std::string
     reason_to_refuse(const std::string    &formula,
                      const mu::Parser     &parser,
@@ -140,7 +140,7 @@ namespace corotet
 
   namespace
   {
-    // Of any expression of this process, on this rank.
+    // The first value that was not finite, of any expression on this rank.
     std::optional<NotFinite> first_not_finite;
   } // namespace
 
@@ -190,7 +190,7 @@ namespace corotet
     operator=(const Formulas &) = delete;
     ~Formulas()                 = default;
 
-    // Throws InputError.
+    // Compiles a component. Throws InputError.
     void
     compile(const unsigned int component, const std::string &formula)
     {
@@ -218,7 +218,8 @@ namespace corotet
                                    shortened(reason, 500)));
     }
 
-    // With derivatives in time. Few formulas need it.
+    // The component with its derivatives in time, compiled when it is first
+    // needed, as few formulas need it.
     const JetFormula &
     jets(const unsigned int component)
     {
@@ -240,11 +241,11 @@ namespace corotet
     }
 
     std::vector<mu::Parser> parsers;
-    // The parameter that has them.
+    // The path of the parameter that has these formulas.
     const std::string entry;
 
   private:
-    // The parsers point to these.
+    // The parsers hold pointers to these members.
     std::array<double, 4>                  variables = {};
     const TableFunctions                   tables;
     std::vector<std::optional<JetFormula>> jet_formulas;
@@ -328,11 +329,12 @@ namespace corotet
       return {};
     const Jet jet = formulas->jets(component).value({{p[0], p[1], p[2], t}});
     std::array<double, 2> result{{jet.first, jet.second}};
-    // Of a formula without rules the value is not a number; its derivatives
-    // are then those of a constant.
+    // If the formula has something without a rule of differentiation, its value
+    // is not a number, but the derivatives are those of a constant.
     if (std::isnan(jet.value))
       result.fill(jet.value);
-    // Forwards, and where the formula ends, backwards.
+    // Differences forwards, and where the formula is not finite there,
+    // backwards.
     for (const double h : {width, -width})
       {
         if (std::isfinite(result[0]) && std::isfinite(result[1]))

@@ -16,8 +16,8 @@ namespace corotet
 {
   namespace
   {
-    // Not before t0, but for the round-off of both: a step that ends there is
-    // to see what follows, as derivatives do (JetFormula).
+    // Whether t has reached t0, up to round-off of both: a step that ends at t0
+    // is to see the values after it, as derivatives do (JetFormula).
     bool
     has_come(const double t, const double t0)
     {
@@ -32,7 +32,7 @@ namespace corotet
         return std::numeric_limits<double>::quiet_NaN();
       if (has_come(t, t1))
         return 1;
-      // What is no number stays none.
+      // If t is not a number, neither is the result.
       return t <= t0 ? 0 : (t - t0) / (t1 - t0);
     }
 
@@ -55,7 +55,7 @@ namespace corotet
     double
     half_sine(const double t, const double t0, const double t1)
     {
-      // At s = 1 the sine of the rounded pi is not zero.
+      // At s = 1 the sine of the rounded pi would not be exactly zero.
       const double s = ramp(t, t0, t1);
       return s == 1 ? 0 : std::sin(dealii::numbers::PI * s);
     }
@@ -66,8 +66,8 @@ namespace corotet
       return 1 - std::abs(2 * ramp(t, t0, t1) - 1);
     }
 
-    // Conditions are rounded, as those of muParser's own operators are exactly
-    // 0 or 1.
+    // Conditions are rounded, since muParser's own comparisons give exactly 0
+    // or 1.
     bool
     is_true(const double condition)
     {

@@ -32,8 +32,8 @@ namespace corotet
         H5Screate_simple(n_columns == 0 ? 1 : 2, sizes.data(), nullptr));
     }
 
-    // Of what is made in the file: without the time of day, so that the same
-    // numbers make the same file.
+    // The creation properties of files, groups and tables: without times of
+    // creation, so that the same numbers make the same file.
     Hdf5Id
     creation_properties(const hid_t kind)
     {
@@ -67,8 +67,7 @@ namespace corotet
       {
         const Hdf5Silence silence;
         const Hdf5Id      access(H5Pcreate(H5P_FILE_ACCESS));
-        // What virtual tables need anyway makes groups and references smaller,
-        // too.
+        // HDF5 1.10, which virtual tables need, makes groups smaller, too.
         check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
         file = Hdf5Id(H5Fcreate(temporary.c_str(),
                                 H5F_ACC_TRUNC,
@@ -76,7 +75,7 @@ namespace corotet
                                 access));
         check(file);
       }
-    // Then it is there, for all to open.
+    // From here on the file exists, so all ranks can open it.
     good = dealii::Utilities::MPI::broadcast(comm, good, 0);
     if (good)
       {
@@ -108,7 +107,7 @@ namespace corotet
       return HADDR_UNDEF;
     const Hdf5Silence silence;
     const Hdf5Id      space = table_space(rows.n_global_rows, rows.n_columns);
-    // A place in the file now, which nobody but write_bytes() fills.
+    // Space in the file is allocated now and filled by write_bytes() only.
     const Hdf5Id creation = creation_properties(H5P_DATASET_CREATE);
     check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
     check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
@@ -342,12 +341,12 @@ namespace corotet
       }
     if (descriptor >= 0 && durable)
       check(fsync(descriptor));
-    // Space may be found missing only now.
+    // Only close() may report that the disk is full.
     if (descriptor >= 0)
       check(close(std::exchange(descriptor, -1)));
     good = dealii::Utilities::MPI::min(good ? 1 : 0, comm) == 1;
-    // What could not be written HDF5 tries to write again when the program
-    // ends: let it not complain then, after the program's own message.
+    // At the end of the program HDF5 tries again to write what it could not:
+    // its messages would follow the message of the program itself.
     if (!good)
       H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     on_root(comm, [&] {

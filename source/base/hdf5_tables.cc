@@ -64,7 +64,8 @@ namespace corotet
              n_columns == 0 ?
                "found more than one dimension" :
                fmt::format("found other than {} columns", n_columns));
-    // More than any machine has; products with numbers of bytes are in range.
+    // The limit is more than any machine has; products of it with numbers of
+    // bytes do not overflow.
     if (sizes[0] > hsize_t(1) << 40)
       refuse(name, fmt::format("found {} rows", sizes[0]));
     return sizes[0];

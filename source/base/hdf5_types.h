@@ -11,7 +11,7 @@
 
 namespace corotet
 {
-  /// What HDF5 calls the type of numbers in memory.
+  /// HDF5's type of numbers in memory.
   template <typename Number>
   hid_t
   hdf5_type()

@@ -44,7 +44,7 @@ namespace corotet
   Jet
   chain(const Jet &f, const Jet &a)
   {
-    // Whatever the derivatives of f, a constant stays one.
+    // A constant stays constant, whatever the derivatives of f are.
     if (a.is_constant())
       return {f.value};
     return {f.value,

@@ -14,7 +14,7 @@ namespace corotet
 {
   namespace
   {
-    // Thrown where a formula has something without a rule.
+    // Thrown if a formula has something without a rule of differentiation.
     struct NoRule
     {};
 
@@ -99,8 +99,8 @@ namespace corotet
       instructions.push_back(instruction);
     }
 
-    // While it lives, a rule of the grammar is within another one. Of formulas
-    // that nest too deeply derivatives are made of differences.
+    // Counts, while it lives, how deep rules of the grammar are nested.
+    // Formulas that nest too deeply are differentiated by differences instead.
     class Nesting
     {
     public:
@@ -137,12 +137,12 @@ namespace corotet
       call("?:", 3);
     }
 
-    // Operators that bind as tightly as those of @p level, or more; they
-    // associate to the left.
+    // Parses operators of precedence @p level or higher; they associate to the
+    // left.
     void
     binary(const unsigned int level)
     {
-      // Of two that begin alike, the longer one first.
+      // Of two operators that begin alike, the longer one comes first.
       static const std::vector<std::vector<std::string>> levels = {
         {"||", "|"},
         {"&&", "&"},
@@ -168,7 +168,8 @@ namespace corotet
         }
     }
 
-    // -x^2 is -(x^2), 2^-x is 2^(-x), x^y^z is x^(y^z).
+    // Parses signs and powers: -x^2 is -(x^2), 2^-x is 2^(-x), x^y^z is
+    // x^(y^z).
     void
     signed_power()
     {
@@ -204,7 +205,7 @@ namespace corotet
       double      number = 0;
       const auto [end, error] =
         std::from_chars(begin, text.data() + text.size(), number);
-      // Words like nan and inf are names.
+      // Words like nan and inf are names, although from_chars() reads them.
       const bool is_word =
         position < text.size() &&
         std::isalpha(static_cast<unsigned char>(*begin)) != 0;
@@ -294,8 +295,8 @@ namespace corotet
   Jet
   JetFormula::value(const std::array<double, 4> &variables) const
   {
-    // Far more than round-off makes of the times of steps, far less than a
-    // step.
+    // The tolerance for times: far more than the round-off of the times of
+    // steps, far less than a step.
     const double soon =
       16 * std::numeric_limits<double>::epsilon() * std::abs(variables[3]);
     Jet *top = stack.data();

@@ -38,7 +38,8 @@ namespace corotet
       const double value = std::pow(a.value, b.value);
       if (!b.is_constant())
         return chain({value, value, value}, b * logarithm(a));
-      // Powers that vanish have no derivatives, not infinite ones times zero.
+      // The derivatives of x^0 and x^1 that vanish are set to 0: the formula
+      // could give zero times infinity.
       const double n = b.value;
       return chain({value,
                     n == 0 ? 0 : n * std::pow(a.value, n - 1),
@@ -147,14 +148,14 @@ namespace corotet
       return {is_true ? 1. : 0.};
     }
 
-    // As of if(), | and &.
+    // Whether a condition of if(), | or & is true: they round it.
     bool
     rounds_to_true(const Jet &a, const double soon)
     {
       return sign_soon(absolute_value(a, soon) - Jet{0.5}, soon) >= 0;
     }
 
-    // Of t, t0 and t1.
+    // The jet of ramp(t, t0, t1) with the arguments @p a.
     Jet
     ramp_rule(const Jet *a, const double soon)
     {
@@ -167,8 +168,8 @@ namespace corotet
       return (a[0] - a[1]) / (a[2] - a[1]);
     }
 
-    // Wrappers that make a JetFunction of a function of one or two jets, or of
-    // any number of them and soon.
+    // Wrappers that make a JetFunction of a function of one jet (unary), of two
+    // jets (binary), or of one jet and soon (timed).
     template <auto f>
     Jet
     unary(const Jet *a, const unsigned int, const double)
@@ -190,7 +191,8 @@ namespace corotet
       return f(a, soon);
     }
 
-    // Of sign_soon() of the difference of two arguments.
+    // The truth value of a comparison: is_true() gets sign_soon() of the
+    // difference of the two arguments, and 0.
     template <auto is_true>
     Jet
     comparison(const Jet *a, const unsigned int, const double soon)
@@ -198,7 +200,7 @@ namespace corotet
       return truth(is_true(sign_soon(a[0] - a[1], soon), 0.));
     }
 
-    // The least of the arguments times sign.
+    // The least (sign = 1) or largest (sign = -1) of the arguments.
     template <int sign>
     Jet
     extreme(const Jet *a, const unsigned int n, const double soon)

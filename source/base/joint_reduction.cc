@@ -11,9 +11,9 @@ namespace corotet
 {
   namespace
   {
-    // One item is an array: the number of its sums, these, and then numbers of
-    // which the largest are wanted. So MPI cannot cut it into pieces.
-    // The parameters are those of MPI's functions of this kind.
+    // All numbers of a rank form one item of MPI, an array, so that MPI cannot
+    // cut it into pieces: the number of the sums, the sums, then the numbers
+    // whose maxima are wanted. The parameters are those of MPI_User_function.
     void // NOLINTNEXTLINE(readability-non-const-parameter)
     combine(void *in, void *in_out, int *n_items, MPI_Datatype *type)
     {

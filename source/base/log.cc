@@ -20,8 +20,8 @@ namespace corotet
 {
   namespace
   {
-    // mpirun gives its processes a terminal of its own, whatever it writes to
-    // itself: then nobody knows whether a person sees the output.
+    // mpirun gives its processes a terminal of its own, whatever its own output
+    // goes to: a process cannot tell whether a person sees its output.
     bool
     started_by_mpirun()
     {
@@ -29,7 +29,8 @@ namespace corotet
              std::getenv("PMI_SIZE") != nullptr;
     }
 
-    // Columns of the terminal: a line that wraps could not be overwritten.
+    // The number of columns of the terminal: a line that wraps could not be
+    // overwritten.
     std::size_t
     terminal_width()
     {
@@ -39,7 +40,7 @@ namespace corotet
       return 80;
     }
 
-    // "[====    ]".
+    // A progress bar such as "[====    ]".
     std::string
     bar(const double share, const std::size_t width)
     {
@@ -68,7 +69,7 @@ namespace corotet
   {
     if (!root)
       return;
-    // Names in files of the user may have what controls a terminal.
+    // Names in the user's files may have control characters.
     const std::string text = printable(message, /* keep_lines = */ true);
     clear_progress();
     if (!quiet)
@@ -131,7 +132,7 @@ namespace corotet
       return;
     const std::size_t width = terminal_width() - 1;
     std::string       shown = text.substr(0, width);
-    // With its brackets and a blank.
+    // Lengths of the bar without its brackets and the blank before it.
     constexpr std::size_t shortest_bar = 8, longest_bar = 30;
     const std::size_t     left = width - shown.size();
     if (share >= 0 && left >= shortest_bar + 3)
@@ -150,7 +151,8 @@ namespace corotet
       file << std::flush;
       if (!file)
         {
-          // A new run must not find this alone, which nobody can overwrite.
+          // An empty log file must not remain: a new run would refuse to
+          // overwrite it.
           if (std::filesystem::is_regular_file(path))
             std::filesystem::remove(path);
           throw MachineError(path + ": the log file cannot be written (is the "
@@ -165,7 +167,8 @@ namespace corotet
   {
     on_root(comm, [&] {
       continue_file(path, size, "the log file", file);
-      // The others are those of the first start again.
+      // Only warnings are written; the other lines repeat those of the first
+      // start.
       for (const std::string &text : kept)
         if (text.starts_with("warning: "))
           file << text << std::endl;

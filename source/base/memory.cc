@@ -39,7 +39,7 @@ namespace corotet
   void
   reset_peak_memory()
   {
-    // See proc(5): 5 resets VmHWM.
+    // Writing 5 resets VmHWM, see proc(5).
     std::ofstream("/proc/self/clear_refs") << "5";
   }
 
@@ -52,15 +52,15 @@ namespace corotet
       return size;
     }
 
-    // The first beginning of a page that is not before an address.
+    // The first page boundary at or after an address.
     std::uintptr_t
     next_page(const std::uintptr_t address)
     {
       return (address + page_size() - 1) / page_size() * page_size();
     }
 
-    // Whole pages of the process' own, or unchanged ones of a file. Where that
-    // fails, nothing has happened.
+    // Releases whole pages that belong to the process alone, or to a file and
+    // are unchanged. A failure has no effect.
     void
     release_pages(const std::uintptr_t begin, const std::uintptr_t end)
     {
@@ -99,7 +99,7 @@ namespace corotet
         }
     }
 
-    // What dl_iterate_phdr() calls.
+    // The callback for dl_iterate_phdr().
     int
     release_library(dl_phdr_info *library, std::size_t /*size*/, void *pagemap)
     {
@@ -123,7 +123,7 @@ namespace corotet
   void
   release_library_pages()
   {
-    // Unbuffered, as it is read in whole words only.
+    // Without a buffer, as only whole words are read.
     int pagemap = open("/proc/self/pagemap", O_RDONLY | O_CLOEXEC);
     if (pagemap < 0)
       return;
@@ -134,10 +134,12 @@ namespace corotet
   void
   release_free_memory()
   {
-    // Bytes for which it pays: what comes back must be zeroed by the system.
+    // The number of free bytes from which releasing pays: the system must zero
+    // the pages when they are used again.
     constexpr std::size_t much = 1 << 25;
-    // What is free may never have been in use. See proc(5): pages of the
-    // process, those in memory, and those of these that are shared.
+    // Free memory may never have been in use, so resident memory counts. The
+    // file has numbers of pages, see proc(5): all of the process, the resident
+    // ones, and the shared ones of these.
     std::size_t   n_pages = 0, n_in_memory = 0, n_shared = 0;
     std::ifstream file("/proc/self/statm");
     if (!(file >> n_pages >> n_in_memory >> n_shared))
@@ -155,7 +157,7 @@ namespace corotet
   void
   LastReading::passed(const void *place)
   {
-    // Bytes for which a call of the system pays.
+    // The number of bytes from which a system call pays.
     constexpr std::uintptr_t piece = 1 << 22;
     const auto               end   = reinterpret_cast<std::uintptr_t>(place);
     if (end < end_of_released + piece)
@@ -185,7 +187,7 @@ namespace corotet
         if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
           available = std::min(available, static_cast<double>(limit.rlim_cur));
       }
-    // Of a container; it says "max" where there is no limit.
+    // The memory limit of a container; the file says "max" if there is none.
     double of_container = 0;
     if (std::ifstream("/sys/fs/cgroup/memory.max") >> of_container)
       available = std::min(available, of_container);

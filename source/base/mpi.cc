@@ -131,7 +131,8 @@ namespace corotet
               const std::function<void()> &program,
               const double                 patience)
   {
-    // Of its own, so that it does not matter what others wait for.
+    // A communicator of its own, so that messages which other ranks wait for do
+    // not interfere.
     const MPI_Comm for_the_end =
       dealii::Utilities::MPI::duplicate_communicator(comm);
     Outcome outcome;
@@ -153,8 +154,8 @@ namespace corotet
       {
         const bool is_agreed = all_arrive(for_the_end, patience);
         if (!is_agreed || this_mpi_process(comm) == 0)
-          // In one piece: mpirun may lose some of several when the program
-          // fails.
+          // The message is written in one piece: mpirun may lose some of
+          // several pieces when the program fails.
           std::cerr
             << (outcome.exit_status == Stopped::status ? "corotet: stopped: " :
                                                          "corotet: error: ") +

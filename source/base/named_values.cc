@@ -17,7 +17,8 @@ namespace corotet
 {
   namespace
   {
-    // The first one outside of quotes, which several names with & may have.
+    // The first colon outside of quotes. An item may have several quoted names,
+    // joined by &.
     std::size_t
     colon_behind_names(const std::string &item)
     {
@@ -34,7 +35,7 @@ namespace corotet
   std::size_t
   end_of_quotes(const std::string &text, const std::size_t i)
   {
-    // Elsewhere they are part of a name: 5" pipe.
+    // Quotation marks inside of a name are part of it: 5" pipe.
     const bool is_begin =
       text[i] == '"' &&
       (i == 0 || std::string_view(" \t\n,;:&([").find(text[i - 1]) !=

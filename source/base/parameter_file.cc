@@ -59,7 +59,7 @@ namespace corotet
         }
     }
 
-    // @p section, at @p path, has nothing called @p name.
+    // The message that @p section, at @p path, has nothing called @p name.
     std::string
     unknown_name_message(const std::string &name,
                          const bool         is_section_name,
@@ -146,7 +146,8 @@ namespace corotet
         }
     }
 
-    // The pattern of @p node, an entry, does not fit what @p statement says.
+    // The message that the value of @p statement does not match the pattern of
+    // the entry @p node.
     std::string
     refused_value_message(const ParameterStatement &statement, const Json &node)
     {
@@ -181,8 +182,8 @@ namespace corotet
              (text.empty() || text.back() != '\\');
     }
 
-    // Names of files that are relative to the folder @p from become relative to
-    // @p to.
+    // Makes file names that are relative to the folder @p from relative to the
+    // folder @p to.
     class MovedFiles
     {
     public:
@@ -191,9 +192,10 @@ namespace corotet
         , to(to)
       {}
 
-      // Those of entries that are a file name, or a list "key: file name". Of a
-      // section with this @p path, which ends with a slash if it is not empty.
-      // Throws InputError if a .prm file cannot say one.
+      // Changes the values of entries that are a file name, or a list "key:
+      // file name", in the section with this @p path, which ends with a slash
+      // if it is not empty. Throws InputError if a .prm file cannot contain a
+      // new name.
       void
       move(Json &section, const std::string &path = "") const
       {
@@ -233,7 +235,7 @@ namespace corotet
         const fs::path name = file;
         if (name.empty() || name.is_absolute())
           return file;
-        // What cannot be looked at is for others to refuse.
+        // Files that cannot be accessed are refused where they are read.
         std::error_code error;
         fs::path        moved = fs::relative(from / name, to, error);
         if (error)
@@ -341,7 +343,8 @@ namespace corotet
   void
   ParameterFile::write_effective(const std::string &path) const
   {
-    // A restart compares with it: a part of it would be another run's.
+    // The file is written as a whole, since a restart compares its parameters
+    // with it: an incomplete file would look like that of another run.
     std::ostringstream text;
     print_prm(entries_for(path), /* documented = */ false, text);
     write_whole_file(path, text.str(), "the parameters");

@@ -61,7 +61,7 @@ namespace corotet
         }
     }
 
-    // Reads a text and counts its lines.
+    // Iterates over the characters of a text and counts its lines.
     struct CountingIterator
     {
       using iterator_category = std::input_iterator_tag;
@@ -93,14 +93,15 @@ namespace corotet
       std::size_t *line;
     };
 
-    // Puts the places of members into @p places.
+    // Parses @p text and puts the places of its members into @p places.
     nlohmann::ordered_json
     parse_json(const std::string &path, const std::string &text, Places &places)
     {
-      // The parser keeps the last of several members with one name. Those of
-      // the objects that are open, and their lines:
+      // The parser keeps only the last of several members with the same name,
+      // so they are checked here: the names of members in each open object, and
+      // their lines.
       std::vector<std::map<std::string, std::size_t>> names;
-      // The member that each of these is in, or would be.
+      // The current member of each open object.
       std::vector<std::string> members;
       std::size_t              n_entries = 0, line = 1;
       using Event = nlohmann::ordered_json::parse_event_t;
@@ -110,7 +111,7 @@ namespace corotet
         [&](const int depth, const Event event, const auto &value) {
           if (depth > max_section_depth)
             refuse_as_too_deep(path);
-          // Names, values, and both ends of objects and lists.
+          // Events are names, values, and both ends of objects and lists.
           if (++n_entries > 2 * max_tree_entries)
             refuse_as_too_many(path);
           if (event == Event::object_start)
@@ -168,7 +169,7 @@ namespace corotet
       }
     if (!tree.is_object())
       refuse_statement(path, "it must be one JSON object, {...}");
-    // Names the file's schema, for editors.
+    // The member "$schema" names the file's schema, for editors.
     if (const auto schema = tree.find("$schema");
         schema != tree.end() && schema->is_string())
       tree.erase(schema);

@@ -76,8 +76,8 @@ namespace corotet
       return entry.value(key, "");
     }
 
-    // Walks through the entries of a section before its subsections, as a
-    // parameter file lists them.
+    // Prints the entries of a section before its subsections, as parameter
+    // files list them.
     void
     print_prm_section(const Json        &tree,
                       const bool         documented,

@@ -17,7 +17,7 @@
 namespace corotet
 {
   /**
-   * Where the entries and sections of a .json or .xml file are.
+   * The lines of the entries and sections of a .json or .xml file.
    */
   struct Places
   {
@@ -29,20 +29,20 @@ namespace corotet
                                    fmt::format("{}:{}", file, line->second);
     }
 
-    // The name of each section on the way, then the entry's.
+    // @p names: the names of all sections on the path, then the entry's.
     void
     add(const std::vector<std::string> &names, const std::size_t line)
     {
       std::size_t length = 0;
       for (const std::string &name : names)
         length += name.size() + 1;
-      // Longer ones are refused.
+      // Longer paths are refused elsewhere.
       if (length <= max_path_length + 1)
         lines[join(names, "/")] = line;
     }
 
     std::string file;
-    // By "Section/Entry".
+    // Line numbers by "Section/Entry".
     std::map<std::string, std::size_t> lines;
   };
 } // namespace corotet

@@ -25,11 +25,11 @@ namespace corotet
 
     using Statements = std::vector<ParameterStatement>;
 
-    // A file that includes itself would otherwise never end.
+    // Limits without which a file that includes itself would never end.
     constexpr unsigned int max_include_depth = 10;
     constexpr unsigned int max_includes      = 1000;
 
-    // @p includer: the place of the statement that includes it, and ": ".
+    // @p includer: the place of the including statement and ": ".
     std::ifstream
     open_file(const std::string &path, const std::string &includer = "")
     {
@@ -59,8 +59,8 @@ namespace corotet
       return file;
     }
 
-    // The rest of @p line behind @p keyword, or nothing if it does not start
-    // with this word. deal.II knows keywords in lower and in upper case.
+    // The rest of @p line behind @p keyword, or nothing if the line does not
+    // start with this word. deal.II knows keywords in lower and in upper case.
     std::optional<std::string>
     behind_keyword(const std::string &line, std::string keyword)
     {
@@ -130,7 +130,8 @@ namespace corotet
       Statements statements;
 
     private:
-      // What stands behind "set" in @p line.
+      // Reads the assignment @p assignment, which stands behind "set" in @p
+      // line.
       void
       assign(const std::string &line,
              const std::string &assignment,
@@ -243,10 +244,11 @@ namespace corotet
         return join(names, "/");
       }
 
-      // Names of the subsections that are open, and where they were opened.
+      // The names of the open subsections, and where they were opened.
       std::vector<std::pair<std::string, std::string>> sections;
-      // Of each file that is open, which one may include another and then set
-      // entries of that to something else.
+      // The lines of the entries that each open file has set, to find entries
+      // that one file sets twice. A file may set entries of an included file
+      // again.
       std::vector<std::map<std::string, unsigned int>> lines_of_entries;
       unsigned int                                     n_included = 0;
     };

@@ -21,7 +21,8 @@ namespace corotet
     const std::string number_pattern =
       R"(^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*$)";
 
-    // What a bound of a deal.II pattern says, if it is one.
+    // The number that a bound of a deal.II pattern is, or nothing if it is no
+    // number.
     std::optional<double>
     bound(const std::string &text)
     {
@@ -52,7 +53,7 @@ namespace corotet
            {"pattern", is_whole ? whole_number_pattern : number_pattern}}}}};
     }
 
-    // Of the value of an entry with this deal.II pattern.
+    // The schema of the value of an entry with this deal.II pattern.
     Json
     value_schema(const std::string &description)
     {
@@ -63,7 +64,7 @@ namespace corotet
         return {{"enum", names}};
       if (description == "[Bool]")
         return {{"enum", {true, false, "true", "false"}}};
-      // A list may be a single number.
+      // A list with one item may be a number.
       return {{"type", {"string", "number"}}};
     }
 

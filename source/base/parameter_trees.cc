@@ -45,8 +45,8 @@ namespace corotet
       return result;
     }
 
-    // Where what begins at @p begin ends by @p end: behind that, or at the end
-    // of the text.
+    // The position behind the first @p end from @p begin on, or the end of the
+    // text if there is none.
     std::size_t
     behind(const std::string &text,
            const std::size_t  begin,
@@ -70,16 +70,16 @@ namespace corotet
       return i;
     }
 
-    // Of the tag whose name begins at @p start.
+    // The name of the tag whose name begins at @p start.
     std::string
     name_of_tag(const std::string &text, const std::size_t start)
     {
       return text.substr(start, text.find_first_of(" \t\r\n/>", start) - start);
     }
 
-    // Before the reader proper sees it, which takes from its stack for each
-    // level, has no limit, and does not look at the names of ends. Returns
-    // where elements begin, but for the outermost one.
+    // Checks the nesting of elements before Boost's reader, which is recursive,
+    // has no limit, and does not compare the names of ends. Returns the places
+    // of the elements, except for the outermost one.
     Places
     check_xml(const std::string &path, const std::string &text)
     {

@@ -37,7 +37,7 @@ namespace corotet
       return info.dli_fname;
     }
 
-    // The corotet that a shell would start.
+    // The program corotet that a shell would start.
     std::filesystem::path
     program_of_path()
     {
@@ -81,9 +81,9 @@ namespace corotet
       int number;
     };
 
-    // Without what tells a process that it is a rank of this run: a program
-    // that uses MPI itself would wait for the others. Its memory is on huge
-    // pages, as this program's.
+    // The environment of a started program: without the variables that make a
+    // process a rank of this run, as a program that uses MPI itself would wait
+    // for the other ranks. Its memory uses huge pages, as this program's does.
     std::vector<std::string>
     environment_of_others()
     {
@@ -113,9 +113,9 @@ namespace corotet
       posix_spawn_file_actions_adddup2(&actions, pipe_end, STDOUT_FILENO);
       posix_spawn_file_actions_addopen(
         &actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-      // Locks and files of this program are not the other's.
+      // The started program does not inherit open files and their locks.
       posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-      // What this program blocks or ignores, the other does not.
+      // The started program does not inherit blocked or ignored signals.
       posix_spawnattr_t attributes;
       posix_spawnattr_init(&attributes);
       sigset_t none, all;

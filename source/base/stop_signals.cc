@@ -12,10 +12,10 @@ namespace corotet
   {
     volatile std::sig_atomic_t stop_signal  = 0;
     volatile std::sig_atomic_t save_request = 0;
-    // When the stop signal came.
+    // The time when the stop signal came.
     std::atomic<std::chrono::steady_clock::rep> stop_time = 0;
     static_assert(decltype(stop_time)::is_always_lock_free);
-    // Objects that live.
+    // The number of living StopSignals objects.
     int depth = 0;
 
     void
@@ -26,11 +26,12 @@ namespace corotet
           save_request = 1;
           return;
         }
-      // Launchers may hand SIGTERM on more than once; who types Ctrl-C again
-      // does not want to wait.
+      // Only a second SIGINT ends the process: launchers may hand on SIGTERM
+      // more than once, but a user who types Ctrl-C again does not want to
+      // wait.
       if (signal == SIGINT && stop_signal == SIGINT)
         {
-          // What is saved is whole, whatever is being written now.
+          // Files that are complete stay complete, whatever is being written.
           std::signal(signal, SIG_DFL);
           std::raise(signal);
         }
@@ -56,7 +57,7 @@ namespace corotet
     struct sigaction action{};
     action.sa_handler = remember;
     sigemptyset(&action.sa_mask);
-    // Writing goes on where it was.
+    // Interrupted reads and writes continue.
     action.sa_flags = SA_RESTART;
     sigaction(SIGTERM, &action, &before_term);
     sigaction(SIGINT, &action, &before_int);

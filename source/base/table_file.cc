@@ -46,8 +46,8 @@ namespace corotet
       return *value;
     }
 
-    // Differences and slopes of what is accepted are finite, and so are the
-    // values between the rows.
+    // Throws if a difference or slope of two rows is not finite; otherwise the
+    // values between the rows are finite, too.
     void
     check_slope(const TableRows &rows, const std::string &place)
     {

@@ -13,8 +13,8 @@ namespace corotet
 {
   namespace
   {
-    // The slope nearest to @p slope of a function that is monotone next to a
-    // chord.
+    // The slope nearest to @p slope with which the cubic function is monotone
+    // next to a chord of slope @p chord.
     double
     limited(const double slope, const double chord)
     {
@@ -22,8 +22,8 @@ namespace corotet
                          std::clamp(slope, 3 * chord, 0.);
     }
 
-    // Slope at the first of three rows of the parabola through them, from two
-    // distances and the chords over these.
+    // The slope, at the first of three rows, of the parabola through them,
+    // computed from the two distances and the slopes of the two chords.
     double
     end_slope(const double h0,
               const double h1,
@@ -97,8 +97,9 @@ namespace corotet
     const double h = arguments[row + 1] - arguments[row];
     const double d = values[row + 1] - values[row];
     const double s = (argument - arguments[row]) / h;
-    // Both interpolations are between their rows; round-off must not leave
-    // them, as it can where slopes are subnormal and rows far apart.
+    // Values lie between those of the two rows in both interpolations.
+    // Round-off could violate that where slopes are subnormal and rows are far
+    // apart.
     const auto between = [&](const double value) {
       return std::clamp(value,
                         std::min(values[row], values[row + 1]),

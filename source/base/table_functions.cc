@@ -54,7 +54,7 @@ namespace corotet
                                      name));
     }
 
-    // On rank 0.
+    // Reads a table file. Called on rank 0.
     TableRows
     read(const std::string &path, const std::string &entry)
     {
@@ -78,7 +78,7 @@ namespace corotet
         {
           const std::vector<std::string> name_and_file =
             dealii::Utilities::split_string_list(item, ':');
-          // The entry's pattern has seen to that.
+          // The entry's pattern ensures that there are two parts.
           AssertDimension(name_and_file.size(), 2);
           const std::string &name = name_and_file[0];
           check_name(name, functions, entry);

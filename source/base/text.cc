@@ -61,7 +61,7 @@ namespace corotet
         const std::size_t shorter = std::min(word.size(), candidate.size());
         const std::size_t longer  = std::max(word.size(), candidate.size());
         const std::size_t near    = std::max<std::size_t>(1, longer / 3);
-        // No text of any length is compared with a name.
+        // A text that is much longer or shorter is not compared.
         if (longer - shorter > near)
           continue;
         const std::size_t d = distance(word, candidate);
@@ -82,8 +82,7 @@ namespace corotet
 
   namespace
   {
-    // The first @p size bytes, or some less so as not to cut a character of
-    // UTF-8.
+    // At most the first @p size bytes, without cutting a UTF-8 character.
     std::string
     start_of(const std::string &text, std::size_t size)
     {
@@ -136,8 +135,8 @@ namespace corotet
 
   namespace
   {
-    // Characters that are not seen, or look like a space or a hyphen: pages and
-    // documents that text is copied from have them.
+    // Characters that are invisible, or look like a space or a hyphen: text
+    // that is copied from web pages and documents may have them.
     constexpr std::array<std::pair<std::string_view, std::string_view>, 13>
       look_alikes{{{"\xc2\xa0", "U+00A0"},
                    {"\xc2\xad", "U+00AD"},
@@ -180,7 +179,7 @@ namespace corotet
             i += look_alike->first.size() - 1;
             continue;
           }
-        // Those above 0x7f, by which a terminal is controlled, too, have two
+        // Control characters above 0x7f, which also control terminals, have two
         // bytes in UTF-8.
         const bool is_high = byte == 0xc2 && next >= 0x80 && next < 0xa0;
         if (is_high || ((byte < 0x20 || byte == 0x7f) && !is_kept))

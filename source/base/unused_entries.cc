@@ -24,8 +24,8 @@ namespace corotet
       return path.empty() ? name : path + "/" + name;
     }
 
-    // Paths of the entries at @p path, where @p node is one or a section, that
-    // were set to another value than their default.
+    // Finds the paths of the entries at @p path, where @p node is an entry or a
+    // section, whose values are not their defaults.
     void
     find_changed_entries(const ParameterFile      &file,
                          const Json               &node,
@@ -97,7 +97,7 @@ namespace corotet
                       const std::string &candidate)
       {
         const std::string selected = section.at("Type").at("value");
-        // Sections of a whole file begin with a capital letter.
+        // Sections at the top level begin with a capital letter.
         std::string name = candidate;
         if (path.empty())
           name[0] = std::toupper(static_cast<unsigned char>(name[0]));

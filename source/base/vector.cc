@@ -13,8 +13,8 @@ namespace corotet
   inner_product(const std::span<const double> a,
                 const std::span<const double> b)
   {
-    // Independent sums: additions need not wait for each other, and round-off
-    // is that of shorter sums.
+    // Several independent sums: additions need not wait for each other, and
+    // round-off is that of shorter sums.
     constexpr std::size_t      n_sums = 16;
     const std::size_t          n      = a.size();
     std::array<double, n_sums> sums{};

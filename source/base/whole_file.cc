@@ -22,7 +22,8 @@ namespace corotet
                    const std::string &what,
                    const bool         durable)
   {
-    // It gets its name when it is complete.
+    // The file is written under a temporary name and renamed when it is
+    // complete.
     const std::string temporary = path + ".tmp";
     std::ofstream     file(temporary);
     file << text;

@@ -13,9 +13,9 @@ namespace corotet
 {
   namespace
   {
-    // What a chunk reads and adds up, 64 bytes for each node in double
-    // precision, may fill a second-level cache of 1 MiB: cells that follow each
-    // other need little of it at a time, and large chunks have few nodes in
+    // Limits of a chunk. What it reads and adds up, 64 bytes for each node in
+    // double precision, may fill a second-level cache of 1 MiB: consecutive
+    // cells need little of it at a time, and large chunks have few nodes in
     // common.
     constexpr unsigned int nodes_of_chunk = 1 << 14;
     constexpr unsigned int cells_of_chunk = 1 << 13;
@@ -58,7 +58,7 @@ namespace corotet
     , n_local_cells(nodes.n_local_cells())
   {
     make_sections(nodes.first_cells_of_registers());
-    // Whole registers.
+    // The cells with ghost nodes, rounded to whole registers.
     const auto [first, end] = nodes.cells_with_ghosts();
     const unsigned int first_ghosted =
       place(first).first / floats_per_batch * floats_per_batch;
@@ -128,7 +128,7 @@ namespace corotet
                       const std::vector<unsigned int> &cuts) const
   {
     std::vector<Chunk> result;
-    // One more than the number of the last chunk that has a node.
+    // For each node, one more than the number of the last chunk that has it.
     std::vector<unsigned int> last_chunk(n_local_nodes, 0);
     unsigned int              n_nodes = 0;
     for (unsigned int batch = begin; batch < end; batch += floats_per_batch)
@@ -177,14 +177,15 @@ namespace corotet
   {
     constexpr unsigned int none         = -1;
     const unsigned int     first_shared = nodes.first_shared_node();
-    // Slots in use, by node, and those that are free again.
+    // The slot of each node, if it has one now, and the slots that are free
+    // again.
     std::vector<unsigned int> slot(n_local_nodes, none);
     std::vector<unsigned int> free_slots;
     for (unsigned int n = first_shared; n < n_local_nodes; ++n)
       slot[n] = n - first_shared;
     slots = n_local_nodes - first_shared;
-    // The number of a node in its last chunk, and one more than that of the
-    // chunk.
+    // For each node, its number in the last chunk that has it, and one more
+    // than the number of that chunk.
     std::vector<unsigned int> number(n_local_nodes), last_chunk(n_local_nodes);
     std::vector<unsigned int> others;
     node_numbers.resize(static_cast<std::size_t>(n_all) * n_cell_nodes *
@@ -279,7 +280,7 @@ namespace corotet
   CellBatches::cells(const unsigned int batch) const
   {
     const auto [first, end] = cells_from(batch);
-    // Batches may be there to make a multiple.
+    // The last batches may only fill up a register and have no cells.
     return {first, first < end ? std::min(batch_size, end - first) : 0};
   }
 

@@ -20,8 +20,8 @@ namespace corotet
     using dealii::Point;
     using dealii::Tensor;
 
-    // Columns lead from the corner (0, 0, 0) of the regular tetrahedron with
-    // edges of length one to its other corners; this is the inverse.
+    // The inverse of the matrix whose columns lead from the corner (0, 0, 0) of
+    // the regular tetrahedron with edges of length one to its other corners.
     Tensor<2, 3>
     inverse_of_regular_edges()
     {
@@ -36,7 +36,7 @@ namespace corotet
       return invert(edges);
     }
 
-    // s1, s2, s3.
+    // The stretches s1, s2, s3.
     std::array<double, 3>
     stretches(const std::array<Point<3>, 4> &vertices)
     {
@@ -48,8 +48,9 @@ namespace corotet
       const Tensor<2, 3>    F = edges * inverse;
       std::array<double, 3> squares =
         eigenvalues(dealii::symmetrize(F * transpose(F)));
-      // Round-off of a flat cell, whose volume is positive: the smallest is
-      // what the determinant leaves.
+      // In a flat cell, whose volume is positive, the smallest eigenvalue is
+      // mostly round-off: the smallest stretch is computed from the
+      // determinant.
       squares[2] = std::abs(determinant(F)) /
                    std::sqrt(squares[0] * std::max(squares[1], 0.));
       return {{std::sqrt(squares[0]), std::sqrt(squares[1]), squares[2]}};
@@ -61,7 +62,8 @@ namespace corotet
   {
     const MPI_Comm  comm = discretization.communicator();
     CellProportions result;
-    // Numbers of cells, of flat and of stretched ones; sum of logarithms.
+    // The number of cells, of flat and of stretched cells; the sum of
+    // logarithms of ratios.
     std::array<double, 4> sums{};
     for (unsigned int cell = 0; cell < discretization.n_owned_cells(); ++cell)
       {

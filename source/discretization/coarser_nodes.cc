@@ -17,7 +17,7 @@ namespace corotet
   {
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
-    // Edge that joins two vertices of a cell.
+    // The number of the edge that joins two vertices of a cell.
     unsigned int
     edge_between(const int a, const int b)
     {
@@ -28,8 +28,8 @@ namespace corotet
       return none;
     }
 
-    // Quadratic Lagrange polynomials of a vertex and of the middle of an edge,
-    // by barycentric coordinates.
+    // The quadratic Lagrange polynomials of a vertex and of the middle of an
+    // edge, as functions of barycentric coordinates.
     constexpr double
     at_vertex(const double lambda)
     {
@@ -62,7 +62,7 @@ namespace corotet
   void
   CoarserNodes::number_nodes()
   {
-    // Keys of the nodes of all cells.
+    // The keys of the nodes of all cells, one cell after another.
     std::vector<unsigned int> key_of_cell_node;
     for (unsigned int c = 0; c < finer.n_local_cells(); ++c)
       {
@@ -75,7 +75,7 @@ namespace corotet
         else if (degree() == 2)
           for (unsigned int e = 0; e < 6; ++e)
             {
-              // The same one of the two on all ranks.
+              // Of the two nodes on the edge, all ranks choose the same one.
               const unsigned int a = fine[4 + 2 * e], b = fine[5 + 2 * e];
               key_of_cell_node.push_back(
                 finer.global_node(a) < finer.global_node(b) ? a : b);
@@ -99,8 +99,8 @@ namespace corotet
       dealii::Utilities::MPI::partial_and_total_sum<
         dealii::types::global_dof_index>(n_owned_nodes, comm);
 
-    // Global numbers travel in a vector of the finer nodes; doubles hold them
-    // exactly.
+    // Global numbers are exchanged in a vector of the finer nodes; doubles
+    // represent them exactly.
     Vector global;
     finer.initialize_vector(global);
     auto next = first;
@@ -192,7 +192,7 @@ namespace corotet
               in_cells.back().coarse[i] = coarse[i];
           }
       }
-    // Fine nodes in ascending order: the order of memory.
+    // Sorts by fine nodes, as they are in memory.
     const auto sort = [](auto &list) {
       std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) {
         return a.fine < b.fine;

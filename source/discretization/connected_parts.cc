@@ -42,8 +42,8 @@ namespace corotet
   {
     using Pairs = std::set<std::pair<unsigned int, unsigned int>>;
 
-    // Numbers the parts of this rank's own cells, in the order of their first
-    // ones; how many there are. Ghost cells have none.
+    // The number of each owned cell's part, counted on this rank in the order
+    // of first cells, and the number of parts. Ghost cells get no number.
     std::pair<std::vector<unsigned int>, unsigned int>
     own_parts(const LocalMesh &mesh)
     {
@@ -77,9 +77,9 @@ namespace corotet
 
 
 
-    // A number for each cell, owned or ghost, no two of different parts alike,
-    // and that of a part on one rank the same; numbers that mean the same part;
-    // and how many there are.
+    // A label for each owned and ghost cell, the same for all cells of a part
+    // on one rank and different for different parts; pairs of labels that mean
+    // the same part; and the number of labels.
     std::tuple<std::vector<unsigned int>, Pairs, unsigned int>
     labels_by_rank(const LocalMesh &mesh)
     {
@@ -111,7 +111,7 @@ namespace corotet
     const MPI_Comm   comm          = mesh.communicator;
     auto [labels, pairs, n_labels] = labels_by_rank(mesh);
 
-    // What is one across ranks.
+    // Unites parts that are connected across ranks.
     DisjointSets sets(n_labels);
     for (const auto &[a, b] : pairs)
       sets.unite(a, b);
@@ -144,7 +144,8 @@ namespace corotet
         std::fill(part_of_node.begin(), part_of_node.end(), 0u);
         return;
       }
-    // In the order of the mesh: the first of its parts has the node.
+    // Cells in the order of the mesh: a node belongs to the part of its first
+    // cell.
     std::vector<unsigned int> cells(discretization.n_local_cells());
     for (unsigned int c = 0; c < cells.size(); ++c)
       cells[discretization.cell_in_local_mesh(c)] = c;

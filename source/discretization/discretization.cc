@@ -19,7 +19,7 @@ namespace corotet
 
   namespace
   {
-    // dx / dxi of a cell without its curves.
+    // The Jacobian dx / dxi of a cell with straight edges.
     dealii::Tensor<2, 3>
     straight_jacobian(const LocalMesh &mesh, const unsigned int cell)
     {
@@ -89,7 +89,8 @@ namespace corotet
     std::vector<global_dof_index> numbers(nodes.owners.size(),
                                           invalid_dof_index);
     global_dof_index              next = first + n_owned_nodes;
-    // Going backwards, a node's number is taken where the sweep needs it last.
+    // Numbers decrease from the last cell to the first, so a node gets its
+    // number where the sweep needs it last.
     const auto number_backwards = [&](const unsigned int begin,
                                       const unsigned int end) {
       for (unsigned int c = end; c-- > begin;)
@@ -107,9 +108,10 @@ namespace corotet
 
     if (n_owned == mesh.cells.size())
       return numbers;
-    // The owner of a node has a cell with it, which is a ghost to all that have
-    // cells with the node: at first the owned cells get the numbers of their
-    // nodes, and then they are known to who has them as ghosts.
+    // The owner of a node has a cell with it, which is a ghost cell on all
+    // ranks that have the node. The first round gives owned cells the numbers
+    // of all their nodes, the second one sends these to the ranks that have
+    // them as ghost cells.
     const GhostCells ghosts(mesh);
     for (unsigned int round = 0; round < 2; ++round)
       ghosts.send<global_dof_index>(
@@ -208,8 +210,8 @@ namespace corotet
                   faces_of_boundaries[face.boundary].push_back(face);
                 }
               else if (face.boundary != unnamed_boundary)
-                // The others may be inside of the body, where the known part
-                // of the mesh ends.
+                // Other faces of ghost cells may be inside of the body, where
+                // the known part of the mesh ends.
                 surface_of_ghosts.push_back(face);
             }
 
@@ -225,7 +227,8 @@ namespace corotet
               positions.local_element(3 * cell_nodes(c)[i] + a) = x[a];
           }
       }
-    // The last digit of some depends on the cell that they were made from.
+    // The last digit of a position depends on the cell that it was computed
+    // from.
     positions.update_ghost_values();
     make_batches();
     if (mesh_pointer->geometry_degree() > 1 && degree() > 1)
@@ -250,7 +253,7 @@ namespace corotet
     const auto &tria = mesh_pointer->triangulation();
     dofs             = std::make_unique<dealii::DoFHandler<3>>(tria);
     dofs->distribute_dofs(fe);
-    // Both give nodes that ranks share to the lowest of them.
+    // Both numberings give nodes that ranks share to the lowest of these ranks.
     const dealii::IndexSet        owned = dofs->locally_owned_dofs();
     std::vector<global_dof_index> numbers(owned.n_elements());
     std::vector<global_dof_index> cell_dofs(fe.dofs_per_cell);

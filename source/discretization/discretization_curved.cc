@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What curved cells add to the discretization.
+// The parts of the discretization for curved cells.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
@@ -20,12 +20,12 @@ namespace corotet
 
   namespace
   {
-    // Cells that may be put into another order: few enough to be near each
-    // other, many enough for runs of one kind to be long.
+    // The number of consecutive cells that may be reordered: few enough to be
+    // near each other, many enough for runs of one kind to be long.
     constexpr unsigned int window = 32 * n_lanes<float>;
 
-    // The cells of one kind that wait for a place, of which whole registers are
-    // moved to the end of @p order, or all.
+    // Moves cells of one kind that wait for a place to the end of @p order: as
+    // many as fill whole registers, or all of them.
     void
     move_registers(std::vector<unsigned int> &waiting,
                    std::vector<unsigned int> &order,
@@ -46,7 +46,8 @@ namespace corotet
     order.reserve(cells.size());
     const auto gather = [&](const unsigned int begin, const unsigned int end) {
       register_starts.push_back(begin);
-      // Curved cells at the end of a window, then at the start of the next.
+      // Curved cells come last in a window, first in the next one and so on, so
+      // that runs of one kind are longer.
       bool curved_first = false;
       for (unsigned int c = begin; c < end; c += window)
         {
@@ -79,7 +80,8 @@ namespace corotet
   {
     const unsigned int q = mesh_pointer->geometry_degree();
     const unsigned int r = std::min(q, degree());
-    // Through the interpolant of degree r; for r = q that is the map itself.
+    // Maps from degree q to its interpolant of degree r (for r = q the same
+    // map), and from there to the element's nodes.
     const MapAtPoints at_r(q, map_points(r));
     const MapAtPoints at_nodes(r, fe.base_element(0).get_unit_support_points());
     std::vector<Point<3>> nodes(at_r.n_points());

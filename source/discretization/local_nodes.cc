@@ -13,13 +13,13 @@ namespace corotet
 
   namespace
   {
-    // Where a node of the element is: on the vertex, edge (ends_of_edges), face
-    // (corners_of_faces) with this number, or inside of the cell.
+    // The place of a node of the element: the vertex, edge (ends_of_edges) or
+    // face (corners_of_faces) with this number, or the inside of the cell.
     struct NodePlace
     {
       unsigned int dimension;
       unsigned int number;
-      // On an edge with two nodes: whether it is the one at the first end.
+      // For an edge with two nodes: whether this is the one at the first end.
       bool at_first_end;
     };
 
@@ -63,12 +63,13 @@ namespace corotet
 
 
 
-    // Of each cell the numbers of its edges, and how many there are.
+    // Sets the numbers of the edges of each cell; returns the number of edges.
     unsigned int
     number_edges(const LocalMesh                          &mesh,
                  std::vector<std::array<unsigned int, 6>> &edges)
     {
-      // Of each vertex a list of the edges on which it is the lower end.
+      // The edges are kept in lists, one for each vertex that is their lower
+      // end.
       struct Edge
       {
         unsigned int higher_end;
@@ -104,8 +105,8 @@ namespace corotet
 
 
 
-    // The same of faces. Where the known part of the mesh ends they have one
-    // cell.
+    // Sets the numbers of the faces of each cell; returns the number of faces.
+    // Faces at the end of the known part of the mesh have one cell.
     unsigned int
     number_faces(const LocalMesh                          &mesh,
                  std::vector<std::array<unsigned int, 4>> &faces)
@@ -167,7 +168,8 @@ namespace corotet
                 break;
               case 1:
                 {
-                  // The first node of an edge is the one at its lower end.
+                  // The first node of an edge is at the end with the lower
+                  // vertex number.
                   const auto [a, b] = ends_of_edges[number];
                   const bool is_first =
                     (vertices[a] < vertices[b]) == at_first_end;

@@ -16,10 +16,10 @@ namespace corotet
 
   namespace
   {
-    // Cells or nodes of a piece.
+    // The number of cells or nodes in a piece.
     constexpr unsigned int piece_length = 64;
 
-    // Numbers from the first of a piece to its end, of so many in all.
+    // Calls the action for the numbers of a piece, of @p n numbers in all.
     template <typename Action>
     void
     for_each_in_piece(const unsigned int piece,
@@ -117,14 +117,15 @@ namespace corotet
         longest                = std::max(longest, edges[k].norm());
         box.include(vertex);
       }
-    // PointSearch allows barycentric coordinates of -epsilon, and the point is
-    // outside of the box by the sum of these parts of its sides at most.
+    // PointSearch allows barycentric coordinates down to -epsilon. Then the
+    // point is outside of the box by at most the sum of these parts of its
+    // sides.
     double part =
       PointSearch::tolerance * 2 * longest *
       (G[0].norm() + G[1].norm() + G[2].norm() + (G[0] + G[1] + G[2]).norm());
     if (discretization.is_curved(cell))
       {
-        // The Jacobian is another one elsewhere.
+        // A curved cell's Jacobian changes from point to point.
         part += 1e-3;
         Tensor<1, 3> deviation;
         for (unsigned int i = 4; i < map_nodes.size(); ++i)
@@ -151,7 +152,7 @@ namespace corotet
     for (unsigned int piece = 0; piece < cell_pieces.size(); ++piece)
       {
         Box box = cell_pieces[piece].box;
-        // Four coordinates, each as far outside.
+        // Each of the four coordinates may be outside by as much.
         box.widen(4 * outside * cell_pieces[piece].sides);
         if (box.distance_square(x) == 0)
           for_each_in_piece(piece,
@@ -170,7 +171,7 @@ namespace corotet
         std::min(least, x.distance_square(discretization.node_position(n)));
     };
     const unsigned int n_nodes = discretization.n_owned_nodes();
-    // The nearest box first: then most others are too far.
+    // The nearest box comes first: then most others are too far away.
     std::vector<double> distances;
     for (const Box &box : node_pieces)
       distances.push_back(box.distance_square(x));

@@ -18,14 +18,15 @@ namespace corotet
 
   namespace
   {
-    // In heights of the cell.
+    // The largest distance from a cell, in heights of the cell.
     constexpr double near = 0.2;
 
     using Barycentric = std::array<double, 4>;
 
-    // Of the point of a tetrahedron that is nearest to the origin: the nearest
-    // of the points of its vertices, edges, faces and inside that are nearest
-    // to it on their lines and planes.
+    // The barycentric coordinates of the point of a tetrahedron that is nearest
+    // to the origin. The nearest point on the line or plane of each vertex,
+    // edge, face and of the inside is a candidate if it lies in the
+    // tetrahedron.
     Barycentric
     nearest_to_origin(const std::array<Tensor<1, 3>, 4> &vertices)
     {
@@ -38,8 +39,8 @@ namespace corotet
           for (unsigned int v = 0; v < 4; ++v)
             if ((subset >> v) % 2 == 1)
               of_subset[n++] = v;
-          // Normal equations for the way along the edges from the first vertex;
-          // one for each edge that there is not, too.
+          // Normal equations for the way along the edges from the first vertex.
+          // Missing edges have the equation 0 = 0 of an identity matrix.
           const auto  &origin = vertices[of_subset[0]];
           Tensor<2, 3> products;
           Tensor<1, 3> right;
@@ -76,9 +77,10 @@ namespace corotet
       return best;
     }
 
-    // The point of the cell that is nearest to x. Where the cell is curved: of
-    // the straight one that touches it at the point found last, again and
-    // again, which converges where x is near by the radius of curvature.
+    // The point of the cell that is nearest to x. In a curved cell this is
+    // iterated with the straight cell that touches it at the last point found,
+    // which converges if the distance of x is small compared with the radius of
+    // curvature.
     Point<3>
     nearest_point_of_cell(const Discretization &discretization,
                           const unsigned int    cell,
@@ -89,8 +91,8 @@ namespace corotet
       std::array<Tensor<1, 3>, 4> vertices;
       for (unsigned int v = 0; v < 4; ++v)
         vertices[v] = discretization.node_position(nodes[v]) - x;
-      // Far less than a cell; each iteration gains a power of ten and more
-      // where x is near.
+      // The tolerance is far below the size of a cell; each iteration gains a
+      // power of ten and more if x is near.
       constexpr double round_off = 1e-13;
       Point<3>         xi, best;
       double           least = std::numeric_limits<double>::infinity();
@@ -107,7 +109,7 @@ namespace corotet
               difference += fe.shape_value(i, xi) * X;
               J += outer_product(X, fe.shape_grad(i, xi));
             }
-          // Near the end distances differ by round-off alone.
+          // Stops when distances differ by round-off alone.
           if (!(difference.norm() < (1 + round_off) * least))
             break;
           least = difference.norm();
@@ -126,7 +128,7 @@ namespace corotet
       return best;
     }
 
-    // As nearest_point(), of owned cells. Not collective.
+    // Like nearest_point(), but among this rank's owned cells. Not collective.
     std::optional<Point<3>>
     nearest_owned_point(const Discretization &discretization,
                         const NearbyCells    &nearby,

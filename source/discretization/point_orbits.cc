@@ -15,7 +15,8 @@ namespace corotet
   {
     using Coordinates = std::array<double, 4>;
 
-    // Far more than round-off, far less than what points are apart.
+    // The tolerance for equal coordinates: far above round-off, far below the
+    // distance of points.
     constexpr double tolerance = 1e-8;
 
     Coordinates
@@ -24,7 +25,8 @@ namespace corotet
       return {{1 - x[0] - x[1] - x[2], x[0], x[1], x[2]}};
     }
 
-    /// Its barycentric coordinates, the lonely ones first.
+    /// The orbit of the point @p x; its coordinates start with those that occur
+    /// once.
     PointOrbit
     orbit_of(const dealii::Point<3> &x)
     {

@@ -15,18 +15,19 @@ namespace corotet
 
   namespace
   {
-    // A map is almost affine if its nodes are off by less, in barycentric
-    // coordinates: then its Jacobian changes by less than half in the part, and
-    // Newton's method converges from the middle.
+    // The map of a part is almost affine if its nodes deviate by less, in
+    // barycentric coordinates: then its Jacobian changes by less than half in
+    // the part, and Newton's method converges from the middle.
     constexpr double almost_affine = 0.05;
 
-    // By then sagittas of 100 times the thickness are almost affine. More is
-    // needed only where a Jacobian is almost singular.
+    // The limit of subdivisions: at this level even sagittas of 100 times the
+    // thickness are almost affine. More is needed only where a Jacobian is
+    // almost singular.
     constexpr unsigned int max_level = 14;
 
-    // Corners of the children of a tetrahedron, those at its vertices and four
-    // around a diagonal between the middles of its edges: a vertex, or 4 + the
-    // number of an edge.
+    // The corners of the eight children of a tetrahedron, four at its vertices
+    // and four around a diagonal between the middles of its edges: the number
+    // of a vertex, or 4 + the number of an edge.
     constexpr unsigned int children_corners[8][4] = {{0, 4, 6, 7},
                                                      {1, 4, 5, 8},
                                                      {2, 5, 6, 9},
@@ -82,7 +83,8 @@ namespace corotet
       return result;
     }
 
-    // Of the map of a tetrahedron, d xi / dx [1/m]; not a number if it is flat.
+    // The inverse Jacobian d xi / dx of a tetrahedron's map [1/m]; not a number
+    // if it is flat.
     Tensor<2, 3>
     inverse_jacobian(const std::vector<Point<3>> &vertices)
     {
@@ -93,7 +95,7 @@ namespace corotet
       return invert(J);
     }
 
-    // Gradients of the barycentric coordinates.
+    // The gradients of the barycentric coordinates.
     std::array<Tensor<1, 3>, 4>
     gradients(const Tensor<2, 3> &inverse_jacobian)
     {
@@ -106,8 +108,8 @@ namespace corotet
       return d;
     }
 
-    // The normal of the largest face, its longest edge, and what is normal to
-    // both: the axes of a box around a thin tetrahedron [m, m^2, m^3].
+    // The normal of the largest face, its longest edge, and a vector normal to
+    // both: the axes of a box around a thin tetrahedron [m^2, m, m^3].
     std::array<Tensor<1, 3>, 3>
     axes(const std::vector<Point<3>> &vertices)
     {
@@ -142,7 +144,7 @@ namespace corotet
       return length;
     }
 
-    // Whether the point at xi is at most @p distance beyond each of the faces.
+    // Whether the point at @p xi is beyond each face by at most @p distance.
     bool
     is_inside(const Point<3>     &xi,
               const Tensor<2, 3> &inverse_jacobian,
@@ -176,8 +178,8 @@ namespace corotet
     const double distance = tolerance * longest;
     if (!discretization->is_curved(cell))
       {
-        // Most cells: none of their points is farther from a vertex than the
-        // longest edge, but for the distance allowed.
+        // Excludes most cells: none of their points is farther from a vertex
+        // than the longest edge, up to the allowed distance.
         if (x.distance_square(vertices[0]) > 4 * longest * longest)
           return {};
         const Tensor<2, 3> G = discretization->geometry(cell).inverse_jacobian;
@@ -187,7 +189,8 @@ namespace corotet
         return xi;
       }
     Part whole{0, reference_corners(), {}};
-    // The nodes of the map come first; bubbles have others.
+    // The nodes of the map are the first ones; an element with bubbles has more
+    // nodes.
     for (unsigned int i = 0; i < points.size(); ++i)
       whole.nodes.emplace_back(discretization->node_position(nodes[i]) - x);
     return find_in_part({cell, x, distance}, whole);
@@ -221,7 +224,8 @@ namespace corotet
     const auto &fe    = discretization->finite_element().base_element(0);
     const auto  nodes = discretization->cell_nodes(target.cell);
     Point<3>    xi    = start;
-    // Quadratic convergence from the size of a part to round-off takes some 6.
+    // Quadratic convergence from the size of a part to round-off takes some 6
+    // iterations.
     for (unsigned int k = 0; k < 20; ++k)
       {
         Tensor<1, 3> difference;
@@ -235,11 +239,11 @@ namespace corotet
           }
         const Tensor<2, 3> G    = invert(J);
         const Tensor<1, 3> step = G * difference;
-        // Several cells away the map means nothing.
+        // The map has no meaning several cells away.
         if (!(step.norm() < 10))
           return {};
         xi += step;
-        // What is left is of the order of the square of the step.
+        // The remaining error is of the order of the square of the step.
         if (step.norm() < 1e-9)
           {
             if (is_inside(xi, G, target.distance))
@@ -264,13 +268,13 @@ namespace corotet
         double f = direction * part.nodes[i] - corners[0];
         for (unsigned int k = 0; k < 3; ++k)
           f -= points[i][k] * (corners[k + 1] - corners[0]);
-        // Keeps what is not a number.
+        // This comparison keeps a value that is not a number.
         if (!(std::abs(f) <= deviation))
           deviation = std::abs(f);
       }
     const auto [least, most] =
       std::minmax_element(corners.begin(), corners.end());
-    // Round-off of the bounds themselves is far below a thousandth.
+    // The slack of a thousandth is far above the round-off of the bounds.
     const double slack = growth * deviation + 1e-3 * (*most - *least) +
                          target.distance * direction.norm();
     return {!(*least > slack) && !(*most < -slack), deviation};

@@ -101,9 +101,9 @@ namespace corotet
     discretization.initialize_vector(marks);
     for (const Place &place : places)
       {
-        // A node may lie on a boundary with none of the owned cells that touch
-        // it having a face there: mark through the vector, whose exchange
-        // brings the news from the rank that has the face.
+        // A node may lie on a boundary although none of the owned cells that
+        // touch it has a face there: the marks are in a vector, whose exchange
+        // tells it to all ranks that have the node.
         marks = 0;
         mark(marks, reference, place);
         marks.compress(dealii::VectorOperation::add);
@@ -142,7 +142,7 @@ namespace corotet
       {
         const double u = value(entries[first], time);
         const double w = value(other, time);
-        // Expressions are exact up to round-off.
+        // Values of expressions agree up to round-off only.
         if (std::abs(u - w) >
             1e-12 * (std::abs(u) + std::abs(w) + length_scale))
           {
@@ -210,7 +210,8 @@ namespace corotet
   {
     on_all_ranks(discretization.communicator(), [&] {
       check_agreement(time);
-      // What does not depend on space is the same for all nodes of a condition.
+      // A value that does not depend on space is computed once for all nodes of
+      // a condition.
       std::array<std::array<double, 3>, 3> known{};
       std::array<unsigned int, 3>          known_condition;
       known_condition.fill(dealii::numbers::invalid_unsigned_int);

@@ -15,8 +15,8 @@ namespace corotet
 {
   namespace
   {
-    // Vertices of face f of the reference tetrahedron, in an order that is
-    // counter-clockwise seen from outside.
+    // The vertices of face f of the reference tetrahedron, counter-clockwise
+    // seen from outside.
     std::array<dealii::Point<3>, 3>
     outward_face(const unsigned int f)
     {
@@ -42,20 +42,21 @@ namespace corotet
     const auto &fe = finite_element(element);
     AssertDimension(fe.dofs_per_cell, n_nodes);
 
-    // Degrees 0, 2, 4 need 1, 4, 14 points.
+    // The stiffness rule is exact for degree 0, 2, 4, with 1, 4, 14 points.
     dealii::Quadrature<3> stiffness = dealii::QWitherdenVincentSimplex<3>(3);
     if (degree == 1)
       stiffness = dealii::QGaussSimplex<3>(1);
     else if (n_nodes == 10)
       stiffness = dealii::QWitherdenVincentSimplex<3>(1, false);
-    // Rule n is of degree 2n-1. Loads: 2p = 2, 4, 6, with bubbles 4 + 2.
+    // Rule n is exact for degree 2n-1. Loads need degree 2p = 2, 4, 6, with
+    // bubbles 4 + 2.
     const unsigned int n = element.has_bubbles() ? 4 : degree + 1;
     const dealii::QWitherdenVincentSimplex<3> loads(n);
     stiffness_rule = tabulate_orbits(element, stiffness);
     load_rule      = tabulate(fe, loads.get_points(), loads.get_weights());
     centre         = tabulate(fe, {dealii::Point<3>(0.25, 0.25, 0.25)}, {1.});
 
-    // 3p-2 = 1, 4, 7; with bubbles 3 and twice 2.
+    // Follower pressures need degree 3p-2 = 1, 4, 7, with bubbles 3 + 4 = 7.
     const dealii::QWitherdenVincentSimplex<2> on_face(n);
     for (unsigned int f = 0; f < 4; ++f)
       {
@@ -75,15 +76,15 @@ namespace corotet
     for (unsigned int e = 0; e < 6; ++e)
       for (unsigned int i = 0; i < n_nodes; ++i)
         {
-          // The sum of the barycentric coordinates of the ends is one on the
-          // edge, and less elsewhere.
+          // On the edge, the barycentric coordinates of its ends sum to one;
+          // elsewhere their sum is less.
           const dealii::Point<3> x = fe.unit_support_point(i);
           const double b[4]        = {1 - x[0] - x[1] - x[2], x[0], x[1], x[2]};
           if (b[ends_of_edges[e][0]] + b[ends_of_edges[e][1]] > 1 - 1e-10)
             edge_nodes[e].push_back(i);
         }
 
-    // Products of shape functions: 2p, with bubbles 8.
+    // Products of shape functions have degree 2p, with bubbles 8.
     const dealii::QWitherdenVincentSimplex<3> products(
       element.has_bubbles() ? 5 : degree + 1);
     integrate_products(
@@ -147,7 +148,7 @@ namespace corotet
   ReferenceElement::PointValues
   ReferenceElement::curved_rule(const Element element)
   {
-    // Rule n is of degree 2n, or 2n-1 if odd.
+    // Rule n is exact for degree 2n, or 2n-1 if so chosen.
     const dealii::QWitherdenVincentSimplex<3> rule(
       element.has_bubbles() ? 3 : element.degree(), element.has_bubbles());
     return tabulate_orbits(element, rule);

@@ -19,16 +19,17 @@ namespace corotet
   {
     using Pair = std::pair<unsigned int, unsigned int>;
 
-    // More parts in one cluster make a dense problem that takes minutes.
+    // The largest number of parts in a cluster: more make a dense problem that
+    // takes minutes.
     constexpr unsigned int max_cluster_size = 100;
 
-    // Entries below are round-off of null vectors: these are exact to the
-    // machine precision over the tolerance of the null space.
+    // Smaller entries of null vectors are round-off: null vectors are accurate
+    // to the machine precision divided by the tolerance of the null space.
     constexpr double no_pivot = 1e-6;
 
-    // Linear equations in n unknowns, as many as wanted: the triangular factor
-    // of their QR decomposition, by Givens rotations, which has the singular
-    // values of them all without the square of any.
+    // Any number of linear equations in n unknowns, kept as the triangular
+    // factor of their QR decomposition. It is computed by Givens rotations and
+    // has the singular values of all equations, without squaring any value.
     class Equations
     {
     public:
@@ -37,7 +38,7 @@ namespace corotet
         , R(std::size_t(n) * n)
       {}
 
-      // n coefficients, which are overwritten.
+      // Adds an equation with n coefficients, which are overwritten.
       void
       add(std::vector<double> &row)
       {
@@ -59,15 +60,17 @@ namespace corotet
 
       unsigned int        n;
       std::vector<double> R;
-      // How many equations they were.
+      // The number of equations that were added.
       double count = 0;
     };
 
-    // Of one part (two equal numbers), or two with joints.
+    // The equations of one part (a pair of equal numbers), or of two parts with
+    // joints.
     using EquationsOfParts = std::map<Pair, Equations>;
 
-    // The coefficients of the six numbers of a part in component a of u(x), and
-    // those of another part, if there is one, in that of its own.
+    // The coefficients of u_a(x) by the six numbers of a part; with two parts,
+    // those of the difference of their displacements at x by the twelve numbers
+    // of both.
     std::vector<double>
     coefficients(const ConnectedParts   &parts,
                  const Pair             &pair,
@@ -89,7 +92,7 @@ namespace corotet
       return row;
     }
 
-    // All ranks have those of all ranks, in the same order.
+    // The equations of all ranks, on each rank, added up in the same order.
     EquationsOfParts
     sum_over_ranks(const EquationsOfParts &own, const MPI_Comm comm)
     {
@@ -141,7 +144,7 @@ namespace corotet
         };
       for (const RigidMotions::Spring &spring : springs)
         {
-          // d . (t + w x r) = d . t + (r x d) . w.
+          // d . (t + w x r) = d . t + (r x d) . w
           const unsigned int         part = parts.part_of_cell[spring.cell];
           const dealii::Tensor<1, 3> r =
             (spring.point - parts.centres[part]) / parts.radii[part];
@@ -166,7 +169,8 @@ namespace corotet
       return sum_over_ranks(own, discretization.communicator());
     }
 
-    // An orthonormal basis of the null space, by rows; n unknowns.
+    // An orthonormal basis of the null space of @p rows with n unknowns, as
+    // rows.
     std::vector<std::vector<double>>
     null_space(std::vector<std::vector<double>> &rows, const unsigned int n)
     {
@@ -253,7 +257,7 @@ namespace corotet
         place[part] = clusters[numbers[part]].size();
         clusters[numbers[part]].push_back(part);
       }
-    // As rows of the cluster's unknowns, root mean squares.
+    // Equations in the unknowns of each cluster, scaled to root mean squares.
     std::vector<std::vector<std::vector<double>>> rows(n_clusters);
     for (const auto &[pair, equations] : all)
       {
@@ -284,8 +288,8 @@ namespace corotet
     const unsigned int n     = 6 * cluster.size();
     auto               basis = null_space(equations, n);
     reduce_rows(basis, in_order(n), no_pivot);
-    // What round-off leaves where a motion has nothing would be a force of the
-    // stiffest springs.
+    // Entries that should be zero but have round-off would make forces in the
+    // stiffest springs, so they are set to zero.
     constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
     for (std::vector<double> &numbers : basis)
       {
@@ -331,7 +335,8 @@ namespace corotet
   RigidMotions::motions_of(const unsigned int part) const
   {
     std::vector<std::vector<double>> rows = numbers_of_parts[part];
-    // Rotations first: a translation that is left over has none in it.
+    // Rotations are eliminated first, so that the remaining rows are pure
+    // translations.
     reduce_rows(rows, {3, 4, 5, 0, 1, 2}, no_pivot);
     std::vector<Numbers> result(rows.size());
     for (unsigned int k = 0; k < rows.size(); ++k)

@@ -20,13 +20,13 @@ namespace corotet
     using dealii::Point;
     using dealii::Tensor;
 
-    // Numbers that are the same but for round-off become the same: those of a
-    // length are multiples of some 1e-9 of it.
+    // Rounds numbers that differ by round-off to the same number: a multiple of
+    // some 1e-9 of a length.
     double
     without_round_off(const double x, const double length)
     {
       const double unit = std::pow(10., std::floor(std::log10(length)) - 9);
-      // Zero has no sign.
+      // Adding 0. makes -0. positive.
       return std::round(x / unit) * unit + 0.;
     }
 
@@ -39,7 +39,8 @@ namespace corotet
                          without_round_off(x[2], length));
     }
 
-    // An axis by its name, with the first component that is not zero positive.
+    // The name of an axis, or its components with the first nonzero one
+    // positive.
     std::string
     direction(Tensor<1, 3> d)
     {
@@ -57,17 +58,18 @@ namespace corotet
 
     struct RigidRotation
     {
-      // Unit length.
+      // The direction of the axis, of unit length.
       Tensor<1, 3> axis;
       // The point of the axis that is nearest to the centre.
       Point<3> point;
       // Translation along the axis [m per radian].
       double pitch;
-      // Of the centre [m per radian].
+      // The translation of the centre [m per radian].
       Tensor<1, 3> translation;
     };
 
-    // The point that three rotations leave in its place, if there is one.
+    // Whether there is a point that three rotations leave in its place, and
+    // where.
     bool
     have_common_point(const std::vector<RigidRotation> &rotations,
                       const Point<3>                   &centre,
@@ -76,7 +78,7 @@ namespace corotet
     {
       if (rotations.size() != 3)
         return false;
-      // They are about x, y, z: sum_k e_k x (e_k x d) = -2 d.
+      // The axes are x, y, z, so sum_k e_k x (e_k x d) = -2 d.
       Tensor<1, 3> d;
       for (const RigidRotation &rotation : rotations)
         d += 0.5 * cross_product_3d(rotation.axis, rotation.translation);
@@ -141,7 +143,7 @@ namespace corotet
             directions.push_back(direction(t));
             continue;
           }
-        // Per radian.
+        // Scales the motion to one radian.
         t *= radius / w.norm();
         w /= w.norm();
         rotations.push_back(
@@ -178,8 +180,8 @@ namespace corotet
       return text;
     }
 
-    // Parts are numbered otherwise on other numbers of ranks: these in the
-    // order of their places.
+    // Numbers of parts depend on the number of ranks: sorts parts by their
+    // places instead.
     std::vector<unsigned int>
     in_order_of_places(const ConnectedParts            &parts,
                        const std::vector<unsigned int> &some)
@@ -201,7 +203,7 @@ namespace corotet
       return result;
     }
 
-    // More are not listed.
+    // The largest number of parts that are listed.
     constexpr unsigned int max_parts = 3;
   } // namespace
 
@@ -227,7 +229,7 @@ namespace corotet
     const auto [numbers, n_bodies] = sets.numbers();
     if (n_bodies == 1)
       return "";
-    // Of each body its first part in the order of places.
+    // Names the first part of each body, in the order of places.
     std::vector<unsigned int> all(parts.n_parts);
     std::iota(all.begin(), all.end(), 0u);
     std::set<unsigned int>   known;

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 // corotet-gmsh: lets gmsh read or mesh one file, in a process that cannot do
-// harm, and writes a GmshModel to the standard output. Started by the library
-// (mesh/gmsh_mesh.cc), which waits for it.
+// harm, and writes a GmshModel to the standard output. The library starts it
+// and waits for it (mesh/gmsh_process.cc).
 
 #include <fcntl.h>
 #include <gmsh.h>
@@ -57,7 +57,8 @@ main(const int argc, char **argv)
   request.is_geometry            = argv[9][0] == '1';
   request.feature_angle          = std::atof(argv[10]);
 
-  // Whatever gmsh prints must not be taken for the result.
+  // The output of gmsh itself goes to /dev/null, so that it cannot get into the
+  // result.
   const int result = dup(STDOUT_FILENO);
   const int null   = open("/dev/null", O_WRONLY);
   dup2(null, STDOUT_FILENO);
@@ -65,7 +66,7 @@ main(const int argc, char **argv)
   GmshModel model;
   try
     {
-      // Neither the user's configuration nor a handler of Ctrl-C.
+      // gmsh must neither read the user's configuration nor handle Ctrl-C.
       gmsh::initialize(0, nullptr, false, false);
       gmsh::option::setNumber("General.Terminal", 0);
       gmsh_program::confine({request.path, folder, "/usr/share/opencascade"},
@@ -89,6 +90,7 @@ main(const int argc, char **argv)
   BytesWriter writer(
     [&](const std::string_view bytes) { write_all(result, bytes); });
   transfer(writer, model);
-  // Nothing is left to be saved; destructors could fail on a broken model.
+  // Skips destructors, which could fail on a broken model; nothing is left to
+  // save.
   std::_Exit(0);
 }

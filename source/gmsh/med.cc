@@ -20,18 +20,19 @@ namespace corotet::gmsh_program
 {
   namespace
   {
-    // A type of elements: MED's and gmsh's number of it. What is no volume and
-    // not of degree 1 or 2 has no names that could be used.
+    // A type of elements, with the numbers that MED and gmsh give it. Volumes
+    // of all types are counted; surfaces and curves have usable names only if
+    // their degree is 1 or 2.
     struct Type
     {
       med_geometry_type med;
       int               gmsh;
       int               dimension;
-      // Its nodes in gmsh's order, by MED's numbers of them. Empty for what is
-      // only counted.
+      // The nodes in gmsh's order, as positions in MED's order. Empty for types
+      // that are only counted.
       std::vector<int> order;
-      // The same for the mirrored element: tetrahedra of MED are, but not in
-      // files of all programs.
+      // The same for a mirrored element: MED's tetrahedra are mirrored, but not
+      // in the files of all programs.
       std::vector<int> mirrored;
     };
 
@@ -62,13 +63,13 @@ namespace corotet::gmsh_program
 
 
 
-    // Entities and groups of one dimension.
+    // The entities and groups of one dimension.
     struct Names
     {
       std::map<med_int, int>                  entities;
       std::map<std::string, std::vector<int>> groups;
 
-      // The entity of a family.
+      // The entity of a family; a new family gets one.
       int
       entity(const med_int                                      family,
              const std::map<med_int, std::vector<std::string>> &known)
@@ -85,8 +86,8 @@ namespace corotet::gmsh_program
 
 
 
-    // Six times the volume of a tetrahedron, from four nodes, which count from
-    // one.
+    // Six times the volume of a tetrahedron with four nodes, which are counted
+    // from one.
     double
     volume(const std::vector<double> &coordinates, const med_int *nodes)
     {
@@ -103,7 +104,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Elements by their entities, which follow from their families.
+    // Elements by their entities, one for each family.
     std::vector<GmshModel::Elements>
     by_entity(const Type                                        &type,
               const std::vector<med_int>                        &nodes,
@@ -193,7 +194,7 @@ namespace corotet::gmsh_program
       }
     if (const std::size_t n = file.n_polyhedra(); n > 0)
       model.volume_types.push_back({0, "Polyhedron", n, {}});
-    // Nodes that belong to a group are points.
+    // Nodes that belong to a group become elements that are points.
     std::vector<med_int> nodes, families;
     const auto           of_nodes =
       file.families(MED_NODE, MED_NONE, model.node_tags.size());

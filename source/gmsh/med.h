@@ -11,10 +11,10 @@
 namespace corotet::gmsh_program
 {
   /**
-   * The mesh in a file of MED (Salome, code_aster), by MED's own library:
+   * Reads the mesh in a MED file (Salome, code_aster) by MED's own library:
    * families become entities, and groups of cells, faces, edges and nodes
    * become groups of volumes, surfaces, curves and points. Throws
-   * std::runtime_error, also where corotet was built without that library.
+   * std::runtime_error, also if corotet was built without that library.
    */
   GmshModel
   read_med(const std::string &path);

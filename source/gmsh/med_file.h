@@ -14,7 +14,7 @@
 
 namespace corotet::gmsh_program
 {
-  /// Throws what MED's files are refused by.
+  /// Throws the error that refuses a MED file.
   [[noreturn]] inline void
   refuse_med(const std::string &what)
   {
@@ -23,7 +23,8 @@ namespace corotet::gmsh_program
 
 
 
-  /// A number or a status of MED's library, which is negative for an error.
+  /// Returns a number or a status of MED's library; throws if it is negative,
+  /// an error.
   template <typename Number>
   Number
   valid(const Number result, const std::string &what)
@@ -35,7 +36,7 @@ namespace corotet::gmsh_program
 
 
 
-  /// A text of fixed length: what is unused is zero or blank.
+  /// A text in a field of fixed length, whose unused rest is zero or blank.
   inline std::string
   text(const char *begin, const std::size_t length)
   {
@@ -47,8 +48,8 @@ namespace corotet::gmsh_program
 
 
   /**
-   * A file of MED with one mesh, open for reading. Throws std::runtime_error if
-   * it is none, and where something cannot be read.
+   * A MED file with one mesh, open for reading. Throws std::runtime_error if it
+   * is not such a file, or if something cannot be read.
    */
   class MedFile
   {
@@ -91,7 +92,7 @@ namespace corotet::gmsh_program
     }
 
 
-    /// Of elements of a type.
+    /// The number of elements of a type.
     std::size_t
     n_elements(const med_geometry_type type) const
     {
@@ -99,7 +100,8 @@ namespace corotet::gmsh_program
     }
 
 
-    /// Of all elements of a type, @p n in all, which count from one.
+    /// The nodes of all elements of a type, @p n numbers in all, counted from
+    /// one.
     std::vector<med_int>
     nodes(const med_geometry_type type, const std::size_t n) const
     {
@@ -121,13 +123,14 @@ namespace corotet::gmsh_program
     std::size_t
     n_polyhedra() const
     {
-      // Where the faces of each begin, and where those of the last one end.
+      // The index has the first face of each polyhedron, and the end of the
+      // faces.
       const std::size_t n = number(MED_CELL, MED_POLYHEDRON, MED_INDEX_FACE);
       return n > 0 ? n - 1 : 0;
     }
 
 
-    /// The family of each element of a type, or of each node; 0 for none.
+    /// The family of each element of a type, or of each node; 0 if it has none.
     std::vector<med_int>
     families(const med_entity_type   entity,
              const med_geometry_type type,
@@ -171,7 +174,7 @@ namespace corotet::gmsh_program
     }
 
   private:
-    // The name of the only mesh, and its first state.
+    // Finds the name of the only mesh, and its first state.
     void
     find_mesh()
     {

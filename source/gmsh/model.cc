@@ -17,7 +17,7 @@ namespace corotet::gmsh_program
 {
   namespace
   {
-    // Tetrahedra with 4, 10 and 20 nodes.
+    // gmsh's types of tetrahedra with 4, 10 and 20 nodes.
     constexpr int tetrahedra[] = {4, 11, 29};
 
 
@@ -41,7 +41,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Groups without names, known by the numbers of the entities.
+    // One group for each entity, without a name, with the number of the entity.
     std::vector<GmshModel::Group>
     entities_as_groups(const int dimension)
     {
@@ -81,8 +81,8 @@ namespace corotet::gmsh_program
 
 
 
-    // The entities of a dimension, without those that repeat cells of others
-    // for neighbours of a partition.
+    // The entities of a dimension, without the ghost entities of partitions,
+    // which repeat cells of other entities.
     gmsh::vectorpair
     entities_without_ghosts(const int dimension)
     {
@@ -98,7 +98,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Those of each entity and type that there are.
+    // The elements of these types in each entity, one list per entity and type.
     template <typename Types>
     std::vector<GmshModel::Elements>
     elements(const int dimension, const Types &types)
@@ -117,7 +117,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Those of entities that belong to a group.
+    // The elements of entities that belong to a group.
     std::vector<GmshModel::Elements>
     elements_of_groups(const std::vector<GmshModel::Group> &groups,
                        const int                            dimension,
@@ -170,7 +170,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Of cells of degree 1; 0 leaves it as it is.
+    // Sets degree 1 and the size of cells; 0 leaves the size as it is.
     void
     set_size(const double element_size)
     {
@@ -184,7 +184,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Makes the cells of a geometry, of degree 1.
+    // Makes cells of degree 1 for a geometry.
     void
     generate(const double element_size)
     {
@@ -194,9 +194,9 @@ namespace corotet::gmsh_program
 
 
 
-    // Makes cells of the sizes that are set; returns the first error, if there
-    // is one. An exception would leave gmsh in a state in which it makes no
-    // other mesh.
+    // Makes cells of the present sizes; returns the first error, if there is
+    // one. If gmsh threw an exception, it could not make another mesh
+    // afterwards.
     std::string
     try_to_generate()
     {
@@ -215,10 +215,10 @@ namespace corotet::gmsh_program
 
 
 
-    // The same for shapes of CAD programs. Where edges of the length that is
-    // asked for are too long for a bent surface, triangles cross each other:
-    // then edges become shorter there, and then everywhere. Returns what was
-    // done, if it is not what was asked for.
+    // Makes cells for shapes of CAD programs. If the requested edges are too
+    // long for a bent surface, triangles cross each other: then edges are
+    // shortened there, and then everywhere. Returns a remark if the sizes are
+    // not the requested ones.
     std::string
     generate_shapes(const double element_size)
     {
@@ -229,7 +229,8 @@ namespace corotet::gmsh_program
       double longest = 0, shortest = 0;
       gmsh::option::getNumber("Mesh.MeshSizeMax", longest);
       gmsh::option::getNumber("Mesh.MeshSizeMin", shortest);
-      // Without a size they are shorter where the surface is bent anyway.
+      // Without a requested size, edges are shorter where the surface is bent
+      // anyway.
       const bool is_uniform = element_size > 0;
       if (is_uniform)
         shortest = longest / 10;
@@ -278,7 +279,8 @@ namespace corotet::gmsh_program
               return;
             }
           gmsh::open(request.path);
-          // After the file, which may set the size, too.
+          // The size is set after the file was read, as the file may set it,
+          // too.
           if (request.is_geometry)
             generate(request.element_size);
         }
@@ -313,7 +315,7 @@ namespace corotet::gmsh_program
         model.is_too_large = n_cells() > request.max_n_cells;
         if (!model.is_too_large)
           {
-            // With vertices on the geometry.
+            // gmsh puts new vertices on the geometry.
             for (unsigned int i = 0; i < request.n_refinements; ++i)
               gmsh::model::mesh::refine();
             if (request.degree > 1)
@@ -324,7 +326,7 @@ namespace corotet::gmsh_program
     if (model.is_too_large)
       return model;
 
-    // Those of shapes and of surfaces are known elsewhere.
+    // The groups of shapes and of surfaces are set elsewhere.
     if (!request.is_geometry || request.format == "geo")
       for (const int dimension : {3, 2, 1, 0})
         {
@@ -338,10 +340,10 @@ namespace corotet::gmsh_program
             model.groups.push_back(group);
         }
     model.volumes = elements(3, tetrahedra);
-    // Triangles with 3, 6 and 10 nodes.
+    // gmsh's types of triangles with 3, 6 and 10 nodes.
     model.surfaces        = elements(2, std::vector<int>{2, 9, 21});
     model.curved_surfaces = curved_surfaces();
-    // Lines with 2, 3 and 4 nodes, and points.
+    // gmsh's types of lines with 2, 3 and 4 nodes, and of points.
     model.curves = elements_of_groups(model.groups, 1, {1, 8, 26});
     model.points = elements_of_groups(model.groups, 0, {15});
     std::vector<std::size_t> tags;
@@ -350,7 +352,7 @@ namespace corotet::gmsh_program
     model.node_tags.assign(tags.begin(), tags.end());
     if (request.format == "geo")
       {
-        // Which gmsh applies when it writes a file.
+        // gmsh applies this factor when it writes a file.
         double factor = 1;
         gmsh::option::getNumber("Mesh.ScalingFactor", factor);
         for (double &x : model.coordinates)

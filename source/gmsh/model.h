@@ -8,8 +8,8 @@
 
 namespace corotet::gmsh_program
 {
-  /// Lets gmsh, which has been initialised, read and mesh. Throws what gmsh
-  /// throws.
+  /// Makes the model of a request by gmsh, which must be initialised. Throws
+  /// what gmsh throws.
   GmshModel
   make_model(const GmshRequest &request);
 } // namespace corotet::gmsh_program

@@ -42,7 +42,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Of memory that is private and can be written: what RLIMIT_DATA counts.
+    // The size of private writable memory, which RLIMIT_DATA limits [byte].
     std::uint64_t
     data_size()
     {
@@ -65,8 +65,8 @@ namespace corotet::gmsh_program
       constexpr std::uint64_t read =
         LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
       landlock_ruleset_attr handled{};
-      // All rights of the first version: to execute, to write, to read, and to
-      // make and remove files of any kind.
+      // All rights of Landlock's first version: to execute, write and read
+      // files, and to make and remove files of any kind.
       handled.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;
       const int rules =
         syscall(SYS_landlock_create_ruleset, &handled, sizeof(handled), 0);
@@ -109,7 +109,7 @@ namespace corotet::gmsh_program
     require(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0, "prctl");
     limit(RLIMIT_DATA, data_size() + max_memory);
     limit(RLIMIT_CORE, 0);
-    // Files can be made, where Landlock is missing, but not filled.
+    // Without Landlock files can be created, but this limit keeps them empty.
     limit(RLIMIT_FSIZE, 0);
     std::signal(SIGXFSZ, SIG_IGN);
     restrict_files(readable);

@@ -11,13 +11,12 @@
 namespace corotet::gmsh_program
 {
   /**
-   * From here on this process cannot start programs, write files, or read
-   * others than @p readable (files and folders), where the kernel has Landlock
-   * (Linux 5.13 and newer,
-   * https://docs.kernel.org/userspace-api/landlock.html); elsewhere it can
-   * still not fill a file. Its memory is limited to
-   * @p max_memory [byte] more than it has, and it ends with the process that
-   * has started it. Throws std::runtime_error if the kernel refuses.
+   * From here on this process cannot start programs, write files, or read other
+   * files and folders than @p readable, if the kernel has Landlock (Linux 5.13
+   * and newer, https://docs.kernel.org/userspace-api/landlock.html); otherwise
+   * it still cannot fill a file. It may use @p max_memory [byte] in addition to
+   * its present memory, and it ends with the process that has started it.
+   * Throws std::runtime_error if the kernel refuses.
    */
   void
   confine(const std::vector<std::string> &readable,

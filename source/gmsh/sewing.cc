@@ -16,11 +16,11 @@ namespace corotet::gmsh_program
 {
   namespace
   {
-    // How surfaces meet at a curve, for all curves.
+    // The surfaces that meet at each curve.
     struct Joints
     {
-      // The surfaces that have the curve at their edge, one that closes there
-      // (a cylinder, say) twice.
+      // The surfaces that have each curve at their edge; a surface that closes
+      // there (a cylinder, say) is listed twice.
       std::map<int, std::vector<int>> surfaces;
 
       explicit Joints(const gmsh::vectorpair &all)
@@ -35,7 +35,8 @@ namespace corotet::gmsh_program
       }
 
 
-      // Curves where one surface ends alone, or more than two meet.
+      // The number of curves where one surface ends alone, or more than two
+      // meet.
       unsigned int
       count_open() const
       {
@@ -45,7 +46,7 @@ namespace corotet::gmsh_program
       }
 
 
-      // Surfaces that hang together.
+      // Sets of surfaces that are connected by curves.
       std::vector<std::vector<int>>
       shells(const gmsh::vectorpair &all) const
       {
@@ -94,9 +95,10 @@ namespace corotet::gmsh_program
       int    loop;
       int    volume;
       double content;
-      // Its lowest and highest coordinates.
+      // The lowest and highest coordinates of the volume.
       std::array<double, 6> box = {};
-      // Which one it is directly inside of, and how many it is inside of.
+      // The index of the smallest shell around this one, and the number of
+      // shells around it.
       int          parent = -1;
       unsigned int depth  = 0;
     };
@@ -118,14 +120,14 @@ namespace corotet::gmsh_program
       for (auto &[loop, volume, content, x, parent, depth] : result)
         gmsh::model::getBoundingBox(
           3, volume, x[0], x[1], x[2], x[3], x[4], x[5]);
-      // The smallest one around another is its parent.
+      // Sorted by volume, the first shell around another one is its parent.
       std::ranges::sort(result, {}, &Shell::content);
       return result;
     }
 
 
-    // Corners of a volume, and the middles of its surfaces, but where these
-    // have a hole there.
+    // The corners of a volume, and the middles of its surfaces, unless a
+    // surface has a hole there.
     std::vector<double>
     points_around(const int volume)
     {
@@ -153,13 +155,13 @@ namespace corotet::gmsh_program
 
 
 
-    // Whether one surface is inside of another, or touches it from there.
+    // Whether one shell is inside of another, or touches it from inside.
     bool
     is_inside(const Shell &inner, const Shell &outer)
     {
       for (unsigned int d = 0; d < 3; ++d)
         {
-          // Boxes are known to some 1e-7 of their size.
+          // The accuracy of bounding boxes is some 1e-7 of their size.
           const double gap = 1e-5 * (outer.box[3 + d] - outer.box[d]);
           if (inner.box[d] < outer.box[d] - gap ||
               inner.box[3 + d] > outer.box[3 + d] + gap)
@@ -172,8 +174,8 @@ namespace corotet::gmsh_program
 
 
 
-    // Solids without what is hollow in them: every second surface from the
-    // outside to the inside encloses a hollow. (Solids may touch from outside.)
+    // Makes solids without the hollows in them: from the outside to the inside,
+    // every second shell encloses a hollow. (Solids may touch from outside.)
     gmsh::vectorpair
     solids_between(std::vector<Shell> shells)
     {
@@ -202,7 +204,8 @@ namespace corotet::gmsh_program
         else
           gmsh::model::occ::remove({{3, shells[j].volume}});
       gmsh::model::occ::synchronize();
-      // Of surfaces that were mended, solids have others.
+      // Solids have copies of surfaces that were mended: the unused ones are
+      // removed.
       gmsh::vectorpair surfaces, unused;
       gmsh::model::getEntities(surfaces, 2);
       for (const auto &surface : surfaces)
@@ -223,7 +226,8 @@ namespace corotet::gmsh_program
   gmsh::vectorpair
   sew_solids(const GmshRequest &request, std::string &remark)
   {
-    // Surfaces that end in a point, as that of a cone does, have an edge there.
+    // Surfaces that end in a point, such as that of a cone, get a degenerate
+    // edge there.
     gmsh::option::setNumber("Geometry.OCCFixDegenerated", 1);
     double accuracy = 0;
     gmsh::option::getNumber("Geometry.Tolerance", accuracy);

@@ -13,11 +13,11 @@
 namespace corotet::gmsh_program
 {
   /**
-   * Lets gmsh read a file of surfaces that have nothing in common, as IGES
-   * files are, sew them where their edges meet, and make the solids that they
-   * enclose, with the hollows in these. Edges may have gaps between them, as
-   * small ones as do: at first next to none, at most a thousandth of the size
-   * of all, which @p remark tells. Returns the solids (dimension, number).
+   * Makes gmsh read a file of unconnected surfaces, as IGES files are, sew them
+   * where their edges meet, and make the solids that they enclose, without the
+   * hollows in them. The gaps that are allowed between edges are as small as
+   * possible: next to none at first, at most a thousandth of the size of the
+   * whole; @p remark tells the size. Returns the solids (dimension, number).
    * Throws std::runtime_error if surfaces do not close.
    */
   std::vector<std::pair<int, int>>

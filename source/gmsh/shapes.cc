@@ -28,7 +28,7 @@ namespace corotet::gmsh_program
 
 
 
-    // What the file calls a shape, "Assembly/Part/Solid": the last part of it.
+    // The name of a shape in the file: the last part of "Assembly/Part/Solid".
     // Empty if it has no name.
     std::string
     name_of(const Entity &entity)
@@ -41,8 +41,8 @@ namespace corotet::gmsh_program
     }
 
 
-    // The colour that the file gives a shape, as "colour-ff8000", a word
-    // that parameter files can have; empty if it gives none.
+    // The colour of a shape in the file as a word for parameter files,
+    // "colour-ff8000"; empty if it has none.
     std::string
     colour_of(const Entity &entity)
     {
@@ -58,7 +58,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Entities that have a colour, if it tells some from others.
+    // The colours of entities; empty if all entities have the same one.
     std::map<Entity, std::string>
     colours(const int dimension)
     {
@@ -78,7 +78,7 @@ namespace corotet::gmsh_program
 
 
 
-    // Names of solids or, without one, their colours.
+    // The names of solids, or the colours of those without a name.
     std::map<Entity, std::string>
     names_of_solids(const gmsh::vectorpair &solids)
     {
@@ -115,9 +115,9 @@ namespace corotet::gmsh_program
 
 
 
-    // What a STEP file has and OpenCASCADE has made no solid of, as where
-    // something is missing in it. Copies of solids may be more than the file
-    // has, so some of it may go unnoticed.
+    // Adds remarks about solids of a STEP file that OpenCASCADE could not read,
+    // for example because a part is missing, and about surfaces. If the number
+    // of solids is increased by copies, missing ones may go unnoticed.
     void
     remark_lost_shapes(const GmshRequest      &request,
                        const gmsh::vectorpair &solids,
@@ -152,7 +152,7 @@ namespace corotet::gmsh_program
 
 
 
-    // What belongs to several solids is cut from all but the first.
+    // Adds remarks about overlaps, which are cut from all solids but the first.
     void
     remark_overlaps(const gmsh::vectorpair              &solids,
                     const std::vector<gmsh::vectorpair> &parts,
@@ -188,7 +188,8 @@ namespace corotet::gmsh_program
 
 
 
-    // Lets solids share their faces. Names go from what was cut to its parts.
+    // Makes touching solids share faces. The parts of a solid that was cut
+    // inherit its name.
     void
     glue(const gmsh::vectorpair        &solids,
          std::map<Entity, std::string> &names,
@@ -219,8 +220,8 @@ namespace corotet::gmsh_program
 
 
 
-    // Each with those of the same name. Surfaces between solids have a group if
-    // the file has a name for them.
+    // Adds a group of entities for each name. Surfaces between solids have a
+    // group only if the file has a name for them.
     void
     add_groups(std::vector<GmshModel::Group>       &groups,
                const int                            dimension,
@@ -256,8 +257,8 @@ namespace corotet::gmsh_program
 
 
 
-    // gmsh would work on edges in another unit than the file's until its time
-    // or memory ends.
+    // Refuses an element size in another unit than the file's, with which gmsh
+    // would work until its time or memory ends.
     void
     check_element_size(const GmshRequest &request)
     {
@@ -272,8 +273,8 @@ namespace corotet::gmsh_program
           gmsh::model::occ::getMass(dimension, tag, of_solid);
           volume += of_solid;
         }
-      // Of regular tetrahedra; real ones are larger or smaller by less than the
-      // factor.
+      // The number of regular tetrahedra of this size; the number of real ones
+      // differs by less than the factor.
       constexpr double factor = 4;
       const double     n =
         volume * 6 * std::sqrt(2.) / std::pow(request.element_size, 3);
@@ -310,10 +311,11 @@ namespace corotet::gmsh_program
     check_element_size(request);
     std::vector<GmshModel::Group> groups;
     add_groups(groups, 3, "solid", names);
-    // Surfaces may be others now. They have colours, but no names of their own.
+    // Gluing may have replaced surfaces. They have colours, but no names of
+    // their own.
     add_groups(groups, 2, "surface", colours(2));
 
-    // Cells that are small where the surface is bent, and nowhere large.
+    // Cells are small where the surface is bent, and nowhere large.
     double x[6];
     gmsh::model::getBoundingBox(-1, -1, x[0], x[1], x[2], x[3], x[4], x[5]);
     const double diagonal = std::hypot(x[3] - x[0], x[4] - x[1], x[5] - x[2]);

@@ -9,13 +9,13 @@
 namespace corotet::gmsh_program
 {
   /**
-   * Lets gmsh, which has been initialised, read the solids of a file of a CAD
+   * Makes gmsh, which must be initialised, read the solids of a file of a CAD
    * program: solids that touch share the faces where they do. Returns the
    * groups of solids by their names in the file, and of surfaces by their
-   * colours, "colour-ff8000"; others are called "solid N" and "surface N", by
-   * gmsh's numbers. Without solids, surfaces are sewn to some, which @p remark
-   * tells. Throws what gmsh throws, and std::runtime_error if these do not
-   * close either.
+   * colours, "colour-ff8000"; others are called "solid N" and "surface N", with
+   * gmsh's numbers. If the file has no solids, its surfaces are sewn to solids,
+   * which @p remark tells. Throws what gmsh throws, and std::runtime_error if
+   * the surfaces do not close.
    */
   std::vector<GmshModel::Group>
   read_shapes(const GmshRequest &request, std::string &remark);

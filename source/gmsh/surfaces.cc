@@ -14,12 +14,12 @@ namespace corotet::gmsh_program
 {
   namespace
   {
-    // Surfaces of each closed surface, by the number of this.
+    // The surfaces that each closed surface was divided into, by its number.
     using Patches = std::map<int, std::vector<int>>;
 
 
 
-    // The closed surfaces around each body: those of a physical group.
+    // The closed surfaces of each body, which form a physical group.
     std::vector<std::vector<int>>
     bodies()
     {
@@ -35,12 +35,13 @@ namespace corotet::gmsh_program
 
 
 
-    // Divides the surfaces at their edges, and where else their parts could not
-    // be laid out flat, and gives these parameters.
+    // Divides the surfaces at their edges, and further where parts could not be
+    // laid out flat, and gives the parts parameters.
     Patches
     divide(const double feature_angle)
     {
-      // Nodes keep their numbers.
+      // Nodes keep their numbers, so a node of a part tells which surface it
+      // comes from.
       std::map<std::size_t, int> surface_of_node;
       gmsh::vectorpair           surfaces;
       gmsh::model::getEntities(surfaces, 2);

@@ -12,14 +12,14 @@ namespace corotet::gmsh_program
 {
   /**
    * Reads closed surfaces of triangles, and makes volumes between them that can
-   * be meshed. With GmshRequest::element_size, the surfaces get parameters so
-   * that they can be meshed anew, too; without, their triangles stay.
+   * be meshed. With GmshRequest::element_size the surfaces get parameters so
+   * that they can be meshed anew, too; otherwise their triangles stay.
    */
   void
   read_surface(const GmshRequest &request);
 
-  /// Throws an error of gmsh on such a surface, with what a user can do about
-  /// it.
+  /// Throws an error of gmsh about such a surface, together with advice for the
+  /// user.
   [[noreturn]] void
   explain_surface(const GmshRequest &request, const std::runtime_error &error);
 } // namespace corotet::gmsh_program

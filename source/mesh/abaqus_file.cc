@@ -19,11 +19,11 @@ namespace corotet::abaqus
   {
     namespace fs = std::filesystem;
 
-    // Of files that include each other.
+    // Limits for files that include each other.
     constexpr unsigned int max_depth    = 20;
     constexpr unsigned int max_included = 1000;
 
-    // Around lines, whose quotes stay.
+    // Characters to remove around lines; quotes stay.
     constexpr const char *blanks = " \t\r";
   } // namespace
 
@@ -88,7 +88,7 @@ namespace corotet::abaqus
     while (std::getline(stream, line))
       {
         ++place.line;
-        // In proportion to what has been read.
+        // The limit of copies grows in proportion to what has been read.
         n_left += line.size();
         if (line.find('\0') != std::string::npos)
           place.refuse("found a byte of zero: is this a text file?");
@@ -110,7 +110,8 @@ namespace corotet::abaqus
               whole += more;
           }
         const Keyword next = parse_keyword(whole, first);
-        // Its lines stand for this one: data of the present keyword, say.
+        // The lines of the included file stand in place of this one; they may
+        // be data of the present keyword.
         if (next.name == "INCLUDE")
           {
             read_other(next.needed("INPUT"), next.place, depth);
@@ -157,7 +158,7 @@ namespace corotet::abaqus
     else if (keyword.name != "ASSEMBLY" && keyword.name != "END ASSEMBLY" &&
              keyword.name != "HEADING" && keyword.name != "PREPRINT")
       ignored.insert("*" + keyword.name);
-    // The lines of data of these may be in a file of their own.
+    // The data lines of these keywords may be in a file of their own.
     if (!other.empty() &&
         (keyword.name == "NODE" || keyword.name == "ELEMENT" ||
          keyword.name == "ELSET" || keyword.name == "NSET" ||
@@ -224,7 +225,7 @@ namespace corotet::abaqus
                    "are files in it or below it");
     if (!fs::is_regular_file(file, error))
       place.refuse("there is no such file: found '" + shortened(name) + "'");
-    // Messages call it as they call the first one.
+    // Messages name the file relative to the folder of the first one.
     read(file_in(fs::path(path).parent_path().string(), name), depth + 1);
   }
 
@@ -285,7 +286,7 @@ namespace corotet::abaqus
     const std::vector<std::string> words = fields(line);
     if (kind.shape == Shape::other)
       {
-        // A line that ends with a comma goes on.
+        // A line that ends with a comma is continued.
         if (!goes_on)
           ++current_model().others[upper_case(keyword.needed("TYPE"))];
         goes_on = line.back() == ',';

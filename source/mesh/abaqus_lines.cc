@@ -63,7 +63,7 @@ namespace corotet::abaqus
     std::vector<std::string> result;
     for (std::size_t begin = 0; begin <= line.size();)
       {
-        // A quote without a second one is a character like others.
+        // A quotation mark without a second one is an ordinary character.
         std::size_t end = begin;
         while (end < line.size() && line[end] != ',')
           {
@@ -91,7 +91,8 @@ namespace corotet::abaqus
       {
         if (i == 0)
           {
-            // "* NODE" and "*END  PART" mean what is meant by one blank.
+            // Several blanks count as one, and none is needed after the
+            // asterisk: "* NODE" and "*END  PART" are accepted.
             bool blank = false;
             for (const char c : upper_case(parts[0]))
               {

@@ -15,7 +15,7 @@
 
 namespace corotet::abaqus
 {
-  /// Where a line is.
+  /// The file and line of a piece of input.
   struct Place
   {
     std::string path;
@@ -26,8 +26,9 @@ namespace corotet::abaqus
     refuse(const std::string &message) const;
   };
 
-  /// A keyword, "*ELEMENT, TYPE=C3D4, ELSET=Body": in capitals, without the
-  /// asterisk; its parameters, with names in capitals and values as they are.
+  /// The line of a keyword, "*ELEMENT, TYPE=C3D4, ELSET=Body": its name in
+  /// capitals, without the asterisk, and its parameters, with names in capitals
+  /// and values as they are.
   struct Keyword
   {
     Place                              place;
@@ -40,16 +41,17 @@ namespace corotet::abaqus
       return parameters.contains(parameter);
     }
 
-    /// Empty if it is not there.
+    /// The value of a parameter; empty if it is missing.
     std::string
     value(const std::string &parameter) const;
 
-    /// Throws an InputError if it is not there, or empty.
+    /// The value of a parameter. Throws an InputError if it is missing or
+    /// empty.
     std::string
     needed(const std::string &parameter) const;
   };
 
-  /// Without blanks around it, and without quotes.
+  /// A text without blanks around it, and without quotation marks.
   std::string
   trimmed(const std::string_view text,
           const std::string_view blanks = " \t\r\"");
@@ -57,8 +59,8 @@ namespace corotet::abaqus
   Keyword
   parse_keyword(const std::string &line, const Place &place);
 
-  /// The fields of a line, between commas that are not in quotes; an empty one
-  /// after the last comma is none.
+  /// The fields of a line, between commas outside of quotation marks, without
+  /// an empty field after the last comma.
   std::vector<std::string>
   fields(const std::string &line);
 

@@ -18,14 +18,14 @@ namespace corotet::abaqus
 {
   namespace
   {
-    // Corners of the faces S1 to S4 of a tetrahedron.
+    // The corners of the faces S1 to S4 of a tetrahedron.
     constexpr std::array<std::array<unsigned int, 3>, 4> faces{
       {{{0, 1, 2}}, {{0, 3, 1}}, {{1, 3, 2}}, {{2, 3, 0}}}};
 
 
 
-    // Tetrahedra of one kind. Abaqus numbers the nodes of the edges as
-    // FE_SimplexP(2) does.
+    // Adds tetrahedra, which must be of one kind. Abaqus numbers the nodes on
+    // edges as FE_SimplexP(2) does.
     std::vector<std::size_t>
     add_tetrahedra(ImportedMesh &mesh, const Model &model)
     {
@@ -46,7 +46,7 @@ namespace corotet::abaqus
                                      n_of_kind[10]));
       const unsigned int n_nodes = n_of_kind.begin()->first;
       mesh.degree                = n_nodes == 4 ? 1 : 2;
-      // Of each element its number among the tetrahedra.
+      // The number of each element among the tetrahedra.
       std::vector<std::size_t> numbers(model.elements.size());
       for (std::size_t e = 0; e < model.elements.size(); ++e)
         if (const Element &element = model.elements[e];
@@ -61,7 +61,7 @@ namespace corotet::abaqus
 
 
 
-    // Sets of all scopes get their names here.
+    // Exports the sets of all scopes, with the names that they get in the mesh.
     class Export
     {
     public:
@@ -92,8 +92,9 @@ namespace corotet::abaqus
       }
 
     private:
-      // Which scopes have sets of a name: one may have several kinds of them,
-      // of which some become names of the same kind.
+      // Counts the scopes that have sets of each name. A scope may have several
+      // kinds of sets with the same name, and different kinds may become names
+      // of the same kind.
       template <typename Set>
       void
       count(const Scope &scope, const Named<Set> &named)
@@ -165,7 +166,7 @@ namespace corotet::abaqus
         nodes.insert(nodes.end(), set.begin(), set.end());
       }
 
-      // Whether no other tetrahedron has this face.
+      // Whether a face belongs to no other tetrahedron.
       bool
       is_outside(const std::uint32_t *nodes, const unsigned int number)
       {
@@ -203,7 +204,7 @@ namespace corotet::abaqus
       triangle("(S|DS|STRI|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DC2D|AC2D)(3|6|65)"
                "[A-Z]*"),
       line("(T2D|T3D|DC1D|AC1D|R2D)(2|3)[A-Z]*|(B2|B3|PIPE2|PIPE3)(1|2)[A-Z]*");
-    // The matching of longer ones could fill the stack.
+    // Matching longer texts could fill the stack.
     constexpr std::size_t most = 40;
     std::smatch           found;
     if (type.size() > most)
@@ -214,7 +215,7 @@ namespace corotet::abaqus
       return {Shape::triangle, found[2] == "3" ? 3U : 6U};
     if (std::regex_match(type, found, line))
       {
-        // The last digit: of nodes, or the degree of beams.
+        // The last digit is the number of nodes or, for beams, the degree.
         const bool is_beam = found[4].matched;
         return {Shape::line,
                 static_cast<unsigned int>(

@@ -16,13 +16,13 @@
 
 namespace corotet::abaqus
 {
-  /// What an element is to corotet.
+  /// The use of an element in corotet.
   enum class Shape : unsigned char
   {
     tetrahedron,
-    /// Gives its set's name to a face.
+    /// Its set gives a name to a face.
     triangle,
-    /// Gives its set's name to nodes.
+    /// Its set gives a name to nodes.
     line,
     /// Cannot be computed.
     other
@@ -34,26 +34,29 @@ namespace corotet::abaqus
     unsigned int n_nodes = 0;
   };
 
-  /// Of an element type, "C3D10M", in capitals.
+  /// The shape and number of nodes of an element type such as "C3D10M", in
+  /// capitals.
   Kind
   kind_of(const std::string &type);
 
   struct Element
   {
     Kind kind;
-    /// Where its nodes begin in Model::element_nodes.
+    /// The position of its first node in Model::element_nodes.
     std::size_t first = 0;
   };
 
-  /// Faces of elements, "set or element, S2".
+  /// A face of an element, "set or element, S2".
   struct FaceOfElement
   {
     std::uint32_t element;
-    /// Abaqus' number, 1 to 4; 0: those on the surface of the body.
+    /// Abaqus' number of the face, 1 to 4; 0 stands for the faces on the
+    /// surface of the body.
     unsigned char number;
   };
 
-  /// Names by their capitals, with the spelling of the first occurrence.
+  /// Sets by their names in capitals, with the spelling of the first
+  /// occurrence.
   template <typename Set>
   struct Named
   {
@@ -66,8 +69,8 @@ namespace corotet::abaqus
     find(const std::string &name) const;
   };
 
-  /// Numbers and names of a part, of an instance or of the whole model: nodes
-  /// and elements by their places in the Model.
+  /// The numbers and names of a part, of an instance or of the whole model,
+  /// with the indices of nodes and elements in the Model.
   struct Scope
   {
     std::string                                     name;
@@ -76,7 +79,7 @@ namespace corotet::abaqus
     Named<std::vector<std::uint32_t>>               node_sets;
     Named<std::vector<std::uint32_t>>               element_sets;
     Named<std::vector<FaceOfElement>>               surfaces;
-    /// Names of sets that a program has made for surfaces; in capitals.
+    /// Names, in capitals, of sets that a program has made for surfaces.
     std::set<std::string> internal_node_sets;
     std::set<std::string> internal_element_sets;
   };
@@ -86,27 +89,28 @@ namespace corotet::abaqus
     std::vector<dealii::Point<3>> nodes;
     std::vector<Element>          elements;
     std::vector<std::uint32_t>    element_nodes;
-    /// How many elements of each type cannot be computed.
+    /// The number of elements of each type that cannot be computed.
     std::map<std::string, std::size_t> others;
 
     /// Throws InputError if there are elements that cannot be computed.
     void
     check_other_cells(const std::string &path) const;
 
-    /// Adds a copy of @p part with its nodes at other places, and returns the
+    /// Adds a copy of @p part with its nodes at @p places, and returns the
     /// scope of the copy.
     Scope
     add_copy(const Model                         &part,
              const Scope                         &scope,
              const std::vector<dealii::Point<3>> &places);
 
-    /// Nodes of the tetrahedra with ten nodes.
+    /// The nodes of all tetrahedra with ten nodes.
     std::vector<std::uint32_t>
     quadratic_tetrahedra() const;
   };
 
   /// The tetrahedra of a model and the sets of all its scopes. Throws
-  /// InputError if there are none, several kinds of them or other cells.
+  /// InputError if there are no tetrahedra, several kinds of them or other
+  /// cells.
   ImportedMesh
   imported_mesh(const Model              &model,
                 const std::vector<Scope> &scopes,

@@ -118,7 +118,8 @@ namespace corotet::abaqus
     const Model &part = instance->part->model;
     spend(part.nodes.size() + part.element_nodes.size(), instance->place);
     std::vector<Point<3>> places = part.nodes;
-    // Now, as the digits of moved nodes tell nothing about those of the file.
+    // This must happen now, as the digits of moved nodes tell nothing about
+    // those of the file.
     if (const std::string remark =
           straighten_written_cells(places, part.quadratic_tetrahedra(), 2);
         !remark.empty())

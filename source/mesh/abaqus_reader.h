@@ -28,16 +28,16 @@ namespace corotet::abaqus
     Place       place;
     std::string name;
     const Part *part = nullptr;
-    /// A shift, and a turn: two points of the axis and the angle in degrees.
+    /// A shift, and a rotation: two points of the axis and the angle [degree].
     std::vector<std::vector<double>> motion;
     bool                             is_placed = false;
   };
 
-  /// Reads a file, keyword by keyword, into a Model.
+  /// Reads a file into a Model, one keyword after another.
   class Reader
   {
   public:
-    /// Reads it. Throws InputError and MachineError.
+    /// Reads the file. Throws InputError and MachineError.
     explicit Reader(const std::string &path);
 
     ImportedMesh
@@ -62,7 +62,8 @@ namespace corotet::abaqus
     void
     finish_keyword();
 
-    // What a line at @p place includes: a copy, as it may be the keyword's.
+    // Reads the file that a line at @p place includes. @p place is a copy, as
+    // it may be that of the keyword, which changes.
     void
     read_other(const std::string &name,
                const Place        place,
@@ -83,18 +84,20 @@ namespace corotet::abaqus
     static std::uint32_t
     node_of(const std::int64_t number, const Scope &scope, const Place &place);
 
-    // Where the members of a set are looked up: in an instance, say.
+    // The scope in which the members of a set are looked up, such as an
+    // instance.
     const Scope &
     scope_of_members(const Place &place);
 
     std::vector<std::uint32_t> &
     target_of_set();
 
-    // A set of nodes may be that of the nodes of a set of elements.
+    // Begins a set. A set of nodes may consist of the nodes of a set of
+    // elements.
     void
     begin_set();
 
-    // What a word of a line of data means, by its number or as a set.
+    // The members that a word of a data line means, by a number or as a set.
     std::vector<std::uint32_t>
     members_of(const std::string &word, const Place &place);
 
@@ -107,11 +110,12 @@ namespace corotet::abaqus
     void
     add_to_surface(const std::vector<std::string> &words, const Place &place);
 
-    // "instance.set" is looked up in the instance.
+    // The scope and name of a word; "instance.set" belongs to the instance.
     std::pair<const Scope *, std::string>
     scope_and_name(const std::string &word, const Place &place);
 
-    // Copies of sets and parts can be many times longer than the file.
+    // Counts members of copies against n_left: copies of sets and parts can be
+    // many times longer than the file.
     void
     spend(const std::size_t n, const Place &place);
 
@@ -124,11 +128,12 @@ namespace corotet::abaqus
     void
     begin_instance();
 
-    // The shift in the first line, and the turn in the second one.
+    // Adds a line of an instance: the shift is in the first line, the rotation
+    // in the second one.
     void
     add_motion(const std::vector<std::string> &words, const Place &place);
 
-    // Adds the copy of the part, when its motion has been read.
+    // Adds the copy of the part, after its motion has been read.
     void
     place_instance();
 
@@ -139,24 +144,24 @@ namespace corotet::abaqus
     const std::string           path;
 
     Keyword keyword;
-    /// Of the elements that are read; what there is so far of one that goes on
-    /// in the next line.
+    /// The kind of the elements that are being read, and the words so far of an
+    /// element that continues in the next line.
     Kind                      kind;
     std::vector<std::int64_t> unfinished;
     bool                      goes_on    = false;
     unsigned int              n_included = 0;
 
-    /// How many members copies of sets and of parts may still have.
+    /// The number of members that copies of sets and of parts may still have.
     std::size_t n_left = 20'000'000;
 
     std::map<std::string, Part> parts;
     Part                       *part = nullptr;
     std::optional<Instance>     instance;
     Model                       model;
-    /// The first one is that of the file, then those of the instances.
+    /// The scopes: first that of the file, then those of the instances.
     std::vector<Scope>    scopes;
     std::set<std::string> ignored;
-    /// What the user should know.
+    /// Remarks for the user.
     std::vector<std::string> remarks;
   };
 } // namespace corotet::abaqus

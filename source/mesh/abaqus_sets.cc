@@ -15,8 +15,8 @@ namespace corotet::abaqus
 {
   namespace
   {
-    // "first, last, increment". Numbers that there are not are passed over, as
-    // CalculiX does.
+    // The members of the range "first, last, increment". Numbers that do not
+    // exist are skipped, as CalculiX does.
     std::vector<std::uint32_t>
     generated(const std::vector<std::string>                        &words,
               const std::unordered_map<std::int64_t, std::uint32_t> &known,
@@ -38,7 +38,8 @@ namespace corotet::abaqus
                       last,
                       first));
       std::vector<std::uint32_t> members;
-      // Files may have thousands of short ranges.
+      // Files may have thousands of short ranges, so a short range is not
+      // compared with all numbers.
       const std::int64_t n_increments = (last - first) / increment;
       if (static_cast<std::size_t>(n_increments) < known.size())
         {
@@ -127,7 +128,7 @@ namespace corotet::abaqus
     const auto *own         = of_elements ?
                                 scope_of_members(place).element_sets.find(word) :
                                 scope_of_members(place).node_sets.find(word);
-    // Names of sets may have a point, too.
+    // Names of sets may contain a point, too.
     const auto [scope, name] = own != nullptr ?
                                  std::pair(&scope_of_members(place), word) :
                                  scope_and_name(word, place);

@@ -50,7 +50,8 @@ namespace corotet
 
   namespace
   {
-    // Of what makes the mesh, on one rank [byte]; measured are some more.
+    // The memory for making the mesh on one rank [byte]; measurements gave a
+    // bit more.
     constexpr double bytes_per_cell = 300;
 
 
@@ -60,8 +61,8 @@ namespace corotet
                      const std::array<double, 3>       &size,
                      const std::array<unsigned int, 3> &n_cells)
     {
-      // Coordinates have 16 digits: with this many of them for the edges of
-      // cells, shapes have six that are right.
+      // The smallest size of cells relative to coordinates, which have 16
+      // digits: then six digits of the cells' shapes are right.
       constexpr double least    = 1e-10;
       double           shortest = std::numeric_limits<double>::infinity();
       double           farthest = 0;
@@ -86,8 +87,8 @@ namespace corotet
 
     constexpr unsigned int cells_per_cuboid = 5;
 
-    // Corners of the cells of a cuboid, which are numbered with x fastest.
-    // Neighbours are mirrored: their diagonals meet.
+    // The corners of the cells of a cuboid, whose vertices are numbered with x
+    // fastest. Neighbouring cuboids are mirror images, so their diagonals meet.
     using Tetrahedra = std::array<std::array<unsigned int, 4>, 5>;
     constexpr Tetrahedra even_cuboid = {{{{0, 1, 2, 4}},
                                          {{2, 1, 3, 7}},
@@ -141,7 +142,7 @@ namespace corotet
         return result;
       }
 
-      // The side of the box that a face lies on, which has these corners of a
+      // The side of the box that a face lies on, given by its corners in a
       // cuboid.
       std::optional<unsigned int>
       side(const Place &cuboid, const std::array<unsigned int, 3> &face) const
@@ -175,8 +176,8 @@ namespace corotet
 
 
 
-    // Cells [first, end) in the order of cuboids, with their vertices in the
-    // order in which they meet them.
+    // The cells [first, end) in the order of cuboids, with their vertices in
+    // the order in which the cells use them.
     MeshPart
     cells_between(const Grid         &grid,
                   const std::uint64_t first,
@@ -185,7 +186,8 @@ namespace corotet
       MeshPart part;
       part.cells.reserve(end - first);
       part.numbers.reserve(end - first);
-      // Local numbers of the vertices from the lowest one on that there is.
+      // Local numbers of the vertices, which are counted from the lowest global
+      // number.
       std::vector<unsigned int> known;
       const std::uint64_t       lowest =
         first == end ? 0 :

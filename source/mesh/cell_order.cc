@@ -22,12 +22,12 @@ namespace corotet
   {
     namespace MPI = dealii::Utilities::MPI;
 
-    // Of points of all ranks: the lowest coordinates, and the length of the
-    // longest side.
+    // The box around the points of all ranks: its lowest coordinates, and the
+    // length of its longest side.
     std::pair<dealii::Point<3>, double>
     box_of(const std::vector<dealii::Point<3>> &points, const MPI_Comm comm)
     {
-      // Highest coordinates, and lowest ones with the other sign.
+      // The highest coordinates, and the lowest ones with the opposite sign.
       std::vector<double> bounds(6, -std::numeric_limits<double>::infinity());
       for (const dealii::Point<3> &x : points)
         for (unsigned int d = 0; d < 3; ++d)
@@ -48,15 +48,16 @@ namespace corotet
 
 
 
-    // Of points of all ranks, on a curve through them all.
+    // The places of points on a curve through the points of all ranks.
     std::vector<std::uint64_t>
     places_on_curve(const std::vector<dealii::Point<3>> &points,
                     const MPI_Comm                       comm)
     {
       const auto [lowest, extent] = box_of(points, comm);
 
-      // The same unit of length in all directions: stretching a slender body
-      // to a cube would make far cells neighbours on the curve.
+      // The unit of length is the same in all directions: if a slender body
+      // were stretched to a cube, distant cells would be neighbours on the
+      // curve.
       const double unit = extent > 0 ? ((1 << hilbert_bits) - 1) / extent : 0;
       std::vector<std::uint64_t> places;
       places.reserve(points.size());
@@ -73,7 +74,8 @@ namespace corotet
 
 
 
-    // @p number gives that of a cell.
+    // Sorts cells by place, then by number. @p number gives the number of a
+    // cell.
     template <typename Number>
     void
     sort_cells(std::vector<PlacedCell> &cells, const Number &number)
@@ -125,8 +127,8 @@ namespace corotet
 
 
 
-    // For each other rank, the cells that belong to it and their places on the
-    // curve.
+    // The messages for other ranks: the cells that belong to them and their
+    // places on the curve.
     Messages
     cells_for_others(const MeshPart                &part,
                      const std::vector<PlacedCell> &cells,
@@ -155,8 +157,8 @@ namespace corotet
 
 
 
-    // Merges sorted sequences that stand one behind the other, each but the
-    // first from a place of @p begins on.
+    // Merges sorted sequences that stand one behind the other; each sequence
+    // but the first starts at one of @p begins.
     void
     merge_sequences(std::vector<PlacedCell>     &cells,
                     std::vector<std::size_t>     begins,
@@ -187,7 +189,8 @@ namespace corotet
 
 
 
-    // Some sorted cells of a part and those that other ranks have sent, sorted.
+    // A part of some sorted cells of @p part and those that other ranks have
+    // sent, all sorted.
     MeshPart
     sorted_part(MeshPart                &&part,
                 std::vector<PlacedCell> &&cells,
@@ -226,7 +229,8 @@ namespace corotet
   std::vector<std::vector<unsigned int>>
   pieces_of_curve(const MeshPart &part, const unsigned int n_pieces)
   {
-    // Some thousand cells for each piece tell where the others are.
+    // A sample of some thousand cells for each piece tells where the pieces
+    // end.
     constexpr std::size_t            n_samples = 4096;
     const std::vector<std::uint64_t> on_curve =
       places_on_curve(part.vertices, MPI_COMM_SELF);
@@ -252,7 +256,8 @@ namespace corotet
       piece.reserve(1.05 * part.cells.size() / n_pieces);
     for (unsigned int c = 0; c < part.cells.size(); ++c)
       {
-        // That of most vertices, or of the first one.
+        // A cell belongs to the piece of most of its vertices, or of the first
+        // one.
         const auto  &v = part.cells[c].vertices;
         unsigned int p[4];
         for (unsigned int k = 0; k < 4; ++k)

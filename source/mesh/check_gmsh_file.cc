@@ -21,7 +21,8 @@ namespace corotet
   {
     namespace fs = std::filesystem;
 
-    // A part of a .geo: a word, the content of a text, or any other character.
+    // A token of a .geo file: a word, the content of a text, or any other
+    // character.
     struct Token
     {
       enum class Kind
@@ -45,7 +46,7 @@ namespace corotet
 
 
 
-    // Comments and spaces are left out.
+    // The tokens of a text, without comments and spaces.
     std::vector<Token>
     tokens_of(const std::string &text)
     {
@@ -63,7 +64,7 @@ namespace corotet
           if (text.compare(i, 2, "//") == 0)
             end = find("\n");
           else if (text.compare(i, 2, "/*") == 0)
-            // "/*/" is an open one.
+            // "/*/" does not close the comment that it opens.
             end = find("*/", 2);
           else if (text[i] == '"' || text[i] == '\'')
             {
@@ -88,7 +89,8 @@ namespace corotet
 
 
 
-    // What no geometry may do, by gmsh's keywords.
+    // gmsh's keywords for actions that a geometry must not have, with their
+    // description.
     const std::map<std::string, std::string> &
     forbidden_words()
     {
@@ -122,7 +124,8 @@ namespace corotet
     private:
       using Kind = Token::Kind;
 
-      // @p depth: in how many files this one is included.
+      // Checks a file. @p depth is the number of files that include it, one
+      // inside of the other.
       void
       check(const std::string &path, const unsigned int depth = 0)
       {
@@ -136,7 +139,7 @@ namespace corotet
                                        max_include_depth));
         file                   = path;
         const std::string text = read_whole_file(path);
-        // It ends comments for gmsh.
+        // A zero byte ends comments for gmsh.
         if (text.find('\0') != std::string::npos)
           throw InputError("",
                            path + ": is no text: found a byte that is zero");
@@ -166,7 +169,7 @@ namespace corotet
                tokens[i].content[0] == sign;
       }
 
-      // For each opening bracket the one that closes it, or the end.
+      // The position of the closing bracket for each opening one, or the end.
       static std::vector<std::size_t>
       closing_brackets(const std::vector<Token> &tokens)
       {
@@ -194,7 +197,7 @@ namespace corotet
                        '>');
       }
 
-      // A file that is named behind a word that reads one.
+      // Checks the file whose name follows a word that makes gmsh read a file.
       void
       check_reading(const std::vector<Token> &tokens,
                     const std::size_t         i,
@@ -222,7 +225,7 @@ namespace corotet
                          .first != folder.end())
           refuse(tokens[next],
                  "reads a file outside of the folder of the geometry");
-        // What is no text in gmsh's language.
+        // Endings of files that are not texts in gmsh's language.
         static const std::set<std::string> others{".msh",
                                                   ".stl",
                                                   ".step",

@@ -24,15 +24,15 @@ namespace corotet
     using BoundingBox = dealii::BoundingBox<3>;
     using Vector      = dealii::Tensor<1, 3>;
 
-    // What is less than this part of the lengths involved is round-off, in
-    // double precision and in the extended one.
+    // Differences below this fraction of the lengths involved are round-off, in
+    // double and in extended precision.
     constexpr double crossing_tolerance = 1e-13;
     constexpr auto   extended_tolerance =
       8 * std::numeric_limits<long double>::epsilon();
 
 
 
-    // The sign of a number, zero up to a size that is round-off.
+    // The sign of a number, or zero if its size is at most round-off.
     int
     sign(const long double value, const long double round_off)
     {
@@ -44,10 +44,10 @@ namespace corotet
 
 
     // The orientation of four points, the sign of the tetrahedron's volume:
-    // zero in one plane, within round-off of the extended precision. Corners of
-    // plane faces are rounded, mostly to single precision, so that faces are
-    // not plane any more: of what hardly is, signs must be right, or triangles
-    // side by side seem to touch.
+    // zero if they lie in one plane, up to round-off of the extended precision.
+    // Corners are rounded, mostly to single precision, so plane faces are
+    // slightly bent in files: signs must be right even then, or neighbouring
+    // triangles seem to touch.
     int
     orientation(const Point<3> &a,
                 const Point<3> &b,
@@ -75,7 +75,8 @@ namespace corotet
 
 
 
-    // The same of three points in a plane: the sign of the triangle's area.
+    // The orientation of three points in a plane: the sign of the triangle's
+    // area.
     int
     orientation(const std::array<double, 2> &a,
                 const std::array<double, 2> &b,
@@ -95,7 +96,7 @@ namespace corotet
     touch_in_plane(const std::array<Point<3>, 2> &segment,
                    const std::array<Point<3>, 3> &corners)
     {
-      // Seen along the axis that is nearest to the normal.
+      // Projects along the axis that is nearest to the normal.
       const Vector normal = dealii::cross_product_3d(corners[1] - corners[0],
                                                      corners[2] - corners[0]);
       unsigned int axis   = 0;
@@ -117,7 +118,7 @@ namespace corotet
       };
       if (is_inside(p) || is_inside(q))
         return true;
-      // Neither end is inside: it crosses an edge, or nothing.
+      // If neither end is inside, the segment crosses an edge or nothing.
       for (unsigned int i = 0; i < 3; ++i)
         {
           const Flat &a = t[i], &b = t[(i + 1) % 3];

@@ -21,7 +21,8 @@ namespace corotet
 {
   namespace
   {
-    // More would exceed the 32-bit numbers of deal.II's unknowns at degree 3.
+    // More cells would exceed the 32-bit numbers of deal.II's unknowns at
+    // degree 3.
     constexpr double max_n_cells = 3e8;
 
     // A cell is flat if its volume is below this many cubes of its longest
@@ -30,7 +31,7 @@ namespace corotet
 
 
 
-    // Cells without a positive volume: how many, and the first of them.
+    // The number of cells without a positive volume, and the first of them.
     struct WrongVolumes
     {
       std::size_t                     n_cells    = 0;
@@ -66,7 +67,7 @@ namespace corotet
 
 
 
-    // @p number: of a cell in the mesh of all ranks.
+    // @p number gives the number of a cell in the mesh of all ranks.
     void
     check_volumes(const MeshCells                                  &mesh,
                   const std::function<std::uint64_t(unsigned int)> &number,
@@ -183,7 +184,8 @@ namespace corotet
                     "a vertex has the coordinates " + position(p) +
                       "; they must be finite numbers");
 
-    // @p what: called where something is wrong, as names take their time.
+    // @p what names the wrong part; it is called for errors only, as it is
+    // slow.
     const auto check = [&](const auto &vertices, const auto &what) {
       for (const unsigned int v : vertices)
         if (v >= mesh.vertices.size())
@@ -194,8 +196,7 @@ namespace corotet
                                   v,
                                   mesh.vertices.size() - 1));
     };
-    // The highest of all numbers tells in a fraction of the time whether one is
-    // wrong.
+    // The highest of all numbers tells quickly whether one is wrong.
     unsigned int highest = 0;
     for (const SerialMesh::Cell &cell : mesh.cells)
       for (const unsigned int v : cell.vertices)

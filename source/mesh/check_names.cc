@@ -44,7 +44,7 @@ namespace corotet
 
 
 
-    // Each once.
+    // Sorts parts and removes repeated ones.
     template <typename Part>
     void
     sort(std::vector<Part> &parts)
@@ -62,7 +62,7 @@ namespace corotet
 
 
 
-    // Keeps those that cells have; counts the others by their ids.
+    // Keeps the parts that cells have; counts the others by their ids.
     template <typename Part>
     Counts
     keep(std::vector<Part> &parts, std::vector<Part> &&of_cells)
@@ -142,7 +142,7 @@ namespace corotet
 
 
 
-    // The corners of the face of a cell, ascending.
+    // The corners of the face of a cell, in ascending order.
     std::array<unsigned int, 3>
     face_of(const SerialMesh &mesh, const CellPart &part)
     {
@@ -154,7 +154,7 @@ namespace corotet
 
 
 
-    // Faces that are listed with their cells, sorted, and how many cells.
+    // The listed faces of cells, sorted, to count the cells that have a face.
     class CellsOfFaces
     {
     public:
@@ -233,7 +233,7 @@ namespace corotet
     check_faces(mesh, parts);
     check_edges(mesh, parts);
     check_corners(mesh, parts);
-    // Those that were listed twice are here twice.
+    // Parts that were listed twice are here twice.
     const auto sort_list = [](std::vector<CellPart> &list) {
       const auto key = [](const CellPart &p) {
         return std::tie(p.cell, p.number, p.id);

@@ -51,7 +51,7 @@ namespace corotet
       if (std::abs(r * normal) >
           face_tolerance * longest_edge(surface, triangle) * area)
         return false;
-      // Barycentric coordinates of the projection on the plane.
+      // The barycentric coordinates of the projection onto the plane.
       const double s = dealii::cross_product_3d(r, b) * normal / (area * area);
       const double t = dealii::cross_product_3d(a, r) * normal / (area * area);
       return s >= -face_tolerance && t >= -face_tolerance &&
@@ -63,7 +63,7 @@ namespace corotet
     using BoundingBox = dealii::BoundingBox<3>;
     using SurfaceTree = dealii::RTree<std::pair<BoundingBox, unsigned int>>;
 
-    // Of a triangle, with what counts as touching it.
+    // The box around a triangle and the points that count as touching it.
     BoundingBox
     box_of(const CellSurface &surface, const Triangle &triangle)
     {
@@ -89,7 +89,7 @@ namespace corotet
 
 
 
-    // As it goes to another rank.
+    // A triangle in a message to another rank.
     struct SentTriangle
     {
       std::array<std::uint64_t, 3>         numbers;
@@ -98,7 +98,7 @@ namespace corotet
 
 
 
-    // Lowest and highest coordinates of a box; that of nothing meets none.
+    // The lowest and highest coordinates of a box. An empty box meets no other.
     using Extent = std::array<double, 6>;
 
     Extent
@@ -193,7 +193,7 @@ namespace corotet
     namespace MPI = dealii::Utilities::MPI;
     if (MPI::n_mpi_processes(comm) == 1)
       return;
-    // A triangle of this rank's can touch another only where its box is.
+    // Triangles of this rank can be touched only inside of the box around them.
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Extent own{{infinity, infinity, infinity, -infinity, -infinity, -infinity}};
     for (const Triangle &triangle : surface.triangles)

@@ -17,7 +17,8 @@ namespace corotet
   {
     namespace MPI = dealii::Utilities::MPI;
 
-    // The sorted cells of a rank, for questions about those of all ranks.
+    // The sorted cells of a rank, as a part of the sequence of all ranks'
+    // cells.
     class Sequence
     {
     public:
@@ -46,7 +47,7 @@ namespace corotet
         return MPI::sum(work_before.back(), comm);
       }
 
-      // How many cells of all ranks are before each of @p cuts.
+      // The number of cells of all ranks before each of @p cuts.
       std::vector<std::uint64_t>
       n_cells_before(const std::vector<CurvePlace> &cuts) const
       {
@@ -58,17 +59,18 @@ namespace corotet
       }
 
       /**
-       * Places that have so much before them, ascending as @p amounts: work, or
-       * cells. Of those that differ from it by no more than @p tolerance, the
-       * one that is the corner of the largest cube; without any, the lowest one
-       * with at least so much.
+       * Finds places before which there is the given amount of work, or of
+       * cells; @p amounts are ascending. Of the places where the amount differs
+       * by at most @p tolerance it takes the corner of the largest cube;
+       * without any, the lowest place with at least this amount.
        */
       std::vector<CurvePlace>
       cuts(const std::vector<std::uint64_t> &amounts,
            const bool                        of_work,
            const std::uint64_t               tolerance) const
       {
-        // By bisection: bits of the place on the curve, then of the number.
+        // Bisection: sets the bits of the place on the curve, then of the
+        // number.
         std::vector<CurvePlace> cuts(amounts.size(), CurvePlace{0, 0});
         std::vector<bool>       is_found(amounts.size(), false);
         for (const auto &[coordinate, n_bits] :
@@ -94,14 +96,14 @@ namespace corotet
                     cuts[i] = trials[i];
                 }
             }
-        // The others are the highest places with less before them.
+        // The other cuts are the highest places with less before them.
         for (std::size_t i = 0; i < cuts.size(); ++i)
           if (!is_found[i])
             ++cuts[i].number;
         return cuts;
       }
 
-      // Of the first cell of this rank that is not before @p cut.
+      // The index of the first cell of this rank that is not before @p cut.
       std::size_t
       position(const CurvePlace &cut) const
       {
@@ -124,15 +126,15 @@ namespace corotet
 
 
 
-    // Of the work of a rank, what it may have more or less at either end, so
-    // that pieces end between large cubes: lines of cells through the thickness
-    // of a plate, which solvers want together, stay whole [-].
+    // The tolerance of a rank's work at either end of its piece, relative to
+    // its work, so that pieces end between large cubes: lines of cells through
+    // the thickness of a plate, which solvers need together, stay whole [-].
     constexpr double unequal_work = 0.005;
 
 
 
-    // Where the piece of each rank but the first begins, with about equal work,
-    // and a cell for each rank.
+    // The first places of the pieces of all ranks but the first, with about
+    // equal work, and a cell for each rank.
     std::vector<CurvePlace>
     beginnings(const Sequence &sequence, const unsigned int n_ranks)
     {

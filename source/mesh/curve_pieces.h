@@ -13,7 +13,7 @@
 
 namespace corotet
 {
-  /// What cells are sorted by: the place on the curve and, for cells at the
+  /// The key for sorting cells: the place on the curve and, for cells at the
   /// same place, their numbers.
   struct CurvePlace
   {
@@ -24,7 +24,7 @@ namespace corotet
     operator<=>(const CurvePlace &) const = default;
   };
 
-  /// A cell of the part, or of one of several, and its place.
+  /// A cell of a part, or of one of several parts, and its place on the curve.
   struct PlacedCell
   {
     std::uint64_t on_curve;
@@ -32,15 +32,16 @@ namespace corotet
     unsigned int  part = 0;
   };
 
-  /// Of the sorted cells of this rank, those from the first on and before the
-  /// last that belong to one rank.
+  /// A range of this rank's sorted cells that belongs to one rank: from @p
+  /// begin to before @p end.
   struct Piece
   {
     std::size_t begin, end;
   };
 
-  /// What the cells of this rank, sorted, have for each rank, so that all get
-  /// pieces of the curve with about equal work, and a cell each. Collective.
+  /// The ranges of this rank's sorted cells for each rank, so that all ranks
+  /// get pieces of the curve with about equal work, and a cell each.
+  /// Collective.
   std::vector<Piece>
   pieces_by_owner(const MeshPart                &part,
                   const std::vector<PlacedCell> &cells,

@@ -25,7 +25,7 @@ namespace corotet
 
 
 
-    // All points with barycentric coordinates of multiples of 1 / n.
+    // All points whose barycentric coordinates are multiples of 1 / n.
     std::vector<Point<3>>
     lattice(const unsigned int n)
     {
@@ -39,7 +39,7 @@ namespace corotet
 
 
 
-    // Of a tetrahedron with the volume 1/6, the mean determinant of Jacobians.
+    // The mean determinant of the Jacobian, which is 1 if the volume is 1/6.
     double
     mean_determinant(const MapAtPoints         &map,
                      const std::vector<double> &weights,
@@ -53,7 +53,8 @@ namespace corotet
 
 
 
-    // Of degree 7: determinants are polynomials of degree 3 (q - 1) <= 6.
+    // A rule of degree 7: determinants are polynomials of degree 3 (q - 1) <=
+    // 6.
     dealii::Quadrature<3>
     determinant_rule()
     {
@@ -62,7 +63,7 @@ namespace corotet
 
 
 
-    // What the checks of the maps of one degree have found.
+    // The result of checking the maps, interpolated with one degree.
     struct Folds
     {
       std::size_t            n_cells = 0;
@@ -73,7 +74,7 @@ namespace corotet
 
 
 
-    // Smallest determinants of the maps, interpolated with @p degree.
+    // Finds the smallest determinants of the maps, interpolated with @p degree.
     Folds
     find_folds(const MeshCells &mesh, const unsigned int degree)
     {

@@ -22,8 +22,8 @@ namespace corotet
     , numbers(mesh.numbers.begin(), mesh.numbers.end())
     , owners(mesh.owners)
   {
-    // Without the descriptions of single cells, which say nothing that is not
-    // known here.
+    // The descriptions of single cells are left empty: they would repeat what
+    // is known here.
     dealii::TriangulationDescription::Description<3> description;
     description.comm      = get_communicator();
     description.smoothing = MeshSmoothing::none;
@@ -40,7 +40,7 @@ namespace corotet
     create_triangulation(description);
 
     // The far side of the ghost cells, where the known part of the mesh ends,
-    // is a surface for deal.II, and no boundary of the body either.
+    // looks like a surface to deal.II, but is not a boundary of the body.
     for (const auto &face : active_face_iterators())
       if (face->at_boundary())
         face->set_boundary_id(unnamed_boundary);
@@ -77,8 +77,8 @@ namespace corotet
     if (n_levels() > 0)
       for (const auto &cell : active_cell_iterators())
         cell->set_subdomain_id(owners[cell->active_cell_index()]);
-    // That of the parent counts coarse cells in a description that it has not
-    // been given.
+    // The parent's function counts coarse cells in a description that it does
+    // not have, so the grandparent's is called.
     // NOLINTNEXTLINE(bugprone-parent-virtual-call)
     dealii::parallel::TriangulationBase<3>::update_number_cache();
     if (n_levels() > 0)

@@ -12,7 +12,7 @@ namespace corotet
   {
     using Ends = std::array<unsigned int, 2>;
 
-    // What a vertex is on.
+    // The bits of PartsOfCells::is_on.
     constexpr unsigned char face_bit = 1, edge_bit = 2, corner_bit = 4;
   } // namespace
 

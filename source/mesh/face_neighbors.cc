@@ -15,18 +15,18 @@ namespace corotet
 {
   namespace
   {
-    // A face of a cell, at its lowest vertex.
+    // A face of a cell, in a list of its lowest vertex.
     struct CellFace
     {
       unsigned int middle, highest;
-      // Four times the cell, and the number of the face in it.
+      // Four times the cell's number, plus the number of the face in it.
       unsigned int number;
     };
 
 
 
     // Calls action(lowest vertex, face, is_even) for each face of a cell.
-    // @p is_even: an even permutation of the vertices in ascending order is
+    // is_even tells that an even permutation of the ascending vertices is
     // counter-clockwise seen from outside of the cell.
     template <typename Action>
     void
@@ -34,7 +34,7 @@ namespace corotet
                   const unsigned int                 cell,
                   const Action                      &action)
     {
-      // Corners in the order of their vertices.
+      // The corners sorted by their vertices.
       std::array<unsigned int, 4> k{{0, 1, 2, 3}};
       bool                        is_odd = false;
       for (const auto &[i, j] : {std::pair(0, 1),
@@ -49,7 +49,7 @@ namespace corotet
           }
       const unsigned int a = vertices[k[0]], b = vertices[k[1]],
                          c = vertices[k[2]], d = vertices[k[3]];
-      // The face without corner i has the number 3 - i.
+      // The face opposite to corner i has the number 3 - i.
       action(a, CellFace{b, c, 4 * cell + 3 - k[3]}, is_odd);
       action(a, CellFace{b, d, 4 * cell + 3 - k[2]}, !is_odd);
       action(a, CellFace{c, d, 4 * cell + 3 - k[1]}, is_odd);
@@ -83,11 +83,11 @@ namespace corotet
 
 
 
-    // Finds equal faces at one vertex: a hash table for as many as there are.
+    // Finds equal faces at one vertex, by a hash table that grows as needed.
     class FaceTable
     {
     public:
-      // For a vertex with so many faces.
+      // Starts a new vertex with so many faces.
       void
       start(const std::size_t n_faces)
       {
@@ -97,8 +97,8 @@ namespace corotet
         ++round;
       }
 
-      // The first face with these vertices, which is @p index if there was none
-      // before.
+      // The index of the first face with these vertices, which is @p index if
+      // there was none before.
       std::size_t
       find_or_add(const std::vector<CellFace> &faces, const std::size_t index)
       {
@@ -123,7 +123,7 @@ namespace corotet
     private:
       struct Slot
       {
-        // When it was filled.
+        // The round in which the slot was filled.
         std::uint64_t round = 0;
         std::size_t   index = 0;
       };
@@ -135,10 +135,9 @@ namespace corotet
 
 
 
-    // Fills in the neighbors of faces that have none. Where a face is another
-    // cell's in a way that is not allowed, calls
-    // refuse(its vertices, one cell, another), and if that returns, leaves
-    // all faces with the same lowest vertex without neighbors.
+    // Sets the neighbors of faces that have none. If a face of two cells is not
+    // allowed, calls refuse(its vertices, one cell, the other), and if that
+    // returns, all faces with the same lowest vertex get no neighbors.
     template <typename Refuse>
     void
     match_faces(const MeshCells   &mesh,
@@ -160,7 +159,7 @@ namespace corotet
                               action(lowest, face, even);
                           });
       };
-      // Faces are put down at their lowest vertices, where they are few.
+      // Faces are listed at their lowest vertices, a few at each.
       std::vector<std::size_t> begin(mesh.vertices.size() + 1, 0);
       for_each_open_face([&](const unsigned int lowest,
                              const CellFace &,

@@ -43,14 +43,14 @@ namespace corotet
       return corners;
     }
 
-    // Faces of only one cell, with normals that point outwards.
+    // The faces that belong to only one cell, with normals that point outwards.
     std::vector<OuterTriangle>
     surface_of(const SerialMesh &mesh)
     {
       std::map<Corners, unsigned int> boundaries;
       for (const SerialMesh::Face &face : mesh.faces)
         boundaries.emplace(sorted(face.vertices), face.boundary);
-      // Cells that overlap are found elsewhere.
+      // Overlapping cells are reported elsewhere.
       constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
       const auto             neighbors =
         find_neighbors(mesh, none, mesh.origin, [](const unsigned int) {
@@ -70,7 +70,7 @@ namespace corotet
             const dealii::Point<3> origin = x[corners[0]];
             auto                   normal =
               cross_product_3d(x[corners[1]] - origin, x[corners[2]] - origin);
-            // The corner that the face does not have is inside.
+            // The corner opposite to the face is inside.
             if (normal * (x[v[3 - f]] - origin) > 0)
               normal *= -1.;
             const auto boundary = boundaries.find(sorted(corners));
@@ -124,8 +124,8 @@ namespace corotet
         facets.unite(bend.triangles[0], bend.triangles[1]);
       else
         is_bent[bend.edge[0]] = is_bent[bend.edge[1]] = 1;
-    // Vertices on edges between boundaries or at sharp ones are on the rim of
-    // a facet, too: those whose triangles are of several facets.
+    // Vertices whose triangles belong to several facets are on the rim of
+    // these: so are vertices on edges between boundaries or at sharp edges.
     std::vector<unsigned int> facet_at(mesh.vertices.size(), no_boundary);
     for (unsigned int t = 0; t < surface.size(); ++t)
       for (const unsigned int v : surface[t].corners)

@@ -44,7 +44,7 @@ namespace corotet
 
 
 
-    // A file of VTK, as its script has written it again.
+    // The model in a VTK file, which a script converts first.
     GmshModel
     model_by_vtk(const GmshRequest &request)
     {
@@ -59,8 +59,8 @@ namespace corotet
 
 
 
-    // What we read of it or, of other formats, gmsh reads or makes. @p version:
-    // of gmsh's files.
+    // The model in a file, read by our own readers or, for other formats, by
+    // gmsh. @p version is that of a gmsh file.
     GmshModel
     model_of_file(const GmshRequest &request,
                   const MeshFormat   format,
@@ -81,8 +81,8 @@ namespace corotet
 
 
 
-    // Throws an InputError if a parameter is given that the format has no use
-    // for.
+    // Throws an InputError if a parameter is given that the format does not
+    // use.
     void
     check_use(const bool         is_used,
               const std::string &entry,
@@ -271,7 +271,7 @@ namespace corotet
       }
     catch (const InputError &error)
       {
-        // There is no parameter file that could be blamed.
+        // There is no parameter file to blame.
         throw InputError("", error.what());
       }
   }

@@ -107,8 +107,8 @@ namespace corotet::mending
     };
     for (unsigned int t = 0; t < surface.triangles.size(); ++t)
       change_edges(t, true);
-    // Each turn makes two triangles of two; several flat ones in a row need
-    // one turn each, and a few more where they are stacked.
+    // Each turn of an edge makes two triangles of two. Several flat triangles
+    // in a row need one turn each, and a few more where they are stacked.
     for (unsigned int round = 0; round < 10 && !flat.empty(); ++round)
       {
         std::vector<unsigned int> next;
@@ -129,7 +129,7 @@ namespace corotet::mending
                    surface.triangles[other][k] == b)
               ++k;
             const unsigned int d = surface.triangles[other][k];
-            // Its other corners, in its own order.
+            // The other corners of the neighbour, in its own order.
             const unsigned int from = surface.triangles[other][(k + 1) % 3];
             const unsigned int to   = surface.triangles[other][(k + 2) % 3];
             if (c == d || !of_edge[edge(c, d)].empty())

@@ -12,8 +12,8 @@ namespace corotet
     : comm(mesh.communicator)
   {
     std::map<unsigned int, Neighbor> by_rank;
-    // Vertices of ghosts, and the ranks that own cells with them; of each
-    // vertex the last of these that was met.
+    // Pairs of a vertex of ghosts and a rank that owns cells with it; last_rank
+    // is the last such rank found for each vertex.
     constexpr unsigned int    none = dealii::numbers::invalid_unsigned_int;
     std::vector<unsigned int> last_rank(mesh.vertices.size(), none);
     std::vector<std::pair<unsigned int, unsigned int>> ranks;
@@ -31,7 +31,8 @@ namespace corotet
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         const auto &v = mesh.cells[c].vertices;
-        // All bits of none are set.
+        // All bits of none are set, so the result is none only if all four are
+        // none.
         if (!mesh.is_owned(c) || (last_rank[v[0]] & last_rank[v[1]] &
                                   last_rank[v[2]] & last_rank[v[3]]) == none)
           continue;

@@ -14,8 +14,8 @@ namespace corotet::gmsh_elements
 {
   namespace
   {
-    // gmsh's reference tetrahedron is deal.II's. A process of gmsh that was
-    // damaged may say anything.
+    // gmsh's reference tetrahedron is deal.II's. This is checked, since a
+    // damaged process of gmsh may return anything.
     std::vector<unsigned int>
     node_order(const std::vector<double> &theirs,
                const unsigned int         degree,

@@ -18,8 +18,8 @@ namespace corotet
 {
   namespace
   {
-    // Physical groups of one dimension: the id of each geometric entity that
-    // belongs to some, and what the groups mean by these ids.
+    // The physical groups of one dimension: the id of each geometric entity
+    // that belongs to some groups, and the names of these ids.
     struct PhysicalGroups
     {
       NamedSets                   named;
@@ -28,8 +28,8 @@ namespace corotet
 
 
 
-    // The groups of one dimension. Those of the same name are one, with the id
-    // of the first.
+    // The groups of one dimension. Groups with the same name are united, with
+    // the id of the first.
     std::vector<GmshModel::Group>
     groups_of(const GmshModel &model, const int dimension)
     {
@@ -54,8 +54,9 @@ namespace corotet
 
 
 
-    // An entity of one group has the group's id, and one of several has an id
-    // that it shares with the entities of the same groups.
+    // The ids of entities: an entity of one group has the group's id; an entity
+    // of several groups shares an id with the other entities of the same
+    // groups.
     PhysicalGroups
     physical_groups(const GmshModel &model, const int dimension)
     {
@@ -99,8 +100,8 @@ namespace corotet
 
 
 
-    // The nodes that elements use, in the order in which they are asked for:
-    // gmsh's tags may be sparse, and there may be nodes of no element.
+    // The nodes that elements use, numbered in the order of their first use:
+    // gmsh's tags may be sparse, and some nodes belong to no element.
     class UsedNodes
     {
     public:
@@ -135,7 +136,7 @@ namespace corotet
         return number->second;
       }
 
-      // Of a node that a vertex is, already.
+      // The vertex of a node, if the node is a vertex already.
       std::optional<unsigned int>
       known_vertex(const std::size_t tag) const
       {
@@ -208,7 +209,7 @@ namespace corotet
                UsedNodes            &nodes,
                const PhysicalGroups &groups)
     {
-      // In the order of the entities.
+      // The surfaces in the order of their entities.
       std::multimap<int, const GmshModel::Elements *> surfaces;
       for (const GmshModel::Elements &elements : model.surfaces)
         surfaces.emplace(elements.entity, &elements);
@@ -230,9 +231,9 @@ namespace corotet
 
 
 
-    // Hands the ends of each line of the physical curves, or each physical
-    // point, to @p add, and the group's id. Those of which some node is no
-    // vertex of a cell are counted by a remark.
+    // Calls @p add with the ends of each line of the physical curves, or each
+    // physical point, and the group's id. A remark counts those with a node
+    // that is not a vertex of a cell.
     template <typename Add>
     void
     read_parts(SerialMesh                             &mesh,
@@ -330,7 +331,7 @@ namespace corotet
     read_cells(mesh, model, nodes, kind, volumes);
     read_faces(mesh, model, nodes, surfaces);
     read_edges_and_corners(mesh, model, nodes);
-    // Cells that are straight may have more nodes in the file.
+    // Straight cells may have additional nodes in the file.
     if (mesh.geometry_degree > 1)
       return mesh;
     std::set<unsigned int> curved;

@@ -24,8 +24,9 @@ namespace corotet
 {
   namespace
   {
-    // gmsh knows many formats by the end of the file's name only: a link to the
-    // file that has it, as long as this object lives, or the file itself.
+    // A path that gmsh recognizes: gmsh knows many formats only by the ending
+    // of the file's name. It is a link to the file with this ending, as long as
+    // this object lives, or the file itself.
     class NamedInput
     {
     public:
@@ -49,7 +50,7 @@ namespace corotet
 
 
 
-    // @p text with @p name in place of @p other.
+    // @p text with @p name in place of each @p other.
     std::string
     with_name(std::string        text,
               const std::string &other,
@@ -64,7 +65,7 @@ namespace corotet
 
 
 
-    // An error of gmsh, "'PATH', line N: TEXT" or any other text, as
+    // Turns an error of gmsh, "'PATH', line N: TEXT" or another text, into
     // "PATH:N: TEXT" or "PATH: TEXT".
     std::string
     message_of_gmsh(const std::string &path, std::string text)
@@ -80,8 +81,8 @@ namespace corotet
 
 
 
-    // What the process may have for a file [byte]: a mesh is not made longer
-    // than it is, a geometry may fill the machine.
+    // The memory limit of the process [byte]: for a mesh in proportion to its
+    // file, for a geometry the memory of the machine.
     std::uint64_t
     memory_limit(const std::string &path, const bool is_geometry)
     {
@@ -106,8 +107,7 @@ namespace corotet
 
 
 
-    // Whether lists that belong to each other have the sizes and kinds that
-    // they must have.
+    // Whether related lists have the sizes and types that they must have.
     bool
     fits_together(const GmshModel &model)
     {

@@ -19,7 +19,7 @@
 
 #ifdef COROTET_WITH_PT_SCOTCH
 #  include <cstdio>
-// It uses FILE without declaring it.
+// The header uses FILE without declaring it.
 #  include <ptscotch.h>
 #endif
 
@@ -30,12 +30,12 @@ namespace corotet
     namespace MPI = dealii::Utilities::MPI;
 
 #ifdef COROTET_WITH_PT_SCOTCH
-    // Of the work of a rank, how much more than the mean it may be [-].
+    // The largest excess of a rank's work over the mean [-].
     constexpr double inequality = 0.01;
 
 
 
-    // Its functions return zero if all is well. On one rank.
+    // Throws if a function of PT-Scotch on this rank failed: success is zero.
     void
     require(const int status, const char *function)
     {
@@ -47,12 +47,12 @@ namespace corotet
 
 
 
-    // Objects of PT-Scotch, which end with the scope.
+    // An object of PT-Scotch that is released at the end of the scope.
     template <typename Type, void (*exit)(Type *)>
     class Scoped
     {
     public:
-      // @p init makes it, or throws.
+      // @p init initialises the object, or throws.
       template <typename Init>
       explicit Scoped(const Init &init)
       {
@@ -84,7 +84,7 @@ namespace corotet
 
 
 
-    // The rank of each owned cell, in their order.
+    // The new rank of each owned cell, in the order of the cells.
     std::vector<SCOTCH_Num>
     ranks_of_cells(const LocalMesh &mesh)
     {
@@ -114,7 +114,7 @@ namespace corotet
         context.emplace([](SCOTCH_Context *object) {
           require(SCOTCH_contextInit(object), "SCOTCH_contextInit");
         });
-        // One thread, and chance that is always the same.
+        // One thread, and the same random numbers at each call.
         require(SCOTCH_contextThreadSpawn(context->get(), 1, nullptr),
                 "SCOTCH_contextThreadSpawn");
         require(SCOTCH_contextRandomClone(context->get()),
@@ -134,7 +134,7 @@ namespace corotet
                                            inequality),
                 "SCOTCH_stratDgraphMapBuild");
       });
-      // Collective ones.
+      // Checks collective functions.
       const auto require_on_all = [&](const int status, const char *function) {
         on_all_ranks(mesh.communicator, [&] { require(status, function); });
       };

@@ -19,7 +19,7 @@ namespace corotet
   {
     using nlohmann::json;
 
-    // The attribute that says what the file is.
+    // The attribute that marks a file as a mesh.
     constexpr const char *mark_of_mesh = "corotet_mesh";
 
   } // namespace

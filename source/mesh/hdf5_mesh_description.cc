@@ -67,7 +67,7 @@ namespace corotet::hdf5_mesh
     };
     for (const auto &[name, ids] : text.at("sets").items())
       named.sets[name] = known_ids(ids, name);
-    // Files of earlier versions have none.
+    // Files of earlier program versions have no parts.
     for (const json &entry : text.value("parts", json::array()))
       {
         const auto id   = entry.at(0).get<unsigned int>();

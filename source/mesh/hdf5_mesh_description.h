@@ -12,18 +12,18 @@
 
 namespace corotet::hdf5_mesh
 {
-  /// Of the files that are written, the only one that is read.
+  /// The version of the files that are written, the only one that is read.
   constexpr int version = 1;
 
-  /// Throws the InputError about a file that cannot be as it is.
+  /// Throws the InputError about an invalid file.
   [[noreturn]] void
   refuse(const std::string &path, const std::string &message);
 
-  /// Names in the description of a mesh.
+  /// The names in the description of a mesh.
   nlohmann::json
   to_json(const NamedSets &named);
 
-  /// The same names; refuses ids that cannot be, and sets of others.
+  /// The names of a description; refuses invalid ids, and sets of unknown ids.
   NamedSets
   from_json(const nlohmann::json &text, const std::string &path);
 } // namespace corotet::hdf5_mesh

@@ -31,7 +31,7 @@ namespace corotet
     namespace MPI = dealii::Utilities::MPI;
     using nlohmann::json;
 
-    // Of all rows, those of this rank if they are shared out evenly.
+    // The rows of this rank, if @p n rows are divided evenly.
     Hdf5Rows
     own_rows(const hsize_t n, const hsize_t n_columns, const MPI_Comm comm)
     {
@@ -41,7 +41,7 @@ namespace corotet
       return {first, n * (rank + 1) / ranks - first, n, n_columns};
     }
 
-    // The rank whose own rows row @p i is among.
+    // The rank that row @p i belongs to in own_rows().
     unsigned int
     owner_of_row(const hsize_t i, const hsize_t n, const MPI_Comm comm)
     {
@@ -52,7 +52,7 @@ namespace corotet
       return rank;
     }
 
-    // What a rank reads: its rows of all tables, and their sizes.
+    // The tables of a file: their sizes, and the rows that this rank reads.
     struct Tables
     {
       Tables(const std::string &path, const MPI_Comm comm)
@@ -74,7 +74,7 @@ namespace corotet
         check_number_of_cells(n_cells, 0);
       }
 
-      // All numbers of a row must be from @p lowest to below @p end.
+      // Reads a table; all numbers must be from @p lowest to below @p end.
       std::vector<std::int64_t>
       integers(const std::string  &name,
                const Hdf5Rows     &rows,
@@ -143,7 +143,7 @@ namespace corotet
           mesh.names.corners    = from_json(text.at("corners"), path);
           mesh.part.geometry_degree =
             text.at("geometry degree").get<unsigned int>();
-          // Files of the first programs do not have it.
+          // Files of the first program versions do not have this entry.
           mesh.faceted =
             text.value("faceted", json::array()).get<std::set<unsigned int>>();
         }
@@ -165,7 +165,7 @@ namespace corotet
           remark_on_facets(mesh.faceted, mesh.names.boundaries));
     }
 
-    // Vertices have their numbers in the file here.
+    // Reads the cells; returns their vertices by their numbers in the file.
     std::vector<std::array<std::uint64_t, 4>>
     read_cells(SpreadMesh &mesh, const Tables &tables)
     {
@@ -215,7 +215,7 @@ namespace corotet
       return result;
     }
 
-    // Asks the ranks that have read them for the vertices of the cells.
+    // Gets the vertices of the cells from the ranks that have read them.
     void
     fetch_vertices(MeshPart                                        &part,
                    const std::vector<std::array<std::uint64_t, 4>> &cells,
@@ -226,7 +226,7 @@ namespace corotet
       for (std::size_t c = 0; c < cells.size(); ++c)
         for (unsigned int k = 0; k < 4; ++k)
           part.cells[c].vertices[k] = met.index_of(cells[c][k]);
-      // Ascending, as the ranks are that answer.
+      // The numbers are ascending, like the ranks that answer.
       std::vector<std::uint64_t> &numbers = part.vertex_numbers;
       numbers                             = met.numbers();
       std::sort(numbers.begin(), numbers.end());
@@ -247,12 +247,12 @@ namespace corotet
       for (const auto &[rank, questions] : exchange_arrays(asked, tables.comm))
         for (const std::uint64_t number : questions)
           answers[rank].push_back(own[number - first]);
-      // Ranks, and their vertices, ascending.
+      // Ranks are ascending, and so are the vertices of each.
       for (const auto &[rank, points] : exchange_arrays(answers, tables.comm))
         part.vertices.insert(part.vertices.end(), points.begin(), points.end());
     }
 
-    // What has a name, as it is in the file.
+    // A named part of a cell in the file.
     struct StoredPart
     {
       std::uint64_t cell;
@@ -292,7 +292,7 @@ namespace corotet
       return result;
     }
 
-    // Gives names to the ranks that have their cells.
+    // Sends named parts to the ranks that have their cells.
     std::vector<CellPart>
     share_out(const std::vector<StoredPart> &stored, const Tables &tables)
     {
@@ -310,7 +310,7 @@ namespace corotet
       return result;
     }
 
-    // The first nodes of curved cells are their vertices.
+    // Checks that the first nodes of curved cells are their vertices.
     void
     check_curves(const MeshPart &part, const std::string &path)
     {
@@ -325,7 +325,8 @@ namespace corotet
                   position(part.vertices[cell.vertices[k]]));
     }
 
-    // Each list must be in the order of the cells; of a face there is one.
+    // Checks that each list is in the order of the cells, and that no face is
+    // listed twice.
     void
     check_order(const MeshPart &part, const std::string &path)
     {
@@ -352,7 +353,7 @@ namespace corotet
       std::vector<StoredPart>                   faces, edges, corners;
       mesh.origin = path;
       on_all_ranks(comm, [&] {
-        // First of all the version, which says what tables there are.
+        // The version is read first: it tells which tables there are.
         read_description(mesh, path);
         tables.emplace(path, comm);
         cells = read_cells(mesh, *tables);

@@ -13,13 +13,14 @@ namespace corotet
 {
   namespace
   {
-    // How the curve runs through a cube.
+    // The orientation of the curve in a cube.
     struct Orientation
     {
-      // The coordinate that stands for each one, and whether it runs backwards.
+      // For each axis of the curve, the coordinate along it, and whether it
+      // runs backwards.
       std::array<unsigned int, 3> axes{{0, 1, 2}};
       std::array<unsigned int, 3> is_reversed{{0, 0, 0}};
-      // From its end to its beginning.
+      // Whether the curve runs from its end to its beginning.
       unsigned int is_backward = 0;
 
       auto
@@ -28,10 +29,10 @@ namespace corotet
 
 
 
-    // Of the cubes of half the size in one with the orientation @p from, the
-    // one at @p octant (a bit for each coordinate, that of the first one the
-    // highest): how many the curve goes through before, and the orientation in
-    // it.
+    // Finds the cube at @p octant of a cube with the orientation @p from, which
+    // is divided into eight; @p octant has a bit for each coordinate, the first
+    // one highest. Returns the number of cubes that the curve passes before,
+    // and the orientation in the found cube.
     std::pair<unsigned int, Orientation>
     step(const Orientation &from, const unsigned int octant)
     {
@@ -47,7 +48,7 @@ namespace corotet
             std::swap(to.axes[0], to.axes[i]);
             std::swap(to.is_reversed[0], to.is_reversed[i]);
           }
-      // Gray's code.
+      // Gray code.
       bits[1] ^= bits[0];
       bits[2] ^= bits[1];
       to.is_backward ^= bits[2];
@@ -57,12 +58,12 @@ namespace corotet
 
 
 
-    // What step() says, for two bits of each coordinate at a time.
+    // The results of step() for two bits of each coordinate at a time.
     class Table
     {
     public:
-      // Of a cube in a larger one: how many the curve goes through before, and
-      // the number of its orientation.
+      // The result for a cube in a larger one: the number of cubes that the
+      // curve passes before, and the index of its orientation.
       struct Entry
       {
         std::uint8_t n_before;
@@ -71,7 +72,7 @@ namespace corotet
 
       Table()
       {
-        // Orientations in the order in which they are met.
+        // Orientations in the order of their first occurrence.
         std::vector<Orientation> orientations(1);
         const auto               number = [&](const Orientation &orientation) {
           const auto place =
@@ -98,7 +99,8 @@ namespace corotet
             }
       }
 
-      // @p interleaved: the bits of the three coordinates in turns.
+      // The place of a point. @p interleaved has the bits of the three
+      // coordinates in turns.
       std::uint64_t
       place(const std::uint64_t interleaved) const
       {
@@ -115,15 +117,17 @@ namespace corotet
       }
 
     private:
-      // Of the eight cubes in the whole one, as the number of bits is odd.
+      // The entries for the eight cubes of the whole cube, as the number of
+      // bits is odd.
       std::array<Entry, 8> first;
-      // Of the 64 cubes of a quarter of the size, for each orientation.
+      // The entries for the 64 cubes of a quarter of the size, for each
+      // orientation.
       std::vector<Entry> entries;
     };
 
 
 
-    // Puts two zeros between the bits.
+    // Puts two zeros between the bits of @p x.
     std::uint64_t
     spread(const std::uint32_t x)
     {

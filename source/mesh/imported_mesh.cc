@@ -19,7 +19,7 @@ namespace corotet
   {
     using ImportedFace = ImportedMesh::Face;
 
-    // The corners of the face of a tetrahedron that does not have its vertex k.
+    // The corners of the face opposite to vertex k of a tetrahedron.
     constexpr std::array<std::array<unsigned int, 3>, 4> corners_without{
       {{{1, 2, 3}}, {{0, 2, 3}}, {{0, 1, 3}}, {{0, 1, 2}}}};
 
@@ -30,7 +30,7 @@ namespace corotet
       return face;
     }
 
-    // Nodes of the cell @p c.
+    // The nodes of cell @p c.
     const unsigned int *
     nodes_of(const ImportedMesh &imported,
              const std::size_t   n_nodes,
@@ -39,7 +39,7 @@ namespace corotet
       return imported.cells.data() + n_nodes * c;
     }
 
-    // A face of only one cell.
+    // A face that belongs to only one cell.
     struct SurfaceFace
     {
       ImportedFace corners;
@@ -80,7 +80,7 @@ namespace corotet
       return surface;
     }
 
-    // Places of the nodes on the faces and on the edges of a tetrahedron.
+    // The nodes on each face and on each edge of a tetrahedron.
     struct NodePlaces
     {
       explicit NodePlaces(const unsigned int degree)
@@ -89,7 +89,7 @@ namespace corotet
         for (unsigned int i = 0; i < points.size(); ++i)
           {
             const dealii::Point<3> &x = points[i];
-            // Barycentric coordinates, which are zero on the opposite face.
+            // The barycentric coordinates; each is zero on the opposite face.
             const double b[] = {1 - x[0] - x[1] - x[2], x[0], x[1], x[2]};
             for (unsigned int k = 0; k < 4; ++k)
               if (std::abs(b[k]) < 1e-10)
@@ -105,9 +105,9 @@ namespace corotet
       std::array<std::vector<unsigned int>, 6> edges;
     };
 
-    // What a set of nodes consists of, on the surface: faces that have all
-    // their nodes in it; edges that have, unless these are on such faces; and
-    // vertices besides.
+    // The parts of the surface that a set of nodes consists of: faces with all
+    // their nodes in the set; edges with all their nodes in the set that are
+    // not on such faces; and remaining vertices.
     struct PartsOfSet
     {
       std::vector<ImportedFace>             faces;
@@ -214,7 +214,7 @@ namespace corotet
         }
     }
 
-    // Returns the vertex that each node is, if any.
+    // Adds the cells; returns the vertex of each node, if it is one.
     std::vector<unsigned int>
     add_cells(SerialMesh &mesh, const ImportedMesh &imported)
     {
@@ -333,7 +333,7 @@ namespace corotet
             }
       }
     add_boundaries(mesh, vertex_of_node, sets);
-    // Cells that are straight may have more nodes in the file.
+    // Straight cells may have additional nodes in the file.
     if (mesh.geometry_degree == 1)
       remark_facets(mesh, faceted_boundaries(mesh));
     return mesh;

@@ -20,7 +20,7 @@ namespace corotet
   {
     namespace MPI = dealii::Utilities::MPI;
 
-    // A vertex of a part, and another rank that has cells with it.
+    // A vertex of a part, and another rank that has cells with this vertex.
     struct SharedVertex
     {
       unsigned int vertex;
@@ -29,7 +29,8 @@ namespace corotet
 
 
 
-    // Numbers vertices by the first of the part's own cells that has them.
+    // The first place of each vertex in the part's own cells: four times the
+    // number of the cell, plus the corner.
     std::vector<std::uint64_t>
     first_places(const MeshPart &part)
     {
@@ -47,23 +48,23 @@ namespace corotet
 
 
 
-    // A vertex, as a rank tells it to the one that keeps a list of some of them
-    // (those with this rank as the remainder of their numbers), and as it hears
-    // of another rank that has it.
+    // A vertex in a message. Ranks send their vertices to the rank that keeps a
+    // list of them (number modulo the number of ranks), and receive from there
+    // the other ranks that have the same vertex.
     struct ListedVertex
     {
       std::uint64_t number;
-      // The first place on the rank that tells it; on all ranks.
+      // The first place on the sending rank, or in the answer on all ranks.
       std::uint64_t place;
-      // In the part of the rank that tells it, or hears of it.
+      // The index in the part of the rank that sends it, or gets the answer.
       unsigned int vertex;
-      // That tells it; the other one.
+      // The rank that sends it, or in the answer the other rank.
       unsigned int rank;
     };
 
 
 
-    // What the lists say to those who told them of vertices.
+    // The answers of the keeper of a list to the ranks that have sent vertices.
     std::map<unsigned int, std::vector<ListedVertex>>
     answers(const std::map<unsigned int, std::vector<ListedVertex>> &told)
     {
@@ -95,13 +96,14 @@ namespace corotet
 
 
     // Numbers the vertices as LocalMesh says, and returns those that other
-    // ranks have, too, by ranks. @p neighbors: among the part's own cells.
+    // ranks also have, sorted by ranks. @p neighbors are those among the part's
+    // own cells.
     std::vector<SharedVertex>
     number_vertices(MeshPart            &part,
                     const CellNeighbors &neighbors,
                     const MPI_Comm       comm)
     {
-      // Cells of other ranks are behind faces without a neighbor.
+      // Cells of other ranks can only be behind faces without a neighbor.
       std::vector<bool> is_open(part.vertices.size(), false);
       for (unsigned int c = 0; c < part.cells.size(); ++c)
         for (unsigned int f = 0; f < 4; ++f)
@@ -139,7 +141,7 @@ namespace corotet
 
 
 
-    // For each other rank, the cells that share a vertex with its own.
+    // The messages for other ranks: the cells that share a vertex with theirs.
     Messages
     cells_for_others(const MeshPart                  &part,
                      const std::vector<SharedVertex> &shared)
@@ -171,7 +173,7 @@ namespace corotet
                        std::back_inserter(cells),
                        has_one);
           MeshPart beside = cutter.cut(cells);
-          // Only owned cells have those.
+          // Only owned cells have named edges and corners.
           beside.edges.clear();
           beside.corners.clear();
           messages[begin->rank] = packed(beside);
@@ -183,8 +185,8 @@ namespace corotet
 
 
 
-    // Makes a mesh of the cells of this rank and those of others beside them,
-    // where neighbors among its own cells are known.
+    // Makes a mesh of the cells of this rank and those of other ranks beside
+    // them; the neighbors among its own cells are set.
     void
     add_cells_beside(LocalMesh &mesh, MeshPart &&part)
     {
@@ -219,7 +221,7 @@ namespace corotet
       const auto is_before = [&](const auto &a, const auto &b) {
         return number(a) < number(b);
       };
-      // Pieces of the curve are.
+      // Pieces of the curve are sorted already.
       if (!std::is_sorted(order.begin(), order.end(), is_before))
         std::sort(order.begin(), order.end(), is_before);
 

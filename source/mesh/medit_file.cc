@@ -39,7 +39,7 @@ namespace corotet
         find_next();
       }
 
-      // The word that is read next; empty at the end of the file.
+      // The next word, which is not yet taken; empty at the end of the file.
       std::string_view
       peek() const
       {
@@ -55,7 +55,7 @@ namespace corotet
         return result;
       }
 
-      // Whether the next word is in another line than the last one.
+      // Whether the next word is in another line than the last word taken.
       bool
       is_at_end_of_line() const
       {
@@ -69,14 +69,14 @@ namespace corotet
                std::isalpha(static_cast<unsigned char>(line[begin])) != 0;
       }
 
-      // About the word that was read last.
+      // The place of the last word taken.
       abaqus::Place
       place() const
       {
         return {path, last_line};
       }
 
-      // About the next word.
+      // Throws an InputError about the next word.
       [[noreturn]] void
       refuse_next(const std::string &expected) const
       {
@@ -111,14 +111,14 @@ namespace corotet
       const std::string path;
       std::ifstream     file;
       std::string       line;
-      // Of the next word, and its line.
+      // The position of the next word in its line, and the number of this line.
       std::size_t begin = 0, end = 0;
       unsigned    number = 0, last_line = 0;
     };
 
 
 
-    // gmsh's type of elements, and theirs in our order.
+    // gmsh's type of elements, and the nodes in gmsh's order.
     struct MeditType
     {
       int                      gmsh;
@@ -156,8 +156,9 @@ namespace corotet
       }
 
     private:
-      // Of the nodes on edges, those of 1-2, 2-3, 3-1, 1-4, 2-4, 3-4 follow
-      // the corners; gmsh has the last two the other way round.
+      // The type with this name. In Medit's files the nodes on the edges 1-2,
+      // 2-3, 3-1, 1-4, 2-4, 3-4 follow the corners; gmsh has the last two in
+      // opposite order.
       static std::optional<MeditType>
       type_of(const std::string &name)
       {
@@ -172,7 +173,7 @@ namespace corotet
         return {};
       }
 
-      // Too many for the section before.
+      // Throws an InputError about entities beyond the number of their section.
       [[noreturn]] void
       refuse_excess() const
       {
@@ -228,7 +229,8 @@ namespace corotet
         return *count;
       }
 
-      // Of the section's entities, @p n_left are still to come.
+      // Throws if the file ends although @p n_left entities of the section are
+      // missing.
       void
       check_that_there_is_more(const std::int64_t n_left) const
       {
@@ -240,10 +242,10 @@ namespace corotet
                         *count));
       }
 
-      // Lines may have several entities, and entities several lines; but where
-      // one begins behind another and does not end in its line, they have
-      // another number of numbers than they should: gmsh writes ten nodes of
-      // tetrahedra where four are expected.
+      // Lines may have several entities, and entities several lines. But an
+      // entity that begins behind another and does not end in its line has a
+      // wrong number of numbers: gmsh writes ten nodes of tetrahedra where four
+      // are expected.
       void
       check_line(const bool is_first, const std::size_t n_numbers) const
       {
@@ -316,8 +318,8 @@ namespace corotet
           }
       }
 
-      // Sections consist of numbers, up to the name of the next one, but for a
-      // few that have a text in their line.
+      // Skips a section: numbers up to the name of the next section, except for
+      // a few sections with a text in their line.
       void
       skip(const std::string &name)
       {
@@ -343,7 +345,7 @@ namespace corotet
       }
 
       MeditWords words;
-      // Of the present section: its name, and how many of it there are.
+      // The name of the present section, and its number of entities.
       std::string                 section;
       std::optional<std::int64_t> count;
       std::uint64_t               n_vertices = 0;

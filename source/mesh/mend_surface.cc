@@ -26,7 +26,7 @@ namespace corotet
 
 
 
-    // Keeps some triangles. Returns how many have gone.
+    // Removes the triangles that @p keep rejects. Returns their number.
     template <typename Keep>
     std::size_t
     keep_triangles(TriangleSurface &surface, const Keep &keep)
@@ -47,7 +47,7 @@ namespace corotet
 
 
 
-    // The first vertex with the same coordinates, for each vertex.
+    // For each vertex, the first vertex with the same coordinates.
     std::vector<unsigned int>
     equal_vertices(const std::vector<Point<3>> &vertices)
     {
@@ -71,13 +71,14 @@ namespace corotet
 
 
 
-    // Gives triangles the first of the vertices at a place, and removes those
-    // that none has. Returns how many were near another, not equal to it.
+    // Replaces vertices at the same place by the first of them, and removes
+    // unused ones. Returns how many were near another vertex, but not equal to
+    // it.
     std::size_t
     merge_vertices(TriangleSurface &surface)
     {
       std::vector<unsigned int> first = equal_vertices(surface.vertices);
-      // Those that differ, near each other.
+      // Finds vertices that differ but are near each other.
       const double near = mending::resolution(surface);
       std::vector<std::pair<Point<3>, unsigned int>> points;
       for (unsigned int v = 0; v < first.size(); ++v)
@@ -122,7 +123,7 @@ namespace corotet
 
 
 
-    // Of edges with another number of triangles than two.
+    // The edges whose number of triangles is not two.
     struct WrongEdges
     {
       std::size_t n = 0;
@@ -184,8 +185,8 @@ namespace corotet
 
 
 
-    // Lets neighbours face the same way, and closed surfaces outwards. Returns
-    // how many triangles were turned over.
+    // Turns triangles so that neighbours face the same way, and closed surfaces
+    // outwards. Returns the number of turned triangles.
     std::size_t
     orient(TriangleSurface &surface)
     {
@@ -198,8 +199,8 @@ namespace corotet
             const unsigned int t             = edge.triangles[i];
             neighbours[t][n_neighbours[t]++] = edge.triangles[1 - i];
           }
-      // Whether the two run along a shared edge in the same direction: then one
-      // is the wrong way round.
+      // Whether two triangles run along a shared edge in the same direction:
+      // then one of them must be turned.
       const auto disagree = [&](const Triangle &s, const Triangle &t) {
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
@@ -239,7 +240,8 @@ namespace corotet
                   }
                 shell.push_back(other);
               }
-          // Relative to a corner, so that far from the origin nothing cancels.
+          // The volume is computed relative to a corner, so that nothing
+          // cancels far from the origin.
           double         volume = 0;
           const Point<3> origin = surface.vertices[surface.triangles[seed][0]];
           for (const unsigned int t : shell)
@@ -253,7 +255,8 @@ namespace corotet
           if (volume < 0)
             for (const unsigned int t : shell)
               std::swap(surface.triangles[t][1], surface.triangles[t][2]);
-          // A whole surface that faces inwards is a hollow, and no mistake.
+          // A closed surface that faces inwards as a whole is a hollow and not
+          // counted.
           n_turned += std::min(n, shell.size() - n);
         }
       return n_turned;

@@ -11,19 +11,19 @@
 /// Parts of mend_surface().
 namespace corotet::mending
 {
-  /// Throws the InputError that says @p message about the file of a surface.
+  /// Throws the InputError with @p message about the file of a surface.
   [[noreturn]] void
   refuse(const TriangleSurface &surface, const std::string &message);
 
-  /// What numbers of seven digits, which is what files have, do not tell apart
-  /// in the coordinates of a surface [m].
+  /// The accuracy of coordinates with seven digits, which files have, for the
+  /// size of a surface [m].
   double
   resolution(const TriangleSurface &surface);
 
   /**
-   * A triangle whose corners lie on a line goes: the neighbour at its longest
-   * edge is divided at the corner between the others, which changes no shape.
-   * All edges must have two triangles. Returns how many have gone.
+   * Removes triangles whose corners lie on a line: the neighbour at the longest
+   * edge is divided at the opposite corner, which does not change the shape.
+   * All edges must have two triangles. Returns the number of removed triangles.
    */
   std::size_t
   divide_at_flat_triangles(TriangleSurface &surface);

@@ -64,8 +64,9 @@ namespace corotet
     {
       check_number_of_cells(n_coarse_cells, n_refinements);
       const double n_cells = n_coarse_cells * std::pow(8., n_refinements);
-      // Half of what was measured for a body at rest, solvers not included
-      // [byte]. Several ranks may be on several machines.
+      // Half of the memory that was measured for a body at rest, without
+      // solvers [byte]. With several ranks it is not checked, as they may be on
+      // several machines.
       constexpr double bytes_per_cell[] = {350, 600, 1500};
       if (n_ranks == 1)
         check_memory(n_cells * bytes_per_cell[element_degree - 1],
@@ -130,8 +131,8 @@ namespace corotet
 
 
 
-    // Shares out a mesh that rank 0 has. @p n_refinements becomes what is left
-    // to be done.
+    // Distributes a mesh that rank 0 has. @p n_refinements becomes the number
+    // of refinements that are still to be made.
     SpreadMesh
     scattered(SerialMesh         mesh,
               unsigned int      &n_refinements,
@@ -283,7 +284,7 @@ namespace corotet
         part       = owned_part(local_mesh);
         local_mesh = {};
         refine_uniformly(part, n_refinements, comm);
-        // Vertices have moved to where the curves have them.
+        // Refinement has moved vertices onto the curves.
         least_determinant =
           check_cells_on_ranks(part, mesh.origin, element_degree, comm);
         sort_along_curve(part, comm);

@@ -25,7 +25,7 @@ namespace corotet
 {
   namespace
   {
-    // What formats begin with is within these bytes.
+    // The number of bytes in which the beginning of all formats is recognized.
     constexpr std::size_t n_first_bytes = 4096;
 
     constexpr const char *hdf5_signature = "\x89HDF\r\n\x1a\n";
@@ -47,8 +47,8 @@ namespace corotet
 
 
 
-    // Lines of 80 columns; column 73 has the letter of the section, then the
-    // number of the line follows.
+    // Whether lines have 80 columns, with the letter of the section in column
+    // 73 and then the number of the line.
     bool
     begins_like_iges(const std::string &bytes)
     {
@@ -59,7 +59,7 @@ namespace corotet
 
 
 
-    // The first line that is no comment has a keyword.
+    // Whether the first line without a comment has a keyword.
     bool
     begins_like_abaqus(const std::string &bytes)
     {
@@ -80,7 +80,8 @@ namespace corotet
 
 
 
-    // In upper case; what ends a word in some formats is a blank here.
+    // The first word of a line, in upper case; characters that end a word in
+    // some formats count as blanks.
     std::string
     first_word(const std::string &line)
     {
@@ -92,8 +93,8 @@ namespace corotet
 
 
 
-    // The first line that is no comment is a statement of the executive or of
-    // the case control, or a card of the bulk data.
+    // Whether the first line without a comment is a statement of the executive
+    // or of the case control, or a card of the bulk data.
     bool
     begins_like_nastran(const std::string &bytes)
     {
@@ -126,7 +127,7 @@ namespace corotet
 
 
 
-    // A dataset: a line of -1, and a line with its number.
+    // Whether a dataset begins: a line of -1, and a line with its number.
     bool
     begins_like_unv(const std::string &bytes)
     {
@@ -138,8 +139,8 @@ namespace corotet
 
 
 
-    // A binary file of STL begins with anything, but says how long it is: a
-    // header of 80 bytes, a number of triangles, 50 bytes for each.
+    // Whether the size fits a binary STL file, which may begin with anything: a
+    // header of 80 bytes, the number of triangles, 50 bytes for each.
     bool
     has_size_of_stl(const std::string &path, const std::string &bytes)
     {
@@ -152,7 +153,7 @@ namespace corotet
 
 
 
-    // The first line that is no comment is one of OBJ.
+    // Whether the first line without a comment is a statement of OBJ.
     bool
     begins_like_obj(const std::string &bytes)
     {
@@ -211,7 +212,7 @@ namespace corotet
         return MeshFormat::nastran;
       if (begins_like_obj(bytes))
         return MeshFormat::obj;
-      // A file of HDF5 with MED's groups.
+      // MED files are HDF5 files with MED's groups.
       if (bytes.starts_with(hdf5_signature) &&
           has("INFOS_GENERALES", n_first_bytes))
         return MeshFormat::med;
@@ -220,8 +221,8 @@ namespace corotet
 
 
 
-    // OpenCASCADE can go on for ever where a BREP file was cut off. Shapes come
-    // last, each with an asterisk at its end, and behind them the number and
+    // Refuses incomplete BREP files, with which OpenCASCADE may never end.
+    // Shapes come last, each with an asterisk at its end, then the number and
     // the place of the whole: "+1 0".
     void
     check_brep(const std::string &path)
@@ -242,7 +243,7 @@ namespace corotet
             }
         }
       check_read_to_end(file, path);
-      // The matching of longer lines could fill the stack.
+      // Matching longer lines could fill the stack.
       constexpr std::size_t   most = 100;
       static const std::regex whole("[+-]\\d+ \\d+");
       if (!has_shapes || last.size() > most || !before_last.ends_with('*') ||
@@ -341,7 +342,7 @@ namespace corotet
       {
         ++number;
         std::string word = first_word(line);
-        // A comment, which may stand behind the end.
+        // Comments may follow the end.
         if (format == MeshFormat::medit && word.starts_with('#'))
           word.clear();
         if (format == MeshFormat::nastran && word == "INCLUDE")
@@ -353,7 +354,7 @@ namespace corotet
                                        number));
         if (word == wanted->second)
           last = word;
-        // Nastran reads no further.
+        // Nastran reads nothing behind ENDDATA.
         else if (!word.empty() && format != MeshFormat::nastran)
           last.clear();
       }

@@ -43,8 +43,8 @@ namespace corotet
     std::map<unsigned int, std::uint64_t> n_in_set;
     for (const std::size_t member : members)
       ++n_in_set[*id_of_member[member]];
-    // Of all members, which are many, as are sets: those with an id that is in
-    // this one are counted.
+    // Counts all members by the ids in this set; other ids are skipped, as
+    // there are many members and sets.
     std::vector<IdCount> counts;
     for (const auto &[id, n] : n_in_set)
       counts.push_back({id, 0, n});
@@ -91,7 +91,8 @@ namespace corotet
         for (auto &[other, ids] : sets)
           if (contains(ids, id))
             ids.push_back(part);
-        // Others are of no use but to be split.
+        // Other ids exist only because an id was split: their numbers have no
+        // meaning.
         if (names.contains(id))
           parts.try_emplace(id, 1, id);
         for (auto &[whole, ids] : parts)

@@ -22,7 +22,7 @@ namespace corotet
 
 
 
-    // What a message consists of, in its order.
+    // Calls @p action for each array of a message, in order.
     template <typename Part, typename Action>
     void
     for_each_array(Part &part, const Action &action)
@@ -39,7 +39,7 @@ namespace corotet
 
 
 
-    // Gives a cell of @p to the curve, if it has one, that it has in @p from.
+    // Copies the curve of a cell, if it has one, from @p from to @p to.
     void
     copy_curve(MeshPart &to, MeshCells::Cell &cell, const MeshPart &from)
     {
@@ -66,8 +66,8 @@ namespace corotet
 
 
 
-    // Of a list by cells, what belongs to those that have a new number; these
-    // are between two cells.
+    // The parts in a sorted list that belong to cells with a new number. All of
+    // these cells are from @p first_cell to @p last_cell.
     std::vector<CellPart>
     chosen(const std::vector<CellPart>     &list,
            const unsigned int               first_cell,
@@ -203,7 +203,7 @@ namespace corotet
   void
   sort_vertices(MeshPart &part)
   {
-    // But for those of cells of others, most are in order already.
+    // Most vertices are in order already, except those of other ranks' cells.
     using NumberedVertex = std::pair<std::uint64_t, unsigned int>;
     std::vector<NumberedVertex> order, others;
     order.reserve(part.vertices.size());
@@ -293,7 +293,8 @@ namespace corotet
         const auto [i, j, k] = corners_of_faces[f];
         mesh.faces.push_back({{{v[i], v[j], v[k]}}, id});
       }
-    // Cells that share an edge or a vertex each have its names.
+    // Edges and vertices that several cells share are listed in each of these
+    // cells.
     using Ends = std::array<unsigned int, 2>;
     std::set<std::pair<Ends, unsigned int>>         edges;
     std::set<std::pair<unsigned int, unsigned int>> corners;
@@ -334,7 +335,8 @@ namespace corotet
     const auto piece = [&](const unsigned int rank) {
       return cutter->cut(std::exchange(pieces[rank], {}));
     };
-    // Array by array: copies of them all in a message would take as long again.
+    // Arrays are sent one by one: copying them all into one message would
+    // double the time.
     MeshPart           result;
     const unsigned int degree = MPI::broadcast(comm, mesh.geometry_degree, 0);
     for (unsigned int rank = 1; rank < n_ranks; ++rank)

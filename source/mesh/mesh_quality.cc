@@ -14,8 +14,8 @@ namespace corotet
 {
   namespace
   {
-    // Half the cross products of the edges, pointing outward. Face i is
-    // opposite to vertex i.
+    // The area vectors of the faces, pointing outward. Face i is opposite to
+    // vertex i.
     std::array<dealii::Tensor<1, 3>, 4>
     area_vectors(const std::array<dealii::Point<3>, 4> &p)
     {

@@ -23,7 +23,7 @@ namespace corotet
     using dealii::Point;
     using dealii::Tensor;
 
-    // What has a name: a part of the body or of its surface.
+    // The extent and size of a named part of the body or of its surface.
     struct NamedPart
     {
       std::size_t  n    = 0;
@@ -61,7 +61,7 @@ namespace corotet
 
 
 
-    // Shares of the values between the bounds, as bars.
+    // The shares of the values between the bounds, as bars.
     std::string
     histogram(const std::string              &title,
               const std::vector<double>      &values,
@@ -131,7 +131,7 @@ namespace corotet
 
 
 
-    // One line for each name.
+    // A table with one line for each name.
     std::string
     table(const std::string                       &title,
           const MeshNames                         &names,
@@ -161,7 +161,7 @@ namespace corotet
                                 part.upper[0],
                                 part.upper[1],
                                 part.upper[2]);
-          // The sum of normals is as long as the area is large, if it is flat.
+          // If a part is flat, the norm of the sum of its normals is its area.
           if (with_normal && part.normals.norm() > (1 - 1e-6) * part.size)
             {
               const Tensor<1, 3> n       = part.normals / part.normals.norm();
@@ -218,7 +218,7 @@ namespace corotet
     std::string
     boundaries(const SerialMesh &mesh)
     {
-      // Normals point out of the cell of a face.
+      // A point inside of each face's cell, to make normals point outward.
       std::map<std::array<unsigned int, 3>, Point<3>> inner_points;
       const auto ascending = [](std::array<unsigned int, 3> face) {
         std::sort(face.begin(), face.end());
@@ -268,7 +268,7 @@ namespace corotet
 
 
 
-    // Names of edges or of corners, unless there are none.
+    // The table of the names of edges or of corners; empty without names.
     template <typename Part, typename Add>
     std::string
     parts_with_names(const std::string       &title,

@@ -67,7 +67,7 @@ namespace corotet
   std::uint64_t
   number_of_vertices(const LocalMesh &mesh)
   {
-    // Each belongs to the rank of the first cell that has it.
+    // Each vertex belongs to the rank of the first cell that has it.
     std::uint64_t first = mesh.n_global_cells, end = 0;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       if (mesh.is_owned(c))

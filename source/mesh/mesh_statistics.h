@@ -10,11 +10,11 @@
 
 namespace corotet
 {
-  /// What the log says of a mesh that ranks have parts of, but for the number
-  /// of its vertices.
+  /// The figures of a mesh for the log, computed from the parts of all ranks,
+  /// without the number of vertices.
   struct MeshStatistics
   {
-    /// Collective.
+    /// Computes the figures. Collective.
     MeshStatistics(const MeshCells   &part,
                    const double       least_determinant,
                    const unsigned int element_degree,
@@ -26,11 +26,11 @@ namespace corotet
     MeshQuality  quality;
     std::size_t  n_cells, n_curved = 0;
     unsigned int geometry_degree, element_degree;
-    /// What check_cells_on_ranks() returns.
+    /// The result of check_cells_on_ranks().
     double least_determinant;
   };
 
-  /// Vertices of the mesh, of all ranks. Collective.
+  /// The number of vertices of the mesh on all ranks. Collective.
   std::uint64_t
   number_of_vertices(const LocalMesh &mesh);
 } // namespace corotet

@@ -15,7 +15,7 @@ namespace corotet
 {
   namespace
   {
-    // Spreads the digits of a number.
+    // A hash of a number.
     std::uint64_t
     mixed(std::uint64_t x)
     {
@@ -26,7 +26,8 @@ namespace corotet
 
 
 
-    // Of the tetrahedra with 4, 10 and 20 nodes.
+    // The reference coordinates of the nodes of tetrahedra with 4, 10 and 20
+    // nodes; empty for other types.
     std::vector<double>
     reference_nodes(const int type)
     {
@@ -177,7 +178,7 @@ namespace corotet
   {
     if (!are_copies(elements[first], elements[other]))
       return false;
-    // Copies, as the list of combinations grows.
+    // These are copies, as adding groups changes the list of combinations.
     const std::vector<int> of_first = combinations[elements[first].combination],
                            of_other = combinations[elements[other].combination];
     std::vector<int> both;
@@ -212,7 +213,7 @@ namespace corotet
                      [&](const std::size_t a, const std::size_t b) {
                        return keys[a] < keys[b];
                      });
-    // So that damaged files do not take for ever.
+    // A limit of comparisons, so that damaged files do not take forever.
     constexpr std::size_t most = 1000;
     std::vector<bool>     is_joined(elements.size());
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -239,7 +240,7 @@ namespace corotet
     model.coordinates = coordinates;
     const std::array<std::vector<GmshModel::Elements> *, 4> all{
       {&model.points, &model.curves, &model.surfaces, &model.volumes}};
-    // What other cells there are is said by their types alone.
+    // Cells of other types are only counted.
     const std::set<int>          used{1, 2, 4, 8, 9, 11, 15, 21, 26, 29};
     std::map<int, std::uint64_t> n_volumes;
     std::map<std::pair<int, int>, std::size_t>             places;

@@ -27,18 +27,18 @@ namespace corotet
     std::string  name;
   };
 
-  /// By gmsh's numbers.
+  /// All known types by gmsh's numbers.
   const std::map<int, GmshType> &
   gmsh_types();
 
 
 
-  /// Numbers that were given to things, and their places among these. Takes no
-  /// memory of its own while numbers ascend, as they mostly do.
+  /// Assigns consecutive indices to numbers, in the order in which they are
+  /// added. Takes no additional memory while numbers ascend, as they mostly do.
   class GivenNumbers
   {
   public:
-    /// Gives the next place to a number. If it has one already, returns that
+    /// Gives the next index to a number. If it has one already, returns that
     /// instead.
     std::optional<std::size_t>
     add(const std::uint64_t number);
@@ -51,27 +51,27 @@ namespace corotet
 
   private:
     std::vector<std::uint64_t> numbers;
-    // Once a number was smaller than the one before.
+    // Used once a number was smaller than the one before.
     std::unordered_map<std::uint64_t, std::size_t> places;
   };
 
 
 
   /**
-   * Makes a GmshModel of nodes and elements, for files that we read ourselves.
-   * Elements may be in any number of groups, each by itself: those of one
-   * dimension that are in the same groups become one entity.
+   * Makes a GmshModel of nodes and elements, for files with a reader of our
+   * own. An element may be in any number of groups: elements of one dimension
+   * that are in the same groups become one entity.
    */
   class ModelBuilder
   {
   public:
-    /// Whether it is new, or the same as before: false if there is a node of
-    /// this tag at another place.
+    /// Adds a node. Returns false if there is a node with this tag at another
+    /// place.
     [[nodiscard]] bool
     add_node(const std::uint64_t tag, const dealii::Point<3> &x);
 
-    /// Returns its number. @p type: of those in gmsh_types(), with the nodes
-    /// @p of_element in gmsh's order.
+    /// Adds an element and returns its number. @p type is one of gmsh_types(),
+    /// and the nodes @p of_element are in gmsh's order.
     std::size_t
     add_element(const int                            type,
                 const std::span<const std::uint64_t> of_element);
@@ -88,7 +88,8 @@ namespace corotet
       return gmsh_types().at(elements[element].type).dimension;
     }
 
-    /// @p group: of those of its dimension, 0 or more.
+    /// Adds an element to a group; @p group is its number in the element's
+    /// dimension, 0 or more.
     void
     add_to_group(const std::size_t element, const int group);
 
@@ -104,9 +105,9 @@ namespace corotet
       names[{dimension, group}] = name;
     }
 
-    /// Elements of the same type and nodes become one, in the groups of all of
-    /// them: some programs write an element once for each of its groups. Those
-    /// that are in the same group twice are left as they are.
+    /// Unites elements of the same type and nodes, in the groups of all of
+    /// them: some programs write an element once for each of its groups.
+    /// Elements that are in the same group twice stay separate.
     void
     join_copies();
 
@@ -128,12 +129,12 @@ namespace corotet
               gmsh_types().at(element.type).n_nodes};
     }
 
-    // Whether there are the same nodes, in any order.
+    // Whether two elements have the same nodes, in any order.
     bool
     are_copies(const Element &a, const Element &b) const;
 
-    // Adds the groups of a copy to an element; false if it is none, or is in
-    // the same group or in none.
+    // Adds the groups of a copy to an element. Returns false if @p other is not
+    // a copy, or if they have a common group, or one has no group.
     bool
     join(const std::size_t first, const std::size_t other);
 
@@ -142,9 +143,9 @@ namespace corotet
     std::vector<Element>                       elements;
     std::vector<std::uint64_t>                 nodes;
     std::map<std::pair<int, int>, std::string> names;
-    // Sorted; the first one is that of no group.
+    // Sorted groups of each combination; the first one has no group.
     std::vector<std::vector<int>> combinations{{}};
-    // By a combination and the group that is added to it.
+    // The combination that results from one with an added group.
     std::map<std::pair<std::uint32_t, int>, std::uint32_t> with_group;
     std::map<std::vector<int>, std::uint32_t>              numbers{{{}, 0}};
   };

@@ -70,7 +70,8 @@ namespace corotet
         return n;
       }
 
-      // The dimension came with version 2.1.
+      // Reads the names of groups. Their dimension is there from version 2.1
+      // on.
       void
       read_names()
       {
@@ -95,7 +96,7 @@ namespace corotet
           }
       }
 
-      // As text they may be longer.
+      // The number of a node, which may exceed 32 bits in text.
       std::int64_t
       node_number()
       {
@@ -126,7 +127,7 @@ namespace corotet
                 fmt::format("node {} is there already, at another place", tag));
             if (!are_parametric)
               continue;
-            // Of the entity that it is on, and its place there.
+            // Skips the entity that the node is on, and its parameters there.
             const int dimension = file.next<std::int32_t>();
             file.next<std::int32_t>();
             for (int d = 0; d < dimension && dimension < 3; ++d)
@@ -178,8 +179,8 @@ namespace corotet
             }
       }
 
-      // The tags are the physical group, the entity, and what partitions there
-      // are.
+      // Reads an element. The tags are the physical group, the entity, and
+      // partitions if there are any.
       void
       read_element(const int number, const GmshType &type, const int n_tags)
       {
@@ -205,7 +206,7 @@ namespace corotet
                             node));
             nodes.push_back(node);
           }
-        // A negative one turns the element over.
+        // A negative group means that the element is turned over.
         if (group == INT_MIN)
           file.refuse(fmt::format("found the physical group {}", group));
         all.push_back({number,
@@ -215,7 +216,7 @@ namespace corotet
         all_nodes.insert(all_nodes.end(), nodes.begin(), nodes.end());
       }
 
-      // As gmsh does it.
+      // Adds the elements in the order of their entities, as gmsh does.
       void
       sort_by_entity()
       {

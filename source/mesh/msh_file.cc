@@ -23,7 +23,7 @@ namespace corotet
     using dealii::Point;
     using Text = std::back_insert_iterator<std::string>;
 
-    // gmsh's numbers of these types.
+    // gmsh's numbers of types of degree 1, 2, 3.
     constexpr int line_types[]{1, 8, 26}, triangle_types[]{2, 9, 21},
       tetrahedron_types[]{4, 11, 29};
 
@@ -34,7 +34,8 @@ namespace corotet
       const std::vector<MshNode> &nodes;
     };
 
-    // Corners of the box around what has one id, and its number as an entity.
+    // The box around the parts with one id, and the tag of the entity that they
+    // form.
     struct Extent
     {
       Point<3> low, high;
@@ -61,8 +62,8 @@ namespace corotet
       std::map<unsigned int, std::vector<int>> groups_of_id;
       std::map<int, std::string>               names;
 
-      // gmsh's tags are positive: here in the order of the ids, which may be
-      // any.
+      // The tag of an id. gmsh's tags must be positive, but ids may be any
+      // number, so tags follow the order of the ids.
       int
       tag(const unsigned int id) const
       {
@@ -77,7 +78,7 @@ namespace corotet
           extent.tag = ++last;
       }
 
-      // Whether a name means these ids.
+      // Whether a name means exactly these ids.
       static bool
       is_set(const NamedSets &named, const std::vector<unsigned int> &ids)
       {
@@ -86,7 +87,7 @@ namespace corotet
                            [&](const auto &set) { return set.second == ids; });
       }
 
-      // A number that no id is.
+      // The next number that is not an id.
       int
       free_group(int &last) const
       {
@@ -95,14 +96,15 @@ namespace corotet
         return last;
       }
 
-      // Ids are those of groups, so that those without a name are known by the
-      // same number again; gmsh has no group 0, which gets its number for a
-      // name. Names of several ids are further groups.
+      // Adds the physical groups. Groups have the numbers of ids, so that ids
+      // without a name keep their numbers; gmsh has no group 0, which gets its
+      // number as a name. Names of several ids become further groups.
       void
       add_groups(const NamedSets &named)
       {
         constexpr unsigned int largest = std::numeric_limits<int>::max();
-        // Behind all ids, if there is room for all that may be needed.
+        // Further groups are numbered behind all ids, if there is room for
+        // them.
         int last = 0;
         if (!extents.empty() &&
             extents.rbegin()->first < largest - extents.size() - 1 &&
@@ -111,13 +113,13 @@ namespace corotet
           last = static_cast<int>(extents.rbegin()->first);
         const auto add =
           [&](const std::string &name, const int group, const auto &ids) {
-            // Files have no way to write a quotation mark.
+            // Files cannot contain quotation marks in names.
             names[group] = name;
             std::replace(names[group].begin(), names[group].end(), '"', '\'');
             for (const unsigned int id : ids)
               groups_of_id[id].push_back(group);
           };
-        // A body in one piece that has no name needs no group.
+        // A body in one piece without names needs no group.
         const bool has_names =
           extents.size() > 1 || !named.sets.empty() ||
           std::any_of(named.names.begin(),
@@ -152,7 +154,7 @@ namespace corotet
       }
     };
 
-    // Those of a mesh, by their dimension.
+    // The entities of a mesh, by their dimension.
     using AllEntities = std::array<Entities, 4>;
 
     AllEntities
@@ -212,7 +214,8 @@ namespace corotet
                        fmt::join(groups->second, " "));
     }
 
-    // A point has one place: each corner is an entity of its own.
+    // An entity of dimension 0 is a single point, so each corner is an entity
+    // of its own.
     void
     write_entities(Text text, const AllEntities &all, const SerialMesh &mesh)
     {
@@ -237,7 +240,7 @@ namespace corotet
             for (const Point<3> &x : {extent.low, extent.high})
               fmt::format_to(text, " {} {} {}", x[0], x[1], x[2]);
             write_groups(text, all[dimension], id);
-            // The entities around it are not told.
+            // The bounding entities are not written.
             fmt::format_to(text, " 0\n");
           }
       fmt::format_to(text, "$EndEntities\n");
@@ -250,13 +253,14 @@ namespace corotet
       fmt::format_to(text, "$Nodes\n1 {} 1 {}\n3 {} 0 {}\n", n, n, entity, n);
       for (std::size_t i = 1; i <= n; ++i)
         fmt::format_to(text, "{}\n", i);
-      // The shortest digits that give the same number again.
+      // Coordinates have the fewest digits that give the same number.
       for (const Point<3> &x : nodes.all())
         fmt::format_to(text, "{} {} {}\n", x[0], x[1], x[2]);
       fmt::format_to(text, "$EndNodes\n");
     }
 
-    // Elements of one entity after another. @p id_of: of a cell or a face.
+    // Writes elements, one entity after another. @p id_of gives the id of a
+    // cell or a face.
     template <typename Elements, typename Id>
     void
     write_blocks(Text               text,
@@ -302,7 +306,7 @@ namespace corotet
     Text        text(result);
     write_names(text, all);
     write_entities(text, all, mesh);
-    // Those of all cells belong to the first volume.
+    // All nodes are listed as those of the first volume.
     write_nodes(text, nodes, 1);
     const std::size_t n = mesh.corners.size() + mesh.edges.size() +
                           mesh.faces.size() + mesh.cells.size();

@@ -11,20 +11,20 @@
 #include <vector>
 
 /**
- * Nodes of a mesh as gmsh's files have them.
+ * The nodes of a mesh as gmsh's files have them.
  */
 namespace corotet
 {
-  // A node of one of gmsh's elements: the corners whose mean it is on a
-  // straight one. Two of three may be the same.
+  // A node of a gmsh element, given by the corners whose mean it is on a
+  // straight element. Of three corners two may be the same.
   using MshNode = std::vector<unsigned int>;
 
-  // Of degree 1, 2 and 3, in gmsh's order.
+  // The nodes of elements of degree 1, 2 and 3, in gmsh's order.
   extern const std::vector<MshNode> line_nodes[3], triangle_nodes[3],
     tetrahedron_nodes[3];
 
-  // A node of the mesh: the vertices whose mean it would be on straight
-  // cells, ascending.
+  // A node of the mesh, given by the vertices whose mean it would be on
+  // straight cells, ascending.
   using NodeKey = std::vector<unsigned int>;
 
   template <std::size_t n>
@@ -40,7 +40,8 @@ namespace corotet
 
 
 
-  // All nodes of a mesh of one degree, vertices first.
+  // All nodes of a mesh whose cells are all written with the same degree,
+  // vertices first.
   class MshNodes
   {
   public:
@@ -51,15 +52,15 @@ namespace corotet
     {
       if (degree == 1)
         return;
-      // Where neighbours share a face of which one is straight, the curved
-      // one says where it is.
+      // Curved cells come first: if a curved and a straight cell share a face,
+      // the curved one gives the positions of its nodes.
       for (const bool curved : {true, false})
         for (const SerialMesh::Cell &cell : mesh.cells)
           if ((cell.curve != SerialMesh::straight) == curved)
             add(cell);
     }
 
-    // Beginning with 1.
+    // The tag of a node, counted from 1.
     template <std::size_t n>
     std::size_t
     tag(const std::array<unsigned int, n> &vertices, const MshNode &node) const
@@ -88,7 +89,7 @@ namespace corotet
     dealii::Point<3>
     position(const SerialMesh::Cell &cell, const MshNode &node) const
     {
-      // In the reference cell, and on a straight one.
+      // The position in the reference cell, and on a straight cell.
       dealii::Point<3> xi, x;
       for (const unsigned int corner : node)
         {

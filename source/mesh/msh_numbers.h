@@ -19,9 +19,9 @@
 
 namespace corotet
 {
-  /// The sections of a file of gmsh's version 2, and their numbers, as text or
-  /// as bytes. Functions throw InputError that names the file and, in text, the
-  /// line.
+  /// Reads the sections of a gmsh file of version 2, and their numbers, as text
+  /// or as bytes. Functions throw InputError that names the file and, in text,
+  /// the line.
   class MshNumbers
   {
   public:
@@ -31,8 +31,8 @@ namespace corotet
       text = read_whole_file(path);
     }
 
-    // Goes behind the line that begins the next section; its name, without
-    // the dollar sign, is empty at the end of the file.
+    // Goes behind the line that begins the next section and returns its name,
+    // without the dollar sign; empty at the end of the file.
     std::string
     next_section()
     {
@@ -48,14 +48,15 @@ namespace corotet
     void
     skip_section(const std::string &name)
     {
-      // The end of the line before may be where we are.
+      // The position may be behind the line end before "$End".
       const std::size_t end =
         text.find("\n$End" + name, position > 0 ? position - 1 : 0);
       position = end == std::string::npos ? text.size() : end + 1;
       rest_of_line();
     }
 
-    // Behind all that a section has by its first line: its end must follow.
+    // Checks that the end of a section follows, after all that its first line
+    // has announced.
     void
     end_section(const std::string &name)
     {
@@ -74,7 +75,7 @@ namespace corotet
       rest_of_line();
     }
 
-    // Without what ends it.
+    // The rest of the line, without white space at its end.
     std::string
     rest_of_line()
     {
@@ -88,7 +89,7 @@ namespace corotet
       return line;
     }
 
-    // As text.
+    // Reads a number from text.
     template <typename Number>
     Number
     number()
@@ -114,7 +115,7 @@ namespace corotet
       return result;
     }
 
-    // As bytes.
+    // Reads a number from bytes.
     template <typename Number>
     Number
     bytes()
@@ -150,7 +151,7 @@ namespace corotet
       throw InputError("", fmt::format("{}:{}: {}", origin, line, message));
     }
 
-    // About the line that was read last.
+    // Throws an InputError about the line that was read last.
     [[noreturn]] void
     refuse_line(const std::string &message)
     {

@@ -26,14 +26,14 @@ namespace corotet
   namespace
   {
     // A card of any number of lines: its name in capitals, and its fields
-    // behind the name, with 8 or, if they are long, 4 for each line.
+    // behind the name, with 8 fields per line or, if they are long, 4.
     struct NastranCard
     {
       abaqus::Place            place;
       std::string              name;
       std::vector<std::string> fields;
 
-      // Without blanks; empty if there is none.
+      // A field without blanks; empty if there is none.
       std::string
       field(const std::size_t i) const
       {
@@ -53,7 +53,8 @@ namespace corotet
         return *result;
       }
 
-      // Blank for 0; the E of exponents may be missing, as in "1.-3".
+      // The coordinate in a field. A blank is 0; the E of exponents may be
+      // missing, as in "1.-3".
       double
       coordinate(const std::size_t i) const
       {
@@ -70,7 +71,7 @@ namespace corotet
 
 
 
-    // A line of columns or, with commas, of free fields.
+    // A line with fixed columns or, if it has commas, of free fields.
     class NastranLine
     {
     public:
@@ -114,7 +115,8 @@ namespace corotet
     private:
       bool is_long = false;
 
-      // In place of tabs, which go to the next multiple of eight columns.
+      // Replaces tabs, which go to the next multiple of eight columns, by
+      // blanks.
       static std::string
       with_blanks(const std::string &text)
       {
@@ -200,7 +202,7 @@ namespace corotet
           card.place.refuse("cells other than tetrahedra: found " + card.name +
                             "; allowed is CTETRA");
         else if (card.name == "BEGIN BU")
-          // What came before are no cards of the bulk data.
+          // The statements before are not cards of the bulk data.
           left_out.clear();
         else if (card.name != "ENDDATA" && is_name(card.name))
           left_out.insert(card.name);
@@ -215,7 +217,7 @@ namespace corotet
                });
       }
 
-      // Of the coordinates, which others would be turned and shifted by.
+      // Refuses coordinate systems that would turn and shift the coordinates.
       static void
       check_system(const NastranCard &card)
       {
@@ -253,7 +255,7 @@ namespace corotet
       void
       add_tetrahedron(const NastranCard &card)
       {
-        // Of a degree that Nastran does not have: gmsh writes such cards.
+        // Nastran has no higher degree, but gmsh writes such cards.
         for (std::size_t i = 2 + 10; i < card.fields.size(); ++i)
           if (!card.field(i).empty())
             card.place.refuse(
@@ -272,14 +274,14 @@ namespace corotet
             add_element(card, 4, nodes);
             return;
           }
-        // gmsh has the last two the other way round.
+        // gmsh has the last two nodes in opposite order.
         std::vector<std::uint64_t> theirs(nodes);
         std::swap(theirs[8], theirs[9]);
         add_element(card, 11, theirs);
       }
 
-      // In the group of its property, which has the element's number if it has
-      // none.
+      // Adds an element to the group of its property; without one, to the group
+      // with the number of the element.
       void
       add_element(const NastranCard                &card,
                   const int                         type,
@@ -299,9 +301,9 @@ namespace corotet
       }
 
       ModelBuilder builder;
-      // Of elements.
+      // The numbers of the elements.
       GivenNumbers labels;
-      // By the names of cards.
+      // The number of elements without a property, by the names of cards.
       std::map<std::string, std::size_t> n_without_property;
       std::set<std::string>              left_out;
     };

@@ -32,8 +32,8 @@ namespace corotet
     const auto [a, b, c] = corners;
     const auto   normal  = dealii::cross_product_3d(b - a, c - a);
     const double area_2  = normal * normal;
-    // The foot of the perpendicular is inside if it is on the inner side of all
-    // edges.
+    // The foot of the perpendicular is in the triangle if it is on the inner
+    // side of all edges.
     const bool is_above =
       dealii::cross_product_3d(b - a, x - a) * normal >= 0 &&
       dealii::cross_product_3d(c - b, x - b) * normal >= 0 &&
@@ -70,7 +70,7 @@ namespace corotet
     namespace bgi       = boost::geometry::index;
     unsigned int result = 0;
     double       least  = std::numeric_limits<double>::max();
-    // Boxes come in the order of their distances.
+    // The query returns boxes in the order of their distances.
     for (auto entry = tree.qbegin(bgi::nearest(x, tree.size()));
          entry != tree.qend() &&
          boost::geometry::distance(x, entry->first) <= least;

@@ -15,9 +15,10 @@
 
 namespace corotet
 {
-  /// Throws an InputError about the file @p path, which a program that knows
-  /// @p library was to read within @p time_limit seconds, set by the parameter
-  /// @p time_limit_entry: it has ended like that, without a mesh.
+  /// Throws an InputError about the file @p path after a program with @p
+  /// library, which should have read it, has ended as @p end tells, without a
+  /// mesh. It had @p time_limit seconds, set by the parameter @p
+  /// time_limit_entry.
   [[noreturn]] inline void
   refuse_end(const ProgramEnd  &end,
              const std::string &library,

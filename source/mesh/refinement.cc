@@ -35,7 +35,8 @@ namespace corotet
 
 
 
-    // Edges of the cells and, behind the vertices of a part, their middles.
+    // The edges of the cells, and their middles, which are appended to the
+    // vertices of a part.
     class Middles
     {
     public:
@@ -45,7 +46,7 @@ namespace corotet
         , first(n_vertices, none)
       {}
 
-      // The vertex in the middle, which is new at the first call.
+      // The vertex in the middle of an edge, which is made at the first call.
       unsigned int
       between(const unsigned int u, const unsigned int v)
       {
@@ -59,8 +60,8 @@ namespace corotet
         return part.vertices.size() - 1;
       }
 
-      // Gives each middle a number that all ranks know it by: the ends of an
-      // edge say which rank gives it.
+      // Gives each middle a number by which all ranks know it: the ends of an
+      // edge decide which rank assigns it.
       void
       number(const MPI_Comm comm)
       {
@@ -113,7 +114,7 @@ namespace corotet
       }
 
     private:
-      // Whether its edge is not the one before.
+      // Whether an entry has another edge than the entry before.
       template <typename Asked>
       static bool
       is_first(const std::vector<Asked> &list, const std::size_t i)
@@ -125,7 +126,7 @@ namespace corotet
       struct Edge
       {
         unsigned int low, high;
-        // With the same lower end.
+        // The next edge with the same lower end.
         unsigned int next;
       };
 
@@ -137,7 +138,7 @@ namespace corotet
 
 
 
-    // The shortest of the diagonals of the octahedron in the middle.
+    // The number of the shortest diagonal of the octahedron in the middle.
     unsigned int
     shortest_diagonal(const MeshPart                     &part,
                       const std::array<unsigned int, 10> &vertices)
@@ -160,7 +161,8 @@ namespace corotet
 
 
 
-    // Names of the children of each cell, which has been cut in its way.
+    // Passes names of parts on to the children; @p diagonals tells how each
+    // cell was cut.
     void
     refine_names(MeshPart &part, const std::vector<unsigned char> &diagonals)
     {
@@ -169,7 +171,7 @@ namespace corotet
         for (const auto &[child, g] : tetrahedron_cuts()[diagonals[c]].faces[f])
           faces.push_back({8 * c + child, g, id});
       // Child k has vertex k of the cell as its own vertex k, and the halves of
-      // the edges there as the same edges.
+      // the edges at this vertex as edges with the same numbers.
       for (const auto &[c, e, id] : part.edges)
         for (const unsigned int k : ends_of_edges[e])
           edges.push_back({8 * c + k, e, id});
@@ -187,7 +189,8 @@ namespace corotet
 
 
 
-    // Curved cells have the numbers of @p pieces, and get those of their parts.
+    // Refines all cells once. Curved cells have indices in @p pieces, which
+    // become the pieces of their children.
     void
     refine_once(MeshPart                 &part,
                 std::vector<CurvedPiece> &pieces,
@@ -248,9 +251,9 @@ namespace corotet
 
 
 
-    // Curved cells get the nodes of their own maps, and the vertices that are
-    // theirs are moved to where the first of them has them. Returns which these
-    // are.
+    // Gives curved cells the nodes of their own maps, and moves each of their
+    // vertices to its place on the first curved cell that has it. Returns which
+    // vertices were moved.
     std::vector<bool>
     bend(MeshPart &part, const std::vector<CurvedPiece> &pieces)
     {
@@ -259,7 +262,7 @@ namespace corotet
       std::vector<Point<3>>       curved_nodes;
       std::vector<bool>           is_moved(part.vertices.size(), false);
       curved_nodes.reserve(points.size() * pieces.size());
-      // Parts of the same shape and place are many.
+      // The maps are reused, as many pieces have the same shape and place.
       std::map<std::array<double, 12>, MapAtPoints> maps;
       for (const MeshCells::Cell &cell : part.cells)
         {
@@ -292,8 +295,8 @@ namespace corotet
 
 
 
-    // A vertex that one rank has moved is moved on all, and lies at the same
-    // place: where the lowest of those ranks has it.
+    // A vertex that was moved on one rank is moved on all ranks to the same
+    // place, that of the lowest rank that moved it.
     void
     agree_on_places(MeshPart                &part,
                     const std::vector<bool> &is_moved,
@@ -339,7 +342,8 @@ namespace corotet
 
 
 
-    // The first nodes of curved cells are their vertices, to the last digit.
+    // Makes the first nodes of curved cells equal to their vertices, to the
+    // last digit.
     void
     set_vertices_of_curves(MeshPart &part)
     {
@@ -373,7 +377,7 @@ namespace corotet
       return;
     agree_on_places(part, bend(part, pieces), comm);
     set_vertices_of_curves(part);
-    // The degree is that of all ranks.
+    // All ranks keep the same degree.
     const unsigned int degree = part.geometry_degree;
     remove_straight_maps(part);
     part.geometry_degree =

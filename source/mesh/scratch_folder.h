@@ -14,8 +14,8 @@
 
 namespace corotet
 {
-  /// A folder for what is handed to another program, as long as this object
-  /// lives. Throws MachineError if there can be none.
+  /// A folder for files that are passed to another program, which exists as
+  /// long as this object. Throws MachineError if it cannot be made.
   class ScratchFolder
   {
   public:

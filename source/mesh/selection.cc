@@ -18,10 +18,10 @@ namespace corotet::selections
 {
   namespace
   {
-    // More parentheses or nots in each other than anybody writes.
+    // The largest depth of parentheses and nots, more than anybody writes.
     constexpr unsigned int max_depth = 100;
 
-    // Reads a selection from left to right; "not" binds closest, then "and".
+    // Parses a selection from left to right; "not" binds closest, then "and".
     class Parser
     {
     public:

@@ -19,44 +19,44 @@
 namespace corotet::selections
 {
   /**
-   * What can be selected: faces of the surface, cells, edges or corners. A rank
-   * has those of its own cells, and faces of the cells beside them as well:
-   * several ranks have a member, and find the same of it.
+   * The candidates of a selection: faces of the surface, cells, edges or
+   * corners. A rank has those of its own cells, and also faces of the cells
+   * beside them: several ranks may have the same member, and get the same
+   * result for it.
    */
   struct Members
   {
-    /// What a message calls one: "face", "cell", "edge" or "corner".
+    /// The word for a member in messages: "face", "cell", "edge" or "corner".
     std::string kind;
     MPI_Comm    communicator = MPI_COMM_NULL;
-    /// Of each member, the points that must be inside of a shape.
+    /// The points of each member, which must all be inside of a shape.
     unsigned int                  n_points = 1;
     std::vector<dealii::Point<3>> points;
-    /// Whether it is this rank that counts a member.
+    /// Whether this rank counts the member.
     std::vector<bool> is_counted;
-    /// Outer unit normals, if members are faces.
+    /// The outer unit normals, if members are faces.
     bool                              has_normals = false;
     std::vector<dealii::Tensor<1, 3>> normals;
-    /// Of faces, those that share an edge.
+    /// For faces, the faces that share an edge with each of them.
     std::vector<std::vector<unsigned int>> neighbours;
-    /// Of faces, what all ranks know them by. Those that the mesh has listed
-    /// come first.
+    /// For faces, the numbers by which all ranks know them. Faces that the mesh
+    /// has listed come first.
     std::vector<std::uint64_t> keys;
-    /// Gives faces that other ranks count the value that these have.
-    /// Collective.
+    /// For faces, sets the values of those that other ranks count to the values
+    /// there. Collective.
     std::function<void(std::vector<unsigned char> &values)> update;
-    /// Of edges and corners, which are where a face with a normal or of a patch
-    /// is: faces of the surface, and those that each member belongs to. @p
+    /// For edges and corners, the faces of the surface, and those that each
+    /// member belongs to: a member has the normals and patches of its faces. @p
     /// surface must outlive this object.
     const Members                         *surface = nullptr;
     std::vector<std::vector<unsigned int>> faces;
-    /// The angle between the normals of the faces there [degree], if members
-    /// are edges.
+    /// For edges, the angle between the normals of the faces there [degree].
     bool                has_angles = false;
     std::vector<double> angles;
-    /// Distances that are nothing [m].
+    /// The distance below which points count as equal [m].
     double tolerance = 0;
-    /// Whether each member has a name that the mesh has; throws InputError if
-    /// there is none. Collective.
+    /// Whether each member has a name of the mesh; throws InputError if there
+    /// is no such name. Collective.
     std::function<std::vector<bool>(const std::string &name)> with_name;
 
     std::size_t
@@ -66,16 +66,16 @@ namespace corotet::selections
     }
   };
 
-  /// One shape, and how far members are from it.
+  /// A shape, and the distances of members from it.
   struct Shape
   {
-    /// As it is written.
+    /// The text of the shape, as written by the user.
     std::string text;
     /// The unit of the distances: "m" or "degrees"; empty if there are none.
     std::string unit;
-    /// Of each member: at most 0 if it is inside.
+    /// The distance of each member: at most 0 if it is inside.
     std::vector<double> distances;
-    /// What the log says of it, beside the number of members; or empty.
+    /// A remark for the log, beside the number of members; may be empty.
     std::string remark = {};
   };
 
@@ -87,31 +87,32 @@ namespace corotet::selections
   };
 
   /// The members that a text selects. Throws InputError that blames @p entry if
-  /// it is no selection. Collective, as are all of these functions.
+  /// the text is not a selection. Collective, as are all of these functions.
   Selected
   select(const std::string &text,
          const Members     &members,
          const std::string &entry);
 
-  /// How far each member is from the shape that @p words are: a keyword and
-  /// numbers. Throws InputError.
+  /// The distance of each member from the shape that @p words describe by a
+  /// keyword and numbers. Throws InputError.
   Shape
   measure(const std::vector<std::string> &words,
           const Members                  &members,
           const std::string              &entry);
 
-  /// Whether a word begins a shape of these members.
+  /// Whether a word begins a shape that is possible for these members.
   bool
   is_shape(const std::string &word, const Members &members);
 
-  /// Between two directions.
+  /// The angle between two directions [degree].
   double
   degrees_between(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b);
 
-  /// Selects what a list "name: selection, name: selection" says, logs how much
-  /// that is, and calls @p give_name, before the next selection is read, with
-  /// the places of the members. Throws InputError that blames @p entry if a
-  /// text is wrong, nothing is selected, or @p is_taken says so of a name.
+  /// Selects by a list "name: selection, name: selection" and logs how much
+  /// each selection is. Before it reads the next selection, it calls @p
+  /// give_name with the indices of the members. Throws InputError that blames
+  /// @p entry if a text is wrong, nothing is selected, or a name is taken
+  /// according to @p is_taken.
   void
   select_by_names(
     const std::string                              &text,
@@ -123,16 +124,17 @@ namespace corotet::selections
         &give_name,
     Log &log);
 
-  /// Faces of the surface: those of a rank's own cells, and those of the cells
-  /// beside them that have a vertex of an own cell.
+  /// The faces of the surface on a rank: those of its own cells, and those of
+  /// the cells beside them that have a vertex of an own cell.
   struct Surface
   {
-    /// Each with its boundary.
+    /// Each face with its boundary.
     std::vector<CellPart> faces;
     Members               members;
   };
 
-  /// That of a mesh, with the id @p unnamed for faces that are not listed.
+  /// The surface of a mesh, with the id @p unnamed for faces that are not
+  /// listed.
   Surface
   surface_of(const LocalMesh   &mesh,
              const GhostCells  &ghosts,
@@ -142,30 +144,30 @@ namespace corotet::selections
   std::array<unsigned int, 3>
   vertices_of(const LocalMesh &mesh, const CellPart &face);
 
-  /// Whether each local vertex is one of an own cell, so that all cells that
-  /// have it are there.
+  /// Whether each local vertex belongs to an own cell, so that all cells around
+  /// it are known.
   std::vector<bool>
   vertices_of_own_cells(const LocalMesh &mesh);
 
-  /// An id that no part of a kind has in the mesh, and no name means: it and
-  /// all above it are new.
+  /// An id that no part of a kind has in the mesh, and no name means; all ids
+  /// above it are also unused.
   unsigned int
   id_without_name(const NamedSets &named);
 
-  /// Distances that are nothing in a mesh [m].
+  /// The distance below which points of a mesh count as equal [m].
   double
   tolerance(const LocalMesh &mesh);
 
-  /// Whether something of the surface has this name or number.
+  /// Whether a part of the surface has this name or number.
   bool
   is_place(const UsedNames &names, const std::string &name);
 
-  /// The ids that members of all ranks have, ascending, where those of this
-  /// rank have these.
+  /// The ids of members on all ranks, ascending; @p own are those on this rank.
   std::vector<unsigned int>
   ids_of_all(std::vector<unsigned int> own, const MPI_Comm comm);
 
-  /// Name edges of the surface, and vertices. Errors as in corotet::select().
+  /// Give names to edges of the surface, and to vertices. Errors as in
+  /// corotet::select().
   void
   select_edges(LocalMesh         &mesh,
                UsedNames         &names,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Names by place of edges and of corners.
+// Selections of edges and of corners.
 
 #include <corotet/mesh/edges.h>
 
@@ -14,7 +14,7 @@ namespace corotet::selections
   namespace
   {
     using Ends = std::array<unsigned int, 2>;
-    /// Of each member, the ids of the names that it has.
+    /// The ids of the names of each member.
     using Ids = std::vector<std::vector<unsigned int>>;
 
 
@@ -46,7 +46,7 @@ namespace corotet::selections
 
 
 
-    // Members that belong to faces of some boundaries.
+    // Whether each member belongs to a face of these boundaries.
     std::vector<bool>
     on_boundaries(const Members                   &members,
                   const Surface                   &surface,
@@ -62,7 +62,7 @@ namespace corotet::selections
 
 
 
-    // Gives a name with a new id to members.
+    // Gives members a name with a new id.
     void
     add_name(NamedSets                      &named,
              const std::string              &name,
@@ -94,7 +94,8 @@ namespace corotet::selections
 
 
 
-    // The edges of a surface, ascending, and what selections know of them.
+    // The edges of a surface, ascending, and their data as members of
+    // selections.
     std::vector<Ends>
     edges_of(const LocalMesh &mesh, const Surface &surface, Members &members)
     {
@@ -132,7 +133,7 @@ namespace corotet::selections
       for (const std::vector<unsigned int> &faces : members.faces)
         {
           members.angles.push_back(angle_between(surface.members, faces));
-          // The rank that has the first cell with such a face.
+          // The rank that owns the first cell with such a face counts the edge.
           members.is_counted.push_back(
             mesh.is_owned(surface.faces[faces[0]].cell));
         }
@@ -141,8 +142,8 @@ namespace corotet::selections
 
 
 
-    // Calls action(number of the member, cell, number in the cell) for edges of
-    // own cells that are members.
+    // Calls action(number of the member, cell, number in the cell) for those
+    // edges of own cells that are members.
     template <typename Action>
     void
     for_each_edge(const LocalMesh         &mesh,
@@ -169,8 +170,8 @@ namespace corotet::selections
 
 
 
-    // The corners, which are all vertices of own cells, and what selections
-    // know of them.
+    // The corners, which are all vertices of own cells, as members of
+    // selections.
     Members
     corners_of(const LocalMesh &mesh, const Surface &surface)
     {
@@ -184,7 +185,7 @@ namespace corotet::selections
       for (unsigned int f = 0; f < surface.faces.size(); ++f)
         for (const unsigned int v : vertices_of(mesh, surface.faces[f]))
           members.faces[v].push_back(f);
-      // The rank that has the first cell with it.
+      // The rank that owns the first cell with a vertex counts it.
       members.is_counted.resize(mesh.vertices.size());
       std::vector<bool> is_known(mesh.vertices.size(), false);
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -199,7 +200,8 @@ namespace corotet::selections
 
 
 
-    // Vertices at the ends of edges of any rank that have one of some ids.
+    // Whether each vertex is at the end of an edge, on any rank, with one of
+    // these ids.
     std::vector<bool>
     ends_of_named_edges(const LocalMesh                 &mesh,
                         const GhostCells                &ghosts,

@@ -28,7 +28,7 @@ namespace corotet::selections
 
     struct Kind
     {
-      /// How many numbers, and how many more there may be.
+      /// The number of required numbers, and of optional ones.
       std::size_t n_numbers, n_optional;
       std::string allowed;
     };
@@ -42,8 +42,8 @@ namespace corotet::selections
       {"patch", {3, 1, "patch x y z [angle]"}},
       {"sharp", {0, 1, "sharp [angle]"}}};
 
-    // Of normals around a direction, and across the edges of a patch, or sharp
-    // ones [degree].
+    // The default angles [degree]: between normals and a direction, and at the
+    // edges of a patch or sharp edges.
     constexpr double default_angle = 5, default_feature_angle = 40;
 
 
@@ -63,7 +63,7 @@ namespace corotet::selections
 
 
 
-    // A shape of another kind of members.
+    // Throws the InputError about a shape that is for members of another kind.
     [[noreturn]] void
     refuse_kind(const std::string              &reason,
                 const std::vector<std::string> &words,
@@ -94,7 +94,7 @@ namespace corotet::selections
 
 
 
-    // The greatest distance of a member's points.
+    // The greatest distance of the points of each member.
     template <typename Distance>
     std::vector<double>
     of_farthest_point(const Members &members, const Distance &distance)
@@ -140,7 +140,8 @@ namespace corotet::selections
 
 
 
-    // The key of the face that is nearest, of all ranks; of several the first.
+    // The key of the nearest face on all ranks; the lowest key if several are
+    // equally near.
     std::uint64_t
     nearest_face(const Members &faces, const std::vector<double> &distances)
     {
@@ -158,7 +159,7 @@ namespace corotet::selections
 
 
 
-    // Adds to a patch what is connected with it on this rank.
+    // Adds to a patch the faces that are connected with it on this rank.
     void
     spread(std::vector<unsigned char> &is_in_patch,
            const Members              &faces,
@@ -181,8 +182,8 @@ namespace corotet::selections
 
 
 
-    // Whether the patch may have been meant to be larger: coarse meshes have
-    // such edges within a fillet or a hole.
+    // A remark if the patch may have been meant to be larger: coarse meshes
+    // have edges of such angles within a fillet or a hole. Otherwise empty.
     std::string
     remark_on_border(const Members                    &faces,
                      const std::vector<unsigned char> &is_in_patch,
@@ -208,7 +209,8 @@ namespace corotet::selections
 
 
 
-    // Of faces in the patch zero, of others how far they are from the point.
+    // The distances of faces from a patch: zero for its faces, the distance
+    // from the point for others.
     std::vector<double>
     distances_from_patch(const Members  &faces,
                          const Point<3> &x,
@@ -222,7 +224,7 @@ namespace corotet::selections
       std::vector<unsigned char> is_in_patch(result.size());
       for (std::size_t f = 0; f < result.size(); ++f)
         is_in_patch[f] = faces.keys[f] == nearest ? 1 : 0;
-      // Until no rank finds more than others have told it.
+      // Repeated until no rank finds more faces.
       for (bool has_grown = true; has_grown;)
         {
           const std::vector<unsigned char> before = is_in_patch;
@@ -232,7 +234,8 @@ namespace corotet::selections
                                                   faces.communicator) == 1;
         }
       remark = remark_on_border(faces, is_in_patch, angle);
-      // One that touches the point but is no part of the patch is outside.
+      // A face that touches the point but does not belong to the patch is
+      // outside.
       for (std::size_t f = 0; f < result.size(); ++f)
         result[f] = is_in_patch[f] ?
                       0 :
@@ -242,7 +245,8 @@ namespace corotet::selections
 
 
 
-    // Of edges and corners: they are where one of their faces is.
+    // The shape for edges and corners: each is as near as the nearest of its
+    // faces.
     Shape
     of_nearest_face(const Shape &of_faces, const Members &members)
     {

@@ -20,7 +20,8 @@ namespace corotet::selections
 
 
 
-    // The faces, those that the mesh has listed with their boundaries.
+    // The faces of the surface; those that the mesh has listed have their
+    // boundaries.
     std::vector<CellPart>
     faces_of(const LocalMesh &mesh, const unsigned int unnamed)
     {
@@ -36,7 +37,8 @@ namespace corotet::selections
             {
               const CellPart face{c, f, boundaries[f]};
               const auto     v = vertices_of(mesh, face);
-              // A cell beside the own ones may have others behind its far side.
+              // A cell beside the own cells may have unknown cells behind its
+              // far side.
               if (mesh.neighbors[c][f] == LocalMesh::no_cell &&
                   (is_near[v[0]] || is_near[v[1]] || is_near[v[2]]))
                 faces.push_back(face);
@@ -54,7 +56,7 @@ namespace corotet::selections
       const Point<3> &x    = mesh.vertices[a];
       auto            normal =
         dealii::cross_product_3d(mesh.vertices[b] - x, mesh.vertices[c] - x);
-      // Face f has all vertices but one, 3 - f.
+      // Face f has all vertices of the cell except vertex 3 - f.
       const unsigned int inside =
         mesh.cells[face.cell].vertices[3 - face.number];
       if (normal * (mesh.vertices[inside] - x) > 0)
@@ -64,7 +66,7 @@ namespace corotet::selections
 
 
 
-    // Faces that share an edge.
+    // For each face, the faces that share an edge with it.
     std::vector<std::vector<unsigned int>>
     neighbours(const LocalMesh &mesh, const std::vector<CellPart> &faces)
     {
@@ -147,7 +149,7 @@ namespace corotet::selections
   bool
   is_place(const UsedNames &names, const std::string &name)
   {
-    // Numbers of what has no name count, too.
+    // Numbers of parts without a name count, too.
     const PlaceNames places(names.boundaries, names.edges, names.corners);
     return !places.boundaries.find(name).empty() ||
            !places.edges.find(name).empty() ||

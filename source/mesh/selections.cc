@@ -17,7 +17,7 @@ namespace corotet
     using dealii::Point;
     using selections::Members;
 
-    /// Of each member, where its id is.
+    /// Pointers to the id of each member.
     using Ids = std::vector<unsigned int *>;
 
 
@@ -46,8 +46,9 @@ namespace corotet
 
 
 
-    // Which members have an id that a name means. @p unnamed: of those that
-    // have no name, unless a selection means them.
+    // A function that tells which members have an id that a name means. @p
+    // unnamed is the id of members without a name, which no name means unless a
+    // selection has included them.
     std::function<std::vector<bool>(const std::string &)>
     by_name(const std::string &kind,
             const NamedSets   &named,
@@ -76,7 +77,7 @@ namespace corotet
 
 
 
-    // NamedSets::add() for members of all ranks.
+    // Does what NamedSets::add() does, for members of all ranks.
     void
     add_on_ranks(NamedSets                      &named,
                  const std::string              &name,
@@ -130,7 +131,7 @@ namespace corotet
       const std::string  entry      = "Selections/Boundaries";
       NamedSets         &boundaries = names.boundaries;
       const unsigned int unnamed    = selections::id_without_name(boundaries);
-      // No selection gets this id.
+      // The id must not be given to a selection.
       boundaries.names.emplace(unnamed, "");
       selections::Surface surface =
         selections::surface_of(mesh, ghosts, unnamed);
@@ -152,8 +153,8 @@ namespace corotet
         },
         log);
 
-      // Also of faces of cells beside the own ones that only others know to be
-      // on the surface.
+      // Sets also faces of cells beside the own cells that only other ranks
+      // know to be on the surface.
       constexpr unsigned int    none = LocalMesh::no_cell;
       std::vector<unsigned int> of_cells(4 * mesh.cells.size(), none);
       const bool                is_kept = is_meant(boundaries, unnamed);

@@ -15,8 +15,7 @@ namespace corotet
 {
   namespace
   {
-    // What stands between two texts behind a place; empty if they are not
-    // there.
+    // The text between @p before and @p after; empty if these are missing.
     std::string
     between(const std::string &text,
             const std::string &before,
@@ -39,7 +38,8 @@ namespace corotet
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
       throw MachineError(path + ": cannot be read (permission?)");
-    // Units by prefixes of the metre, and others, which are said in them.
+    // Units by prefixes of the metre, and other units, which are defined by
+    // these.
     std::set<std::string> units, converted;
     for (std::string instance; std::getline(stream, instance, ';');)
       {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Which cells of degree 2 and 3 are straight, but for round-off or the digits
+// Finds cells of degree 2 and 3 that are straight up to round-off or the digits
 // of a file.
 
 #include <corotet/mesh/curved_cells.h>
@@ -20,9 +20,9 @@ namespace corotet
 
   namespace
   {
-    // How far a node may lie off the straight position, in lengths of the
-    // cell's longest edge: more than the round-off of coordinates in files,
-    // less than matters to any error of discretization.
+    // The largest distance of a node from its straight position, in lengths of
+    // the cell's longest edge: more than the round-off of coordinates in files,
+    // less than matters to any discretization error.
     constexpr double round_off = 1e-10;
 
 
@@ -39,7 +39,7 @@ namespace corotet
 
 
 
-    // Of a point of the cell with these vertices.
+    // The position of a point in the straight cell with these vertices.
     Point<3>
     straight_position(const Point<3> *vertices, const Point<3> &xi)
     {
@@ -51,8 +51,8 @@ namespace corotet
 
 
 
-    // Whether no node is off the straight position by more than @p part of the
-    // longest edge and, in each direction, by more than @p by.
+    // Whether all nodes are near their straight positions: at most @p part of
+    // the longest edge away and, in each direction, at most @p by.
     bool
     is_straight(const Point<3>              *nodes,
                 const std::vector<Point<3>> &points,
@@ -81,9 +81,9 @@ namespace corotet
       return is_straight(nodes, points, round_off, anything);
     }
 
-    // Whether rounding to so many digits may be all that keeps a cell from
-    // being straight. Where it moves nodes by more than a part of an edge, the
-    // file is too coarse to be sure.
+    // Whether a cell is straight up to rounding to so many digits. If rounding
+    // moves nodes by more than a fraction of an edge, the file is too coarse to
+    // tell.
     bool
     is_straight(const Point<3>              *nodes,
                 const std::vector<Point<3>> &points,
@@ -96,7 +96,7 @@ namespace corotet
           double size = 0;
           for (unsigned int i = 0; i < points.size(); ++i)
             size = std::max(size, std::abs(nodes[i][a]));
-          // And the round-off of the comparison.
+          // The last term is the round-off of the comparison.
           by[a] = (1 + 1e-6) * digits.last_digit(size) + 1e-14 * size;
         }
       return is_straight(nodes, points, most, by);

@@ -20,11 +20,11 @@ namespace corotet::surface_files
   {
     constexpr std::string_view blanks = " \t\r\v\f";
 
-    // The whole number that a word is.
+    // Reads a word as a whole number; returns whether it is one.
     bool
     parse(std::string_view word, long long &number)
     {
-      // Which some programs write.
+      // Some programs write a plus sign.
       if (word.size() > 1 && word[0] == '+')
         word.remove_prefix(1);
       const auto [end, error] =
@@ -34,8 +34,8 @@ namespace corotet::surface_files
 
 
 
-    // A polygon in its plane: twice the area of triangles of it, positive if
-    // they turn as the polygon does.
+    // A polygon in its plane; areas are twice those of triangles, positive if
+    // these turn as the polygon does.
     class FlatPolygon
     {
     public:
@@ -76,8 +76,8 @@ namespace corotet::surface_files
         return true;
       }
 
-      // Whether a triangle of three corners that follow each other, of those
-      // that are left, is inside of the polygon.
+      // Whether the triangle of three consecutive corners among those left is
+      // inside of the polygon.
       bool
       is_ear(const std::vector<std::size_t> &left,
              const std::size_t               i,
@@ -98,12 +98,13 @@ namespace corotet::surface_files
 
 
 
-    // Triangles of a polygon, by its corners: those that share the first or, if
-    // it is not convex, ears that are cut off one after another.
+    // Divides a polygon into triangles, given by its corners: triangles that
+    // share the first corner or, if it is not convex, ears that are cut off one
+    // by one.
     std::vector<std::array<std::size_t, 3>>
     triangles_of(const FlatPolygon &polygon, const std::size_t n)
     {
-      // Cutting takes the cube of the number at worst.
+      // The largest number of corners: cutting takes its cube at worst.
       constexpr std::size_t                   most = 1000;
       std::vector<std::array<std::size_t, 3>> result;
       std::vector<std::size_t>                left(n);
@@ -256,7 +257,7 @@ namespace corotet::surface_files
   check_number_of_vertices(const TriangleSurface &surface,
                            const std::size_t      more)
   {
-    // Those of STL are three for each triangle.
+    // STL files have three vertices for each triangle.
     constexpr std::size_t most = 2'000'000'000;
     if (surface.vertices.size() + more > most)
       throw InputError("",

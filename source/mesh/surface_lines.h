@@ -12,46 +12,47 @@
 
 namespace corotet::surface_files
 {
-  /// A whole file in memory, line after line.
+  /// A whole file in memory, line by line.
   class Lines
   {
   public:
     Lines(const std::string &path, const std::string &bytes);
 
-    /// Goes on to the next line that has words, without what follows a
-    /// @p comment character in it (0: there are no comments). Returns whether
-    /// there is one.
+    /// Goes to the next line that has words; what follows a @p comment
+    /// character in a line is ignored (0: there are no comments). Returns
+    /// whether there is such a line.
     bool
     next(const char comment = '#');
 
-    /// Of the present line.
+    /// The words of the present line.
     const std::vector<std::string_view> &
     words() const
     {
       return present;
     }
 
-    /// What follows the first word, without blanks around it.
+    /// The text behind the first word, without blanks around it.
     std::string
     rest() const;
 
-    /// Where the next line begins [byte].
+    /// The position of the next line [byte].
     std::size_t
     position() const
     {
       return begin_of_next;
     }
 
-    /// The number that word @p i of the line is. Throws an InputError if it is
-    /// none, or not finite.
+    /// Word @p i of the line as a number. Throws an InputError if it is not a
+    /// number, or not finite.
     double
     number(const std::size_t i) const;
 
-    /// The same for a whole number.
+    /// Word @p i of the line as a whole number. Throws an InputError if it is
+    /// not.
     long long
     integer(const std::size_t i) const;
 
-    /// Three numbers from word @p i on.
+    /// The point with the three coordinates from word @p i on.
     dealii::Point<3>
     point(const std::size_t i) const;
 
@@ -84,15 +85,15 @@ namespace corotet::surface_files
   void
   read_off(const std::string &bytes, TriangleSurface &surface);
 
-  /// Adds the triangles of a polygon in a plane: its corners, of which there
-  /// are at least three, whose vertices the surface has already.
+  /// Adds the triangles of a plane polygon, which has at least three corners;
+  /// their vertices are in the surface already.
   void
   add_polygon(TriangleSurface                 &surface,
               const std::vector<unsigned int> &corners,
               const unsigned int               group);
 
-  /// Checks that vertices of a file, and so many @p more, can have the numbers
-  /// that are used here.
+  /// Throws an InputError if the vertices of a file, and @p more, are too many
+  /// for the numbers used here.
   void
   check_number_of_vertices(const TriangleSurface &surface,
                            const std::size_t      more = 0);

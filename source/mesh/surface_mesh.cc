@@ -27,14 +27,14 @@ namespace corotet
   {
     using dealii::Point;
 
-    // More patches than anybody has names for: a rough scan, seen with too
-    // small an angle.
+    // The number of patches from which nobody has names for them: the angle is
+    // too small for a rough scan.
     constexpr std::size_t many_patches = 100;
 
 
 
-    // A surface as gmsh's file has it: an entity for each shell, in the
-    // physical group of its body.
+    // The text of a gmsh file with the surface: an entity for each shell, in
+    // the physical group of its body.
     std::string
     msh_text(const TriangleSurface &surface, const SurfaceShells &shells)
     {
@@ -111,9 +111,9 @@ namespace corotet
 
 
 
-    // Adds groups of entities with one dimension for the names that each
-    // entity has; an entity's own name is @p kind and its number, or another
-    // one if the file has that.
+    // Adds groups of entities of one dimension for the names of each entity. An
+    // entity without names is called @p kind and its number, or similar if the
+    // file has that name already.
     void
     add_groups(GmshModel                                   &model,
                const int                                    dimension,
@@ -140,8 +140,8 @@ namespace corotet
 
 
 
-    // Names of the bodies: those that all triangles around one have, whatever
-    // others some of them have.
+    // The names of the bodies: those that all triangles around a body have in
+    // common.
     std::vector<std::vector<std::string>>
     names_of_bodies(const TriangleSurface &surface, const SurfaceShells &shells)
     {
@@ -170,8 +170,7 @@ namespace corotet
 
 
 
-    // Gives each triangle of the cells the patch of the surface that it lies
-    // on.
+    // Gives each face of the cells on the surface the patch that it lies on.
     void
     name_faces(GmshModel                       &model,
                const TriangleSurface           &surface,

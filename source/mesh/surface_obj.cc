@@ -55,7 +55,8 @@ namespace corotet::surface_files
       }
 
     private:
-      // Coordinates of textures, normals, points, lines, smoothing, materials.
+      // Keywords of texture coordinates, normals, points, lines, smoothing and
+      // materials.
       static inline const std::vector<std::string>
         skipped{"vt", "vn", "vp", "p", "l", "s", "mg", "mtllib"};
 
@@ -69,7 +70,7 @@ namespace corotet::surface_files
       {
         std::vector<std::string> names;
         for (const std::string &name : {object, group, material})
-          // "default" and "off" are what programs write that know no name.
+          // Programs write "default" and "off" if there is no name.
           if (!name.empty() && name != "default" && name != "off" &&
               std::find(names.begin(), names.end(), name) == names.end())
             names.push_back(name);
@@ -91,7 +92,8 @@ namespace corotet::surface_files
         add_polygon(surface, corners, present_group());
       }
 
-      // Of "vertex/texture/normal": from 1, or from -1 backwards.
+      // The vertex of a corner "vertex/texture/normal": numbers count from 1,
+      // or backwards from -1.
       unsigned int
       corner(const std::string_view word) const
       {
@@ -129,7 +131,7 @@ namespace corotet::surface_files
   read_off(const std::string &bytes, TriangleSurface &surface)
   {
     Lines lines(surface.origin, bytes);
-    // Colours and normals follow the coordinates.
+    // Colours and normals may follow the coordinates.
     const std::vector<std::string> keywords{"OFF", "COFF", "NOFF", "CNOFF"};
     if (!lines.next())
       lines.refuse_end("the first of its lines");
@@ -139,7 +141,7 @@ namespace corotet::surface_files
                                "are {}",
                                shortened(keyword, 40),
                                join(keywords)));
-    // The numbers of vertices and faces, which may be on the same line.
+    // The numbers of vertices and faces may be on the same line.
     std::size_t i = 1;
     if (lines.words().size() > 1 && lines.words()[1] == "BINARY")
       lines.refuse("binary files are not read; allowed is text");

@@ -55,7 +55,7 @@ namespace corotet::surface_files
       std::string name;
       Type        type    = Type::float32;
       bool        is_list = false;
-      /// Of the length of a list.
+      /// The type of the length of a list.
       Type length_type = Type::uint8;
     };
 
@@ -68,7 +68,7 @@ namespace corotet::surface_files
 
 
 
-    /// The header, and then numbers, as text or as bytes.
+    /// Reads the header, and then numbers, as text or as bytes.
     class PlyReader
     {
     public:
@@ -84,7 +84,7 @@ namespace corotet::surface_files
         read_header();
         surface.names.emplace_back();
         position = lines.position();
-        // An element without properties is nothing, however many there are.
+        // Elements without properties have no data, however many there are.
         for (const Element &element : elements)
           for (long long i = 0; i < element.n && !element.properties.empty();
                ++i)
@@ -98,7 +98,7 @@ namespace corotet::surface_files
       std::vector<Element> elements;
       bool                 is_text    = true;
       bool                 is_swapped = false;
-      // Of the next number: in the bytes, or among the words of the line.
+      // The position of the next number in the bytes, or its word in the line.
       std::size_t position = 0, word = 0;
 
       Type
@@ -335,7 +335,7 @@ namespace corotet::surface_files
       corner(const Element &element, const long long i, const double value)
       {
         const auto n = static_cast<double>(surface.vertices.size());
-        // Not a number is none of these.
+        // These comparisons also refuse a value that is not a number.
         const bool is_there =
           value >= 0 && value < n && value == std::floor(value);
         if (!is_there)

@@ -17,8 +17,8 @@ namespace corotet::surface_files
 {
   namespace
   {
-    // A header, the number of triangles, and for each triangle its normal, its
-    // corners and two bytes more.
+    // A binary file has a header, the number of triangles, and for each
+    // triangle its normal, its corners and two further bytes.
     constexpr std::size_t header = 80, triangle_size = 50;
 
 
@@ -147,7 +147,8 @@ namespace corotet::surface_files
   void
   read_stl(const std::string &bytes, TriangleSurface &surface)
   {
-    // Binary files may begin with "solid", too: only their size tells.
+    // Binary files may begin with "solid", too; only their size distinguishes
+    // them.
     std::uint32_t n = 0;
     if (bytes.size() >= header + 4)
       std::memcpy(&n, bytes.data() + header, 4);
@@ -155,7 +156,7 @@ namespace corotet::surface_files
     const std::size_t begin     = bytes.find_first_not_of(" \t\r\n");
     const bool        has_solid = begin != std::string::npos &&
                            upper_case(bytes.substr(begin, 5)) == "SOLID";
-    // Text has no zeros.
+    // Text has no zero bytes.
     const bool is_text = has_solid && bytes.find('\0') == std::string::npos &&
                          bytes.size() != size;
     if (is_text)

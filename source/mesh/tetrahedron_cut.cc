@@ -13,7 +13,7 @@ namespace corotet
 {
   namespace
   {
-    // Whether one of the ten vertices is on the face of the tetrahedron.
+    // Whether one of the ten vertices is on a face of the tetrahedron.
     bool
     is_on_face(const unsigned int vertex, const unsigned int face)
     {

@@ -10,20 +10,21 @@
 namespace corotet
 {
   /**
-   * How a tetrahedron is cut into eight: its vertices have the numbers 0 to 3,
-   * the middles of its edges 4 to 9.
+   * The division of a tetrahedron into eight: its vertices have the numbers 0
+   * to 3, the middles of its edges 4 to 9.
    */
   struct TetrahedronCut
   {
-    /// Along the diagonal with this number, of 6 and 8, 5 and 7, or 4 and 9.
+    /// Divides along diagonal number 0, 1 or 2, between 6 and 8, 5 and 7, or 4
+    /// and 9.
     explicit TetrahedronCut(const unsigned int diagonal);
 
     std::array<std::array<unsigned int, 4>, 8> vertices;
-    /// Parts of each face: children, and their faces.
+    /// The parts of each face: children, and the numbers of their faces.
     std::array<std::vector<std::array<unsigned int, 2>>, 4> faces;
   };
 
-  /// By their diagonals.
+  /// The three divisions, by their diagonals.
   const std::array<TetrahedronCut, 3> &
   tetrahedron_cuts();
 } // namespace corotet

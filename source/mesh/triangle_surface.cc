@@ -22,7 +22,7 @@ namespace corotet
 
 
 
-    // Twice the area, along the normal.
+    // The normal of a triangle with the length of twice its area.
     dealii::Tensor<1, 3>
     area_vector(const TriangleSurface &surface, const Triangle &triangle)
     {
@@ -33,8 +33,8 @@ namespace corotet
 
 
 
-    // The solid angle of all triangles of a shell as seen from a point, over
-    // that of a sphere: 1 or -1 inside, 0 outside.
+    // The solid angle of all triangles of a shell as seen from a point, divided
+    // by that of a sphere: 1 or -1 inside, 0 outside.
     // A. van Oosterom, J. Strackee: The solid angle of a plane triangle. IEEE
     // Transactions on Biomedical Engineering 30 (1983).
     double
@@ -66,7 +66,7 @@ namespace corotet
     TriangleSurface surface;
     surface.origin    = path;
     std::string bytes = read_whole_file(path);
-    // Text has no zeros.
+    // Text has no zero bytes.
     if (bytes.starts_with(byte_order_mark) &&
         bytes.find('\0') == std::string::npos)
       bytes.erase(0, byte_order_mark.size());
@@ -140,7 +140,8 @@ namespace corotet
               shell.high[d] = std::max(shell.high[d], surface.vertices[v][d]);
             }
       }
-    // Shells do not cross: one vertex tells whether all are inside.
+    // Shells do not cross, so one vertex tells whether the whole shell is
+    // inside.
     for (Shell &shell : shells)
       {
         const Point<3> &x =

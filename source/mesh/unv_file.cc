@@ -23,8 +23,8 @@ namespace corotet
 {
   namespace
   {
-    // Coordinate systems that nodes were defined in, by their numbers: how many
-    // nodes, and the line of the first.
+    // A coordinate system in which nodes were defined: how many nodes, and the
+    // line of the first one.
     struct UnvSystem
     {
       std::size_t   n_nodes = 0;
@@ -109,7 +109,7 @@ namespace corotet
             fmt::format("node {} is there already, at another place", label));
       }
 
-      // 0 and 1 are the global one.
+      // Counts a node's system. 0 and 1 are the global one.
       void
       add_system(const std::vector<std::string> &of_line)
       {
@@ -121,7 +121,7 @@ namespace corotet
           system.place = lines.place;
       }
 
-      // After all datasets, as systems may be defined behind the nodes.
+      // Called after all datasets, as systems may be defined behind the nodes.
       void
       check_systems() const
       {
@@ -148,8 +148,8 @@ namespace corotet
           }
       }
 
-      // Of the dataset 2411 the system is that of the export, whose
-      // coordinates are global.
+      // In dataset 2411 the system is that of the export, and coordinates are
+      // global.
       void
       read_nodes(const bool have_system)
       {
@@ -212,7 +212,7 @@ namespace corotet
       std::vector<std::uint64_t>
       nodes_of_element(const std::int64_t type, const std::size_t n)
       {
-        // Beams say how they are turned.
+        // Beams have a line about their orientation.
         static const std::set<std::int64_t> beams{11, 21, 22, 23, 24, 31, 32};
         if (beams.contains(type))
           lines.needed_words();
@@ -231,8 +231,8 @@ namespace corotet
         return result;
       }
 
-      // @p n_numbers for each member: 8 and the label for elements, 7 for
-      // nodes.
+      // A member has @p n_numbers: elements are of type 8 and have a label;
+      // nodes are of type 7.
       void
       read_groups(const std::size_t n_numbers)
       {
@@ -280,7 +280,7 @@ namespace corotet
           }
       }
 
-      // Of words that all are such; none if others are among them.
+      // The numbers in @p words; none if one word is not a whole number.
       static std::vector<std::int64_t>
       whole_numbers(const std::vector<std::string> &words)
       {
@@ -293,8 +293,8 @@ namespace corotet
         return result;
       }
 
-      // Where the number of members is too small, others or the next group
-      // stand where the name of one is expected, or its dataset ends.
+      // Throws if a member, the next group or the end of the dataset stands in
+      // place of a name: the number of members before is too small.
       void
       check_name(const std::size_t n_numbers) const
       {
@@ -302,7 +302,7 @@ namespace corotet
         const bool is_member =
           !numbers.empty() && numbers.size() % n_numbers == 0 &&
           (numbers.size() == 8 || numbers[0] == 7 || numbers[0] == 8);
-        // A group may have that name, too.
+        // A group may be called "-1", too.
         const bool is_end = lines.trimmed() == "-1" && lines.text()[0] == ' ';
         if (is_member || is_end)
           lines.place.refuse(fmt::format(
@@ -311,7 +311,7 @@ namespace corotet
             shortened(lines.trimmed(), 80)));
       }
 
-      // Groups without a name get another one if the file has that.
+      // A group without a name gets another one if its default name is taken.
       void
       name_unnamed_groups()
       {
@@ -323,7 +323,7 @@ namespace corotet
             });
       }
 
-      // Which numbers are those of a group, after all datasets.
+      // Assigns the numbers of the groups, after all datasets.
       void
       add_numbers()
       {
@@ -365,7 +365,7 @@ namespace corotet
           }
       }
 
-      // Of the material and of the physical property.
+      // The numbers of the material and of the physical property.
       using Numbers = std::array<std::int64_t, 2>;
 
       struct Member
@@ -376,10 +376,10 @@ namespace corotet
 
       UnvLines     lines;
       ModelBuilder builder;
-      // Definition systems of nodes, and whether there are any in the file.
+      // The definition systems of nodes, and whether the file defines any.
       std::map<std::int64_t, UnvSystem> systems;
       bool                              has_systems = false;
-      // By their labels.
+      // The elements by their labels.
       std::unordered_map<std::int64_t, std::size_t> elements;
       std::vector<Numbers>                          numbers_of;
       std::vector<std::string>                      groups;

@@ -46,7 +46,7 @@ namespace corotet
       return is_there;
     }
 
-    // A line that has to be there.
+    // Goes to the next line; throws if there is none.
     void
     need_next()
     {
@@ -83,7 +83,7 @@ namespace corotet
       return words();
     }
 
-    // The next line of a dataset; none at its end.
+    // The next line of a dataset; nothing at the end of the dataset.
     std::optional<Words>
     record()
     {

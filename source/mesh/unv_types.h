@@ -11,7 +11,7 @@
 
 namespace corotet
 {
-  /// gmsh's type of elements, and theirs in our order.
+  /// gmsh's type of elements, and the nodes in gmsh's order.
   struct UnvType
   {
     int              gmsh;
@@ -20,8 +20,8 @@ namespace corotet
 
 
 
-  /// By I-deas's number and that of the nodes. Those on edges stand between the
-  /// corners.
+  /// The type for I-deas's number of a type and number of nodes. I-deas puts
+  /// nodes on edges between the corners.
   inline std::optional<UnvType>
   unv_type(const std::int64_t number, const std::int64_t n_nodes)
   {

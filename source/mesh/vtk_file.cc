@@ -32,7 +32,7 @@ namespace corotet
     if (!end.has_exceeded && end.signal == 0 && end.status == 0 &&
         std::filesystem::exists(target))
       return message;
-    // What a shell says, and env, if there is no Python.
+    // A shell, or env, ends with these if there is no Python.
     if (end.status == 126 || end.status == 127)
       throw MachineError(path + ": Python, which reads files of VTK, is "
                                 "missing (Debian's packages: python3, "

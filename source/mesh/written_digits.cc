@@ -14,8 +14,8 @@ namespace corotet
 {
   namespace
   {
-    // Fewer digits are those of round numbers, which are exact, and what more
-    // of them leave is as small as other round-off.
+    // With fewer digits numbers are taken for round ones, which are exact; the
+    // rounding errors of more digits are as small as other round-off.
     constexpr int least_digits = 5, most_digits = 12;
 
     bool
@@ -37,7 +37,7 @@ namespace corotet
         {
           if (x[a] == 0 || !std::isfinite(x[a]))
             continue;
-          // "1.2345e-06".
+          // The text of a number, "1.2345e-06".
           std::array<char, 32> text;
           const char *const    end = std::to_chars(text.begin(),
                                                 text.end(),
@@ -54,7 +54,7 @@ namespace corotet
                 significant = std::numeric_limits<float>::digits10 + 1;
               return;
             }
-          // Without the sign of positive exponents, which is no number's.
+          // from_chars() does not accept the plus sign of exponents.
           int         exponent = 0;
           const char *first    = text.begin() + e + 1;
           std::from_chars(first + (*first == '+' ? 1 : 0), end, exponent);

@@ -11,24 +11,25 @@
 namespace corotet
 {
   /**
-   * How many digits a file has of coordinates: with six or nine of them, as
-   * many programs write, nodes in the middle of straight edges are off by what
-   * rounding leaves. Told by the numbers themselves: the shortest decimal
-   * number that is the same double has no more digits than the file. Numbers
-   * of single precision, as files of bytes may have, have seven.
+   * The number of digits that a file has of coordinates. With six or nine
+   * digits, as many programs write, nodes in the middle of straight edges are
+   * off by the rounding error. The numbers themselves tell: the shortest
+   * decimal number that gives the same double has no more digits than the file.
+   * Numbers of single precision, as binary files may have, have seven.
    */
   class WrittenDigits
   {
   public:
     explicit WrittenDigits(const std::vector<dealii::Point<3>> &nodes);
 
-    /// One of the last digit of coordinates up to @p size: what a node on a
-    /// line between others that are rounded, too, is off by at most in each
-    /// direction. 0 if the numbers are too long or too short to tell.
+    /// The unit of the last digit of coordinates up to @p size: the largest
+    /// deviation, in each direction, of a node on a line between others, all of
+    /// which are rounded. 0 if the numbers are too long or too short to tell.
     double
     last_digit(const double size) const;
 
-    /// Significant digits; 0 if there are too many or too few to tell.
+    /// The number of significant digits; 0 if there are too many or too few to
+    /// tell.
     int
     n_significant() const
     {
@@ -37,7 +38,7 @@ namespace corotet
 
   private:
     int significant = 0;
-    /// Behind the decimal point.
+    /// The number of digits behind the decimal point.
     int  decimals            = 0;
     bool is_single_precision = false;
   };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What the run of a checkpoint must have in common with the one that goes on.
+// Checks what a restarted run must have in common with the run of its
+// checkpoint.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/named_values.h>
@@ -27,8 +28,8 @@ namespace corotet
   {
     using Json = nlohmann::ordered_json;
 
-    // What may be changed when a run is restarted: entries, and sections with a
-    // slash at the end.
+    // Entries, and sections with a slash at the end, that may change when a run
+    // is restarted.
     const std::vector<std::string> changeable{
       {"Checkpoint/",
        "Convergence study/",
@@ -52,8 +53,8 @@ namespace corotet
        "Time integration/Time step",
        "Verification/"}};
 
-    // Names of files may be relative to another folder now: those of tables are
-    // not compared; the mesh has a checksum.
+    // Whether an entry may change. Names of table files are not compared, as
+    // they may be relative to another folder now; the mesh has a checksum.
     bool
     may_change(const std::string &entry)
     {
@@ -67,7 +68,7 @@ namespace corotet
                          });
     }
 
-    // "Section/Entry" and text of all entries.
+    // Lists "Section/Entry" and text of all entries.
     void
     flatten(const Json                         &section,
             const std::string                  &path,
@@ -80,8 +81,8 @@ namespace corotet
           entries[path + key] = node.get<std::string>();
     }
 
-    // The items of a list, of whatever kind, and what separates them, without
-    // blanks around them.
+    // The items of a nested list and their separators, without blanks around
+    // them.
     std::vector<std::string>
     items_and_separators(const std::string &text)
     {
@@ -116,8 +117,8 @@ namespace corotet
              x == y;
     }
 
-    // Also of words and numbers with blanks between them, as points are; blanks
-    // of names without numbers count.
+    // Compares words and numbers between blanks one by one, as in points, where
+    // blanks do not matter; they matter in names without numbers.
     bool
     is_same_text_or_number(const std::string &a, const std::string &b)
     {
@@ -142,7 +143,8 @@ namespace corotet
              has_number;
     }
 
-    // Whether all formulas that have the table have it of the time itself.
+    // Whether all formulas with the table use it as a function of the time
+    // itself.
     bool
     is_function_of_time(const std::string                        &table,
                         const std::map<std::string, std::string> &entries)
@@ -162,8 +164,8 @@ namespace corotet
                          });
     }
 
-    // What is wrong with rows that have been added to a table since the
-    // checkpoint at @p time, when it had @p n_before; empty if nothing is.
+    // What is wrong with rows that were added to a table since the checkpoint
+    // at @p time, when it had @p n_before rows; empty if nothing is.
     std::string
     refused_rows(const std::string   &name,
                  const TableFunction &table,
@@ -179,8 +181,8 @@ namespace corotet
       if (!is_function_of_time(name, entries))
         return fmt::format("formulas have it of something else than t, so they "
                            "may change what the run has done");
-      // A new row changes the slope at the last one before it, and where
-      // supports move, their velocity there.
+      // A new row changes the slope at the last old row, and with it the
+      // velocity of supports that move by this table.
       const double last = arguments[n_before - (table.is_cubic() ? 2 : 1)];
       const bool   moves_supports =
         entries["Boundary conditions/Displacement"].find(name) !=
@@ -193,7 +195,7 @@ namespace corotet
                          time);
     }
 
-    // Whether two texts are the same but for the way to write numbers, and for
+    // Whether two texts are the same, except for the way to write numbers and
     // blanks around the items of lists.
     bool
     is_same(const std::string &a, const std::string &b)
@@ -249,7 +251,7 @@ namespace corotet
         changed           = changed_tables(before, body.tables);
         if (changed.empty())
           for (const auto &[known, table] : body.tables)
-            // Checkpoints of older versions do not have the time.
+            // Checkpoints of older versions do not contain the time.
             if (before.contains(known) && before.at(known).contains("time"))
               if (refused = refused_rows(known,
                                          *table,

@@ -30,7 +30,7 @@ namespace corotet
   {
     using Json = nlohmann::ordered_json;
 
-    // Of what is in a checkpoint and what it means.
+    // The version of the content of checkpoints and its meaning.
     constexpr int format_version = 6;
 
     class FileDescriptor
@@ -83,7 +83,7 @@ namespace corotet
       std::string   checksum;
     };
 
-    // Each rank reads its part. Collective.
+    // Reads a file, a part on each rank. Collective.
     FileContent
     content_of_file(const std::string &path, const MPI_Comm comm)
     {
@@ -118,7 +118,7 @@ namespace corotet
                 dealii::Utilities::MPI::sum(sum, comm))};
     }
 
-    // Whether all entries are 0 (-0 is another number). Collective.
+    // Whether all bits of all entries are 0, so that none is -0. Collective.
     bool
     has_no_bits(const Vector &vector)
     {
@@ -132,7 +132,7 @@ namespace corotet
                                          vector.get_mpi_communicator()) == 1;
     }
 
-    // Slashes would be groups.
+    // Replaces slashes, which would make groups.
     std::string
     table_name(std::string name)
     {
@@ -140,8 +140,8 @@ namespace corotet
       return name;
     }
 
-    // Whether all texts are where texts are expected, and so on: what has a
-    // right checksum may still be made by anybody.
+    // Whether all values have the expected types: a file with a right checksum
+    // may still have been made by anybody.
     bool
     has_all_parts(const Json &content)
     {
@@ -175,7 +175,7 @@ namespace corotet
     Json
     parse_content(const std::string &text, const std::string &file)
     {
-      // As deep as the sections of parameters, and what they are in.
+      // The depth of the sections of parameters, and of what contains them.
       constexpr int max_depth = 30;
       return Json::parse(text, [&](const int depth, const auto, const auto &) {
         if (depth > max_depth)
@@ -188,11 +188,11 @@ namespace corotet
       });
     }
 
-    // Reads and checks PATH.json. On rank 0.
+    // Reads and checks PATH.json. Called on rank 0.
     Json
     read_content(const std::string &file)
     {
-      // If that fails it is not the checkpoint's fault, which may be good.
+      // A failure here does not mean that the checkpoint is damaged.
       const std::string text = read_whole_file(file);
       try
         {
@@ -244,7 +244,7 @@ namespace corotet
     if (vector.size() == 0)
       values[full_name] = "empty";
     else if (has_no_bits(vector))
-      // Velocities in statics, and the like.
+      // Such as velocities in statics.
       values[full_name] = "zero";
     else
       {
@@ -282,7 +282,8 @@ namespace corotet
         }
       catch (const MachineError &)
         {
-          // Which is of no use alone, and takes the room of the next one.
+          // The file is of no use alone, and would take the room of the next
+          // one.
           std::error_code error;
           std::filesystem::remove(path + ".h5", error);
           throw;

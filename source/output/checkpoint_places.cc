@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Which checkpoints there are, what their files are called, and which go.
+// The names of checkpoints and their files, and which checkpoints are removed.
 
 #include <corotet/output/checkpoints.h>
 
@@ -55,7 +55,7 @@ namespace corotet
         const std::string file = entry.path().filename().string();
         if (!std::regex_match(file, match, name))
           continue;
-        // No run has written one with a higher number.
+        // No run has written a checkpoint with a higher number.
         constexpr auto      most  = std::numeric_limits<unsigned int>::max();
         const unsigned long step  = std::stoul(match[1]);
         const unsigned long parts = match[3].matched ? std::stoul(match[3]) : 0;

@@ -29,11 +29,12 @@ namespace corotet
     namespace fs = std::filesystem;
     using Json   = nlohmann::ordered_json;
 
-    // A limit of wall time is one of all runs of the program.
+    // The limit of wall time counts from the start of the program, for all its
+    // runs.
     const auto program_start = std::chrono::steady_clock::now();
 
 
-    // What a run is asked for.
+    // Requests to a run, as bits.
     enum Request : int
     {
       none       = 0,
@@ -53,7 +54,7 @@ namespace corotet
         .count();
     }
 
-    // Those that this rank knows of; rank 0 has the clock.
+    // The requests to stop that this rank knows of; rank 0 has the clock.
     int
     requests_to_stop(const CheckpointParameters &parameters,
                      const MPI_Comm              comm)
@@ -91,7 +92,7 @@ namespace corotet
       return all;
     }
 
-    // Empty if none of them is to stop.
+    // The reason of a request to stop; empty if there is none.
     std::string
     reason_of(const int requests)
     {
@@ -207,19 +208,19 @@ namespace corotet
   {
     std::int64_t log_size = 0;
     checkpoint.transfer("log_size", log_size);
-    // The run may go on with other steps, for which the one that was within is
-    // no more.
+    // A restarted run may make other steps: the checkpoint is found by its
+    // files, as its place within a step may not exist any more.
     for (const Place &place : from_root(comm, [&] { return places(); }))
       if (path_of(place) == checkpoint.base_path())
         written_place = place;
-    // Which may refuse to go on: then the log is as it was.
+    // This may throw; then the log stays as it was.
     simulation.resume(observers, recording, checkpoint);
     log.resume(log_file, log_size);
     log.line(fmt::format("Restarted from {}, t = {:.6g} s",
                          in_words(*written_place),
                          simulation.time()));
     on_root(comm, [&] {
-      // Those that are damaged.
+      // Newer checkpoints are damaged.
       for (const Place &place : places())
         if (*written_place < place)
           for (const char *suffix : {".json", ".h5"})
@@ -277,7 +278,7 @@ namespace corotet
     int mine = requests_to_stop(parameters, comm);
     if (StopSignals::take_save_request())
       mine |= save;
-    // By one clock.
+    // Only the clock of rank 0 counts.
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0 &&
         parameters.minutes_between > 0 &&
         seconds_since(written) >= 60 * parameters.minutes_between)
@@ -288,13 +289,13 @@ namespace corotet
   bool
   Checkpoints::is_urgent() const
   {
-    // Most steps end before; who kills a process that does not stop waits at
-    // least twice as long.
+    // Most steps end in this time [s]; a process that does not stop is usually
+    // killed after twice this time or more.
     constexpr double patience = 5;
     if (StopSignals::waiting_time() > patience)
       return true;
-    // A limit that is shorter than a step would else stop each restart where it
-    // began.
+    // Without has_advanced, a limit shorter than a step would stop each restart
+    // where it began.
     return parameters.wall_time_limit > 0 && has_advanced &&
            dealii::Utilities::MPI::this_mpi_process(comm) == 0 &&
            seconds_since(program_start) > parameters.wall_time_limit + patience;
@@ -305,12 +306,12 @@ namespace corotet
   {
     const Place place = place_of(simulation);
     written           = Clock::now();
-    // This state is saved.
+    // This state has been saved already.
     if (place == written_place)
       return;
     release_free_memory();
     on_root(comm, [&] { fs::create_directories(directory); });
-    // What the checkpoint counts on is there before it is.
+    // Files that the checkpoint refers to must be on the disk before it is.
     if (durable)
       on_all_ranks(comm, [&] { sync_file_system(directory); });
     CheckpointWriter writer(path_of(place), discretization, order_of_nodes());

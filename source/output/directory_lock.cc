@@ -30,7 +30,7 @@ namespace corotet
       return name.data();
     }
 
-    // The second line of the file: whose it is.
+    // The owner of the lock, in the second line of the file.
     std::string
     owner_in(const std::string &path)
     {
@@ -102,7 +102,8 @@ namespace corotet
                                          signature,
                                          getpid(),
                                          machine_name());
-    // The first line, which stays the same, is there whatever fails.
+    // The file is truncated after writing, so its first line, which does not
+    // change, stays whatever fails.
     if (pwrite(descriptor, text.data(), text.size(), 0) !=
           static_cast<ssize_t>(text.size()) ||
         ftruncate(descriptor, text.size()) != 0)

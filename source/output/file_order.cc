@@ -38,8 +38,8 @@ namespace corotet
   FileOrder
   FileOrder::of_nodes(const Discretization &discretization, const Nodes &nodes)
   {
-    // The first of the cells that have the node, all of which its owner knows,
-    // and the node's number there.
+    // The key of a node: the number of the first cell with this node, all of
+    // which its owner knows, and the node's number there.
     const std::int64_t        n = nodes.n_nodes_per_cell();
     std::vector<std::int64_t> keys(nodes.n_local_nodes(),
                                    std::numeric_limits<std::int64_t>::max());
@@ -62,7 +62,8 @@ namespace corotet
     : comm(comm)
     , by_rank(keys.size())
   {
-    // Each rank has the rows of an equal part of all keys.
+    // All keys are divided evenly among the ranks; each has the rows of its
+    // keys.
     const std::int64_t n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
     std::iota(by_rank.begin(), by_rank.end(), 0u);
     std::sort(by_rank.begin(),
@@ -110,7 +111,7 @@ namespace corotet
     const std::size_t n =
       std::accumulate(n_from.begin(), n_from.end(), std::size_t(0));
     std::vector<Number> target(n * n_columns);
-    // As a type of MPI, so that numbers of bytes fit into its int.
+    // A row is one MPI type, so that counts fit into MPI's int.
     MPI_Datatype row = MPI_DATATYPE_NULL;
     MPI_Type_contiguous(n_columns * sizeof(Number), MPI_BYTE, &row);
     MPI_Type_commit(&row);

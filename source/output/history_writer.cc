@@ -19,9 +19,9 @@ namespace corotet
   {
     using dealii::Tensor;
 
-    // Rows may have thousands of columns: looking for each name among those
-    // before it, as operator[] does, would take most of the time. Names are
-    // known to be different (OutputParameters).
+    // The row is filled as a list: rows may have thousands of columns, and
+    // operator[] would compare each name with all before it. Names are known to
+    // be different (OutputParameters).
     using Row = nlohmann::ordered_json::object_t;
 
     template <typename Value>
@@ -187,10 +187,10 @@ namespace corotet
     if (!archive.is_reading())
       saved_size = file.tellp();
     archive.transfer("history_size", saved_size);
-    // The state of a checkpoint may be a later one.
+    // The checkpoint's state may be later than the last row.
     std::string text = row->dump();
     archive.transfer("history_row", text);
-    // Of thousands of columns that takes a while.
+    // Parsing thousands of columns takes a while.
     if (archive.is_reading())
       *row = nlohmann::ordered_json::parse(text);
   }

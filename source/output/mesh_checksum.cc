@@ -16,8 +16,8 @@ namespace corotet
   std::string
   mesh_checksum(const Mesh &mesh)
   {
-    // Where the words of a cell begin: its region, the coordinates of its
-    // vertices, names of its parts, and the nodes of its map.
+    // The positions of a cell's words: its region, the coordinates of its
+    // vertices, the names of its parts, and the nodes of its map.
     constexpr unsigned int n_words = 128, first_vertex = 1, first_face = 13,
                            first_edge = 17, first_corner = 23, first_node = 27;
     const LocalMesh &local = mesh.local();

@@ -29,15 +29,16 @@ namespace corotet
 
     const std::string directory_entry = "Output/Directory";
 
-    // Names of what a run writes, as regular expressions of paths relative to
-    // the output directory. A folder is removed if it is empty then.
+    // The names of a run's results, as regular expressions for paths relative
+    // to the output directory. Folders are removed if they become empty.
     const std::array<std::string_view, 6> own_files{
       {R"(study(_[A-Za-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
        R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
        R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
        R"((rows/[^/]+/)?checkpoint/step_[0-9]+(_[0-9]+)?\.(h5|json)(\.tmp)?)",
-       // The page of a run, also as it is while scripts/report writes it.
+       // The page of a run, and its temporary files while scripts/report writes
+       // it.
        R"(report\.html|\.report\.html\..*)"}};
     const std::array<std::string_view, 4> own_folders{
       {"solution",
@@ -64,7 +65,7 @@ namespace corotet
               matches(relative_path.generic_string(), own_folders));
     }
 
-    // It marks the directory, and stays.
+    // Whether a file is the mark of the directory, which is kept.
     bool
     is_mark(const fs::path &relative_path)
     {
@@ -91,8 +92,8 @@ namespace corotet
                            "only a directory of results can be overwritten");
     }
 
-    // Everything below the directory, folders after what they hold. Throws if
-    // any of it is not a result.
+    // All results below the directory, folders after their contents. Throws if
+    // there is anything else.
     std::vector<fs::path>
     old_results(const fs::path &directory)
     {
@@ -103,7 +104,7 @@ namespace corotet
         {
           const fs::path path = entry.path().lexically_relative(directory);
           const fs::file_status status = entry.symlink_status();
-          // Another run may be writing there: its lock will say so.
+          // Another run may be writing there; then its lock is found later.
           if (is_mark(path) || !fs::exists(status))
             continue;
           if (!is_own(path, status))
@@ -118,8 +119,8 @@ namespace corotet
       return results;
     }
 
-    // What has to be removed from the directory before a run, folders after
-    // what they hold. Throws if it must not be.
+    // The paths to remove from the directory before a run, folders after their
+    // contents. Throws if they must not be removed.
     std::vector<fs::path>
     to_be_removed(const fs::path &directory, const bool overwrite)
     {
@@ -145,7 +146,8 @@ namespace corotet
       return old_results(directory);
     }
 
-    // A folder must be possible there: below what exists already.
+    // Throws if the directory cannot be made or filled below the innermost
+    // existing part of its path.
     void
     check_place(const fs::path &directory)
     {
@@ -171,7 +173,7 @@ namespace corotet
           "': " + std::generic_category().message(number));
     }
 
-    // Runs @p action on the directory on rank 0.
+    // Runs @p action with the path of the directory on rank 0.
     void
     on_root_with_directory(const std::string &directory,
                            const MPI_Comm     comm,
@@ -181,7 +183,7 @@ namespace corotet
         try
           {
             const fs::path path = directory;
-            // What '..' leads to depends on links before it.
+            // The meaning of '..' depends on links before it.
             const bool goes_up =
               std::find(path.begin(), path.end(), "..") != path.end();
             action(goes_up ? fs::weakly_canonical(path) :

@@ -36,7 +36,8 @@ namespace corotet
                                      what));
     }
 
-    // NAME_x must not be two columns of the history, or of modes.
+    // Throws if a column of a probe, NAME_x, would exist twice in the history
+    // or in the table of modes.
     void
     check_not_taken(const std::string &entry, const std::string &name)
     {
@@ -62,7 +63,7 @@ namespace corotet
                                        end));
     }
 
-    // Adds it to @p names.
+    // Adds a name to @p names; throws if it is there already.
     void
     check_first(const std::string     &entry,
                 const std::string     &name,

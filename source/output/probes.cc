@@ -23,11 +23,12 @@ namespace corotet
     using dealii::Tensor;
     namespace mpi = dealii::Utilities::MPI;
 
-    // None.
+    // The value for a point that no cell contains.
     constexpr double far_outside = -std::numeric_limits<double>::max();
 
-    // The owned cell that has a point, the point's reference coordinates there,
-    // and how far it is outside: its smallest barycentric coordinate or 0.
+    // The owned cell that contains a point, the point's reference coordinates
+    // there, and its distance outside of the cell: the smallest barycentric
+    // coordinate or 0.
     struct Location
     {
       unsigned int cell = 0;
@@ -35,7 +36,7 @@ namespace corotet
       double       outside = far_outside;
     };
 
-    // Of cells that have it, one that it is least outside of.
+    // Of the cells that contain the point, the one that it is least outside of.
     Location
     locate(const Point<3>    &x,
            const PointSearch &search,
@@ -56,7 +57,7 @@ namespace corotet
       return best;
     }
 
-    // "x in [0, 1], y in [0, 0.1], z in [0, 0.1]". Collective.
+    // The text "x in [0, 1], y in [0, 0.1], z in [0, 0.1]". Collective.
     std::string
     extents(const Discretization &discretization)
     {
@@ -165,7 +166,7 @@ namespace corotet
   std::vector<Tensor<1, 3>>
   Probes::displacements(const Vector &displacement) const
   {
-    // Zero but on the rank that evaluates, so the sum is exact.
+    // Values are zero except on the rank that evaluates, so the sum is exact.
     std::vector<double> values(3 * probe_names.size(), 0.);
     for (const ProbeInCell &probe : located)
       for (unsigned int i = 0; i < probe.nodes.size(); ++i)

@@ -12,11 +12,11 @@ namespace corotet
 {
   namespace
   {
-    // 75 s: "0:01:15".
+    // The text of a time: "0:01:15" for 75 s.
     std::string
     clock_text(const double seconds)
     {
-      // More than some years are not worth a number that might not fit.
+      // Longer times, some 30 years, need no number, which might overflow.
       const long long s = std::llround(std::min(seconds, 1e9));
       return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
     }
@@ -28,12 +28,14 @@ namespace corotet
                 const double      end_time,
                 const double      seconds_left)
   {
-    // Rounded down: 100 % is the end. A share of 0.29 is no 28 % by round-off.
+    // Rounded down, as 100 % means the end; the factor keeps a share of 0.29
+    // from becoming 28 % by round-off.
     const double share    = end_time > start_time ? (record.time - start_time) /
                                                    (end_time - start_time) :
                                                     1.;
     const double per_cent = std::floor(100 * share * (1 + 1e-9));
-    // Short, because a live line must fit into a terminal's.
+    // The text must be short, as the progress line has to fit into a terminal's
+    // line.
     std::string text =
       fmt::format("step {}, time {:.4g} of {:.4g} s ({:.0f} %), Newton {}, "
                   "linear {}",

@@ -15,7 +15,7 @@ namespace corotet
 {
   namespace
   {
-    // Rows of the history, and states of the time series.
+    // The numbers of rows of the history, and of states of the time series.
     std::pair<double, double>
     numbers_of_records(const OutputParameters &parameters,
                        const double            n_steps,
@@ -30,7 +30,7 @@ namespace corotet
       return {n_all, std::min(n_intended, n_all)};
     }
 
-    // Of so many rows and states at least [byte].
+    // The least size of so many rows and states [byte].
     double
     size_of_records(const OutputParameters &parameters,
                     const Body             &body,

@@ -7,7 +7,7 @@ namespace corotet
 {
   namespace
   {
-    // Those of the file of a result.
+    // The tables in the file of a result.
     std::vector<Hdf5File::NewTable>
     tables_of(const VtkhdfSeries &series)
     {

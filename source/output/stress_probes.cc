@@ -26,7 +26,7 @@ namespace corotet
     const auto       &fe = discretization.finite_element().base_element(0);
     const PointSearch search(discretization);
     const NearbyCells nearby(discretization);
-    // Returns the number of cells, of all ranks.
+    // Locates a point; returns the number of cells with it, of all ranks.
     const auto locate = [&](const dealii::Point<3> &x) {
       const std::size_t n_before = located.size();
       for (const unsigned int c : nearby.cells(x))
@@ -56,7 +56,8 @@ namespace corotet
   {
     if (!raw)
       field.recover(cells);
-    // For each probe and material: six sums over cells, and their number.
+    // For each probe and material: six sums over cells, and the number of
+    // cells.
     const std::size_t   n_materials = field.law().n_materials();
     std::vector<double> sums(7 * n_materials * probe_names.size(), 0.);
     for (const StressProbeInCell &probe : located)

@@ -11,7 +11,7 @@ namespace corotet
 {
   namespace
   {
-    // Of the first rows.
+    // The checksum of the first rows.
     std::string
     checksum_of_rows(const TableFunction &table, const std::size_t n)
     {
@@ -52,7 +52,7 @@ namespace corotet
         {
           const std::size_t n = before.at(name).at("rows").get<std::size_t>();
           if (n > table->rows().size() ||
-              // Checkpoints of older versions do not have it.
+              // Checkpoints of older versions do not contain it.
               before.at(name).value("is_cubic", table->is_cubic()) !=
                 table->is_cubic() ||
               before.at(name).at("checksum").get<std::string>() !=

@@ -19,8 +19,8 @@ namespace corotet
 {
   namespace
   {
-    // What is stored once, by name: all that VTK's reader wants in group
-    // VTKHDF.
+    // The tables that are stored once, by name: VTK's reader expects them in
+    // group VTKHDF.
     const std::vector<std::string> mesh_tables{"NumberOfPoints",
                                                "NumberOfCells",
                                                "NumberOfConnectivityIds",
@@ -71,7 +71,7 @@ namespace corotet
                               const hsize_t   n_nodes,
                               const MPI_Comm  comm)
   {
-    // An entry more than there are cells: rank 0 writes the leading zero.
+    // There is one entry more than cells: rank 0 writes the leading zero.
     const hsize_t begin =
       dealii::Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : 1;
     std::vector<std::int64_t> offsets;
@@ -128,7 +128,8 @@ namespace corotet
     on_root(comm, [&] {
       check_files();
       write_index();
-      // Nobody refers to them any more: later results, and blocks with some.
+      // Files that nothing refers to any more: later results, and blocks with
+      // such.
       const std::regex result(R"(step_(\d{6,10})\.h5(\.tmp)?)"),
         block(R"(block_(\d+_)?\d{6,10}\.h5(\.tmp)?)");
       const std::set<std::string>        of_blocks = block_files();
@@ -153,7 +154,7 @@ namespace corotet
   {
     if (time_between_results == 0)
       return true;
-    // A step that ends at a multiple, but for round-off, has reached it.
+    // A step that ends at a multiple, up to round-off, has reached it.
     const auto interval = [&](const double t) {
       return std::floor(t / time_between_results + 1e-6);
     };
@@ -256,7 +257,7 @@ namespace corotet
   void
   VtkhdfSeries::join_blocks()
   {
-    // Levels never rise from one block to the next.
+    // The levels of blocks never increase from one block to the next.
     while (blocks.size() >= n_joined &&
            blocks[blocks.size() - n_joined].level == blocks.back().level)
       {
@@ -267,7 +268,8 @@ namespace corotet
         Hdf5File file(directory + "/" + name + "/" + joined.file_name(),
                       MPI_COMM_SELF);
         write_references(file, first, "", "");
-        // The numbers of the steps are few: here they are themselves.
+        // Times and rows of steps are few numbers: copies of them are stored
+        // here.
         write_steps(file, n_results_before(first), joined.n_results);
         file.finish();
         blocks.resize(first);
@@ -351,7 +353,7 @@ namespace corotet
   void
   VtkhdfSeries::write_index_steps(Hdf5File &file) const
   {
-    // Those of results that no block has yet are in the index itself.
+    // Data of results that are in no block yet are in the index itself.
     const std::size_t     n = times.size();
     std::vector<Hdf5Part> parts;
     std::size_t           n_in_blocks = 0;
@@ -372,8 +374,8 @@ namespace corotet
                                 {static_cast<std::int64_t>(n)});
     file.write_virtual<double>(steps + "/Values", "Steps/Values", parts, 0);
 
-    // Where the tables of each step begin: the mesh and what belongs to it are
-    // the same rows for all.
+    // The first row of each step's tables: the mesh and its static data have
+    // the same rows for all steps.
     file.write_constant(steps + "/NumberOfParts", 1, n);
     file.write_constant(steps + "/PartOffsets", 0, n);
     file.link(steps + "/PointOffsets", steps + "/PartOffsets");

@@ -18,7 +18,7 @@ namespace corotet
     using dealii::Point;
     using dealii::Utilities::MPI::this_mpi_process;
 
-    // Reference coordinates of the nodes of VTK's Lagrange tetrahedron.
+    // The reference coordinates of the nodes of VTK's Lagrange tetrahedron.
     std::vector<Point<3>>
     vtk_nodes(const unsigned int degree)
     {
@@ -137,7 +137,8 @@ namespace corotet
     const std::vector<unsigned int> order = vtk_node_order(shown.degree());
     const hsize_t                   n     = shown.n_nodes_per_cell();
 
-    // Rows of all local nodes: doubles hold such numbers exactly.
+    // Row numbers of all local nodes in a vector: doubles represent them
+    // exactly.
     Vector row;
     shown.initialize_vector(row);
     const std::vector<std::int64_t> owned_rows = nodes->row_numbers();
@@ -159,7 +160,8 @@ namespace corotet
   void
   VtkhdfWriter::write_tables(Hdf5File &file, const Snapshot &state)
   {
-    // What the linear solver keeps for the next time makes room for the rows.
+    // Releases memory that the linear solver keeps for its next call, to have
+    // room for the rows.
     dealii::GrowingVectorMemory<Vector>::release_unused_memory();
     release_free_memory();
     const CellResults results = state.cell_results();

@@ -39,7 +39,8 @@ namespace corotet
       return {text.substr(0, end), dealii::Utilities::trim(text.substr(end))};
     }
 
-    // Where the last =, < or > is that is not a part of ==, <=, >= or !=.
+    // The position of the last =, < or > that is not a part of ==, <=, >= or
+    // !=.
     std::size_t
     last_relation(const std::string &text)
     {
@@ -68,7 +69,7 @@ namespace corotet
       return expression.value({}, 0);
     }
 
-    // Commas between quotation marks do not count.
+    // The parts of a line between commas outside of quotation marks.
     std::vector<std::string>
     words_between_commas(const std::string &line)
     {
@@ -180,7 +181,7 @@ namespace corotet
     }
 
     mu::Parser parser;
-    // What the parser reads.
+    // The variables that the parser reads.
     std::vector<double> values;
   };
 
@@ -199,7 +200,7 @@ namespace corotet
                                    "TOLERANCE', or < or > REFERENCE",
                                    shortened(text)));
     label = dealii::Utilities::trim(text.substr(0, colon));
-    // It is to be a cell of a table in a .csv file.
+    // The name has to fit into a cell of a table in a .csv file.
     if (label.empty() || label.find_first_of(",\"|") != std::string::npos)
       throw InputError(entry,
                        fmt::format("'{}' cannot be a check's name; allowed: "
@@ -298,7 +299,7 @@ namespace corotet
     result.error = result.computed - reference;
     if (relative)
       result.error *= 100 / std::abs(reference);
-    // Comparisons with not a number are false.
+    // Comparisons with a value that is not a number are false.
     result.tolerance = tolerance_text;
     result.passed    = std::abs(result.error) <= tolerance;
     if (relation == '<')

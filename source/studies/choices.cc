@@ -21,7 +21,7 @@ namespace corotet
 {
   namespace
   {
-    // Of a line of a terminal.
+    // The length of a line of text on a terminal.
     constexpr std::size_t most_letters = 96;
 
 
@@ -89,8 +89,8 @@ namespace corotet
           break;
         text += (text.empty() ? "" : " ") + line.substr(begin);
       }
-    // A full stop within a number or an abbreviation has no blank behind it, or
-    // two full stops.
+    // A full stop within a number or an abbreviation has no blank behind it,
+    // and an ellipsis has several full stops.
     std::size_t end = text.find(". ");
     while (end != std::string::npos && text[end - 1] == '.')
       end = text.find(". ", end + 1);

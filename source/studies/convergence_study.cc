@@ -38,7 +38,7 @@ namespace corotet
       });
     }
 
-    // Of a run that is done, in its own folder.
+    // Removes the checkpoints of a finished run, in its own folder.
     void
     remove_checkpoints(const std::string &folder, const MPI_Comm comm)
     {
@@ -76,7 +76,7 @@ namespace corotet
     for (StudyCase one : cases)
       {
         one.refinements = cases.front().refinements;
-        // The shortest one, of the most steps.
+        // The shortest time step, with which a run has the most steps.
         if (one.time_step)
           one.time_step = parameters.time_steps.back();
         if (!checked.insert(one.name()).second)
@@ -127,7 +127,7 @@ namespace corotet
   std::vector<std::string>
   ConvergenceStudy::columns() const
   {
-    // Of a table without numbers.
+    // Makes a table without numbers.
     const bool has_norms = parameters.run != RunType::modes &&
                            parameters.reference != StudyReference::none;
     std::vector<StudyResult> results;
@@ -162,7 +162,7 @@ namespace corotet
     });
     std::vector<StudyResult> results;
     unsigned int             n_failed = 0;
-    // Also while runs are set up: what is done is kept.
+    // Signals are also handled while runs are set up: finished runs are kept.
     const StopSignals signals;
     for (const StudyCase &one : cases)
       {
@@ -193,9 +193,10 @@ namespace corotet
             write(results, "failed", failure_of_finer_run);
             throw ComputationError(failure_of_finer_run);
           }
-        // All that there is, if the study is killed.
+        // Writes all results so far, in case that the study is killed.
         write(results, "unfinished", "");
-        // Each start of the program makes some of the way.
+        // The study is not stopped before this start of the program has
+        // computed a run.
         if (n_computed > n_before && results.size() < cases.size())
           stop_if_asked(results);
       }
@@ -262,7 +263,7 @@ namespace corotet
       }
     catch (const std::logic_error &)
       {
-        // A text that is no number.
+        // A text is not a number.
         warn_of_damage();
       }
     return {};

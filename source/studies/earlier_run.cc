@@ -24,7 +24,8 @@ namespace corotet
     namespace fs = std::filesystem;
     using Json   = nlohmann::ordered_json;
 
-    // "f: ../tables/f.csv, g: g.csv": "f: f.csv, g: g.csv".
+    // Removes folders: "f: ../tables/f.csv, g: g.csv" becomes "f: f.csv, g:
+    // g.csv".
     std::string
     without_folders(const std::string &files)
     {
@@ -41,8 +42,9 @@ namespace corotet
       return result;
     }
 
-    // Those that restarts from a checkpoint do not compare, since checkpoints
-    // have checksums: the mesh's file, if it is of one, and those of tables.
+    // The first changed file name among those that restarts from a checkpoint
+    // do not compare, since checkpoints have checksums: the mesh's file, if it
+    // has one, and those of tables.
     std::optional<ChangedEntry>
     changed_file(const Json &before, const Json &now)
     {
@@ -74,7 +76,7 @@ namespace corotet
     change_since(Json before, Json now)
     {
       const std::string study = "Convergence study";
-      // All else in its section may differ.
+      // Other entries of the section may differ.
       const Json old_run = before.at(study).at("Run"),
                  new_run = now.at(study).at("Run");
       if (now.at("Type") == "convergence study")
@@ -99,7 +101,7 @@ namespace corotet
   {
     const std::string path     = directory + "/parameters.prm";
     const bool        is_known = from_root(comm, [&] {
-      // A loss of power may leave an empty one.
+      // A loss of power may leave an empty file.
       std::error_code error;
       const auto      size = fs::file_size(path, error);
       return !error && size > 0;

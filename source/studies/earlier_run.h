@@ -15,8 +15,8 @@
 namespace corotet
 {
   /**
-   * Why the results in a directory are not those of the run that is to go on
-   * there: the entry that differs, and what an error says of it.
+   * The reason why the results in a directory are not those of the run that is
+   * to continue there: the entry that differs, and the message of an error.
    */
   struct OtherRun
   {
@@ -24,29 +24,29 @@ namespace corotet
     std::string message;
   };
 
-  /// Compares the entries in @p file, all of which are read, with those that
-  /// the run in @p directory was started with, parameters.prm. Entries may
-  /// differ where restarts from a checkpoint allow it, and in studies those of
-  /// the output and those that the lists of the study replace. Where names of
-  /// files lead may differ, as both are relative to other folders, but not
-  /// their last parts. None if all that is the same, or nothing is known of an
-  /// earlier run. Collective.
+  /// Compares the entries in @p file, all of which are read, with the entries
+  /// that the run in @p directory was started with, parameters.prm. Entries may
+  /// differ where restarts from a checkpoint allow it, and in studies also
+  /// those of the output and those that the lists of the study replace. Names
+  /// of files may differ in their folders, as both are relative to other
+  /// folders, but not in their last parts. Returns nothing if all of these
+  /// agree, or if there is no earlier run. Collective.
   std::optional<OtherRun>
   other_run_in(const std::string   &directory,
                const ParameterFile &file,
                const MPI_Comm       comm);
 
-  /// Throws InputError if a restart that has no checkpoint to go on from must
-  /// not replace what is in @p directory: results of a run that came to an end
-  /// by itself, checkpoints none of which is good (@p has_checkpoints), or
-  /// results of another run. Collective.
+  /// Throws InputError if a restart without a checkpoint must not replace the
+  /// contents of @p directory: results of a run that has ended by itself,
+  /// checkpoints that are all damaged (@p has_checkpoints), or results of
+  /// another run. Collective.
   void
   check_new_beginning(const std::string   &directory,
                       const ParameterFile &file,
                       const bool           has_checkpoints,
                       const MPI_Comm       comm);
 
-  /// Whether one of these is in the directory. Collective.
+  /// Whether the directory has one of the files @p names. Collective.
   bool
   holds_any(const std::string              &directory,
             const std::vector<std::string> &names,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What the runs of a study are compared with: a finer run, and the body of the
-// first one. Runs that fail before they begin.
+// The finer run that a study's runs are compared with, the comparison with the
+// body of the first run, and runs that fail before they begin.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/studies/convergence_study.h>
@@ -36,7 +36,7 @@ namespace corotet
     if (has_warned_of_parts)
       return;
     const auto sizes = run.sizes_of_selected_parts();
-    // Curved bodies have other sizes with another degree.
+    // Curved bodies have other sizes if the degree differs.
     const auto [first, is_new] = first_sizes.emplace(study_case.degree, sizes);
     const std::string changed =
       is_new ? "" : describe_changed_parts(first->second, sizes);
@@ -61,14 +61,15 @@ namespace corotet
           finest.time_step = std::min(*finest.time_step, *one.time_step);
       }
     finest.refinements += parameters.further_refinements;
-    // Of a run with the same step the error in time would be the same.
+    // If all runs have the same time step, the finer run has it, too: then it
+    // has the same error in time.
     const bool varies_time =
       std::any_of(cases.begin(), cases.end(), [&](const StudyCase &one) {
         return one.time_step != finest.time_step;
       });
     if (finest.time_step && varies_time)
       *finest.time_step /= 4;
-    // With the file's own.
+    // The finer run has the file's own mass matrix and rotation.
     finest.mass.reset();
     finest.rotation.reset();
     return finest;
@@ -96,7 +97,8 @@ namespace corotet
                                            finer_case(),
                                            comm);
         compare_parts(*finer, finer_case());
-        // Its end is kept for a restart: the runs that are left need it again.
+        // A checkpoint of the end is kept: after a restart of the study, the
+        // remaining runs need this run again.
         result =
           finer->compute(directory + "/rows/finer_run", command.restart, true);
       }
@@ -135,7 +137,7 @@ namespace corotet
       return;
     const double volume      = coarse->body().discretization.volume(),
                  fine_volume = fine->body().discretization.volume();
-    // More than round-off.
+    // The difference is more than round-off.
     if (!has_warned_of_volume &&
         std::abs(volume - fine_volume) > 1e-9 * fine_volume)
       {

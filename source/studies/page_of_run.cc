@@ -14,7 +14,7 @@ namespace corotet
 {
   namespace
   {
-    // As a shell takes it for one word.
+    // A text as a shell takes it for one word.
     std::string
     quoted(const std::string &text)
     {
@@ -37,7 +37,8 @@ namespace corotet
   {
     const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
     const bool        is_named  = toolchain != nullptr && *toolchain != '\0';
-    // Of a build, that of the sources, as their pages call it.
+    // In a build it is the script of the sources, as the documentation calls
+    // it.
     std::string       script = "scripts/report";
     const std::string found  = find_installed("share/corotet/" + script);
     if (!found.empty() && find_installed("CMakeCache.txt").empty())

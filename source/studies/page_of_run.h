@@ -8,8 +8,9 @@
 
 namespace corotet
 {
-  /// The command that makes the page of a run, as it is to be typed: the
-  /// libraries of scripts may be elsewhere.
+  /// The command that makes the page of a run, as a user has to type it. It
+  /// includes the command that makes the scripts' libraries available, if there
+  /// is one.
   std::string
   command_for_page(const std::string &directory);
 } // namespace corotet

@@ -22,7 +22,7 @@ namespace corotet
     void
     report_mesh(const MeshCommand &asked)
     {
-      // Before it is made, which may take long.
+      // Checked before the mesh is made, which may take long.
       if (!asked.out.empty())
         check_mesh_target(asked.out, asked.file);
       const SerialMesh mesh = read_mesh_file(asked.file,
@@ -64,9 +64,9 @@ namespace corotet
         run_command(command, file, MPI_COMM_WORLD);
       });
     }
-    // For a process that no launcher has started, which is alone. Launchers set
-    // one of these variables, by which Open MPI itself knows them. What a user
-    // has set stays.
+    // Settings for a process that was not started by a launcher and is alone.
+    // Launchers set one of these variables, by which Open MPI itself recognizes
+    // them. Settings of the user are not changed.
     // - Open MPI would leave the memory that ranks of one machine share in
     //   /dev/shm when such a process ends: it needs none.
     // - Looking for graphics cards, by hwloc's plugins, takes a tenth of the
@@ -99,17 +99,18 @@ namespace corotet
         return 3;
       }
     settings_if_alone();
-    // A file that reaches a limit is an error of writing, like a full disk.
+    // A file that reaches the size limit then fails to be written, as on a full
+    // disk.
     std::signal(SIGXFSZ, SIG_IGN);
-    // A wish to save, which steps hear of; before and after them there is
-    // nothing to be saved.
+    // SIGUSR1 is a request to save, which is handled during steps; before and
+    // after them there is nothing to save.
     std::signal(SIGUSR1, SIG_IGN);
 
-    // UCX, which MPI may load, would take it for messages about itself.
+    // UCX, which MPI may load, would use SIGHUP for messages about itself.
     struct sigaction hangup{};
     sigaction(SIGHUP, nullptr, &hangup);
 
-    // Nothing is made by PETSc, Zoltan or p4est: they need not start.
+    // PETSc, Zoltan and p4est are not used, so they are not started.
     int                  n_passed_on    = 1;
     char                *passed_on[]    = {argv[0], nullptr};
     char               **first_argument = passed_on;

@@ -85,7 +85,7 @@ namespace corotet
 
   namespace
   {
-    // A run of the program whose parameters have been declared.
+    // One run of the program; its parameters must have been declared.
     class Command
     {
     public:
@@ -113,13 +113,13 @@ namespace corotet
         directory = parameters.output.directory_of_run(command.parameter_file);
         on_root(comm,
                 [&] { file.check_effective(directory + "/parameters.prm"); });
-        // Before the work starts; nothing is removed before all input is
-        // checked.
+        // Checked before the work starts; nothing is removed before all input
+        // is checked.
         if (command.restart)
-          // What is there stays, if there is a checkpoint.
+          // If there is a checkpoint, existing results stay.
           check_directory_of_restart(directory, comm);
         else
-          // Results are for --validate to speak of in the end.
+          // With --validate, results are mentioned at the end only.
           check_output_directory(
             directory, parameters.output.overwrite || command.validate, comm);
       }
@@ -179,15 +179,15 @@ namespace corotet
                       command_for_page(directory) + " says why");
       }
 
-      // A restart without anything to go on from begins anew.
+      // A restart without a checkpoint begins anew and replaces results.
       bool
       may_overwrite() const
       {
         return parameters.output.overwrite || command.restart;
       }
 
-      // The checkpoint to go on from, null if there is none. Then the results
-      // of a run that was killed are replaced.
+      // The checkpoint to continue from; if it is null, the results of a run
+      // that was killed are replaced.
       std::unique_ptr<CheckpointReader>
       take_checkpoint(const Checkpoints &checkpoints)
       {
@@ -279,13 +279,13 @@ namespace corotet
                                 output.time_between_results};
         const std::vector<std::unique_ptr<Observer>> no_files;
         if (checkpoint && command.validate)
-          // Which may refuse to go on.
+          // Restarting may throw.
           simulation.resume(no_files, times, *checkpoint);
         record("history.csv", checkpoint != nullptr, [&] {
           if (checkpoint)
             {
               checkpoints.resume(simulation, observers, times, *checkpoint);
-              // The run has not ended any more.
+              // The run has not ended any longer.
               on_root(comm, [&] {
                 for (const char *const name :
                      {"summary.json", "verification.csv"})
@@ -313,7 +313,7 @@ namespace corotet
                          " or --restart"));
       }
 
-      // Computes, and checks the table that comes out.
+      // Runs the computation, and checks the resulting table.
       void
       record(const std::string           &table,
              const bool                   goes_on,
@@ -393,7 +393,7 @@ namespace corotet
     else
       {
         Command(command, file, parameters, comm).run();
-        // The end of the process reads pages of all libraries.
+        // Makes room for pages that the end of the process reads.
         release_free_memory();
       }
   }

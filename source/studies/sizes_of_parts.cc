@@ -70,8 +70,8 @@ namespace corotet
   describe_changed_parts(const std::map<std::string, double> &before,
                          const std::map<std::string, double> &now)
   {
-    // What is curved has another size where vertices are put on a geometry
-    // anew.
+    // The tolerance allows for curved parts, whose size changes when refinement
+    // puts new vertices on the geometry.
     constexpr double         tolerance = 2e-2;
     std::vector<std::string> changed;
     for (const auto &[name, size] : now)

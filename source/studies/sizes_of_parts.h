@@ -9,9 +9,9 @@
 
 namespace corotet
 {
-  /// What to say of parts, by their sizes
-  /// (StudyRun::sizes_of_selected_parts()), that are not as large in one run of
-  /// a study as they were in an earlier one; empty if all are.
+  /// A remark about parts whose sizes (StudyRun::sizes_of_selected_parts()) in
+  /// one run of a study differ from those in an earlier run; empty if all are
+  /// the same.
   std::string
   describe_changed_parts(const std::map<std::string, double> &before,
                          const std::map<std::string, double> &now);

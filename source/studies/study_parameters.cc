@@ -20,10 +20,11 @@ namespace corotet
   {
     const std::string section = "Convergence study/";
 
-    // Far more than anybody waits for.
+    // The largest number of runs, far more than anybody waits for.
     constexpr double max_cases = 10000;
 
-    // All values, or the one that says that the parameter file's is taken.
+    // All values, or one empty value, which stands for that of the parameter
+    // file.
     template <typename T>
     std::vector<std::optional<T>>
     choices(const std::vector<T> &values)
@@ -146,7 +147,7 @@ namespace corotet
                        "found 0 among several; allowed: 0 alone, for the "
                        "step that an explicit integrator chooses, or numbers "
                        "above 0");
-    // As a floating point number, which does not overflow.
+    // A floating-point number, which does not overflow.
     const double n_cases = 1. * choices(masses).size() *
                            choices(rotations).size() * degrees.size() *
                            choices(time_steps).size() * refinements.size();

@@ -29,7 +29,8 @@ namespace corotet
   {
     const std::string quantities_entry = "Convergence study/Quantities";
 
-    // Iterations of all steps, and what a row of the history says of the last.
+    // Keeps the number of iterations of all steps, and the history's row of the
+    // last step.
     class LastRow : public Observer
     {
     public:
@@ -99,7 +100,7 @@ namespace corotet
       return Json::array({norms.L2, norms.H1, norms.energy});
     }
 
-    // Those of @p entries that a result depends on.
+    // The @p entries that a result depends on.
     Json
     compared_entries(Json entries)
     {
@@ -111,7 +112,8 @@ namespace corotet
                                       "Stress probes",
                                       "Stress at probes",
                                       "Reactions",
-                                      // Steps that the run chooses end there.
+                                      // Steps whose length the run chooses end
+                                      // at these times.
                                       "Time between results"})
         output[entry] = entries.at("Output").at(entry);
       entries["Output"] = output;
@@ -140,7 +142,7 @@ namespace corotet
         object["errors"]    = norms_to_json(result.errors->error);
         object["reference"] = norms_to_json(result.errors->reference);
       }
-    // Not a number would be null.
+    // A value that is not a number would be written as null.
     object["quantities"] = Json::array();
     for (const double value : result.quantities)
       object["quantities"].push_back(fmt::format("{}", value));
@@ -200,7 +202,7 @@ namespace corotet
       all.push_back(text);
     file.read(path, all, comm);
     reset_peak_memory();
-    // Supports may be missing with it: it is to blame first.
+    // Checked first, as it may be the reason why supports are missing.
     if (parameters.study.run != RunType::modes &&
         parameters.study.reference == StudyReference::exact_solution &&
         dealii::Utilities::trim(
@@ -220,7 +222,7 @@ namespace corotet
                                                file.folder(),
                                                comm,
                                                log);
-    // Before the work starts.
+    // Checks the quantities before the work starts.
     pick(simulated ? history_example(parameters.output) : frequencies());
   }
 
@@ -282,7 +284,7 @@ namespace corotet
     observers.push_back(std::make_unique<LastRow>(
       HistoryColumns(parameters.output, simulated->body(), log)));
     const auto &last = static_cast<const LastRow &>(*observers.front());
-    // Iterations are those of all steps; explicit ones have none to speak of.
+    // Iterations are counted in all steps; explicit steps have none.
     const bool is_explicit =
       parameters.simulation.time_integrator.selected().is_explicit();
     const OutputTimes times{is_explicit ? parameters.output.steps_between_rows :
@@ -300,15 +302,16 @@ namespace corotet
       {
         if (goes_on)
           checkpoint = checkpoints.newest();
-        // What a run may go on with, as another time step, is another run of a
-        // study.
+        // A run may continue with some changed entries, such as another time
+        // step, but in a study that is another run.
         if (checkpoint && compared_entries(checkpoint->parameters()) !=
                             compared_entries(values))
           checkpoint.reset();
       }
     catch (const InputError &)
       {
-        // Of other parameters, as the study's finished runs may be.
+        // The checkpoint has other parameters, as finished runs of the study
+        // may have.
         checkpoint.reset();
       }
     try

@@ -29,7 +29,7 @@ namespace corotet
       return std::isfinite(value) ? value : nan;
     }
 
-    // Whether b is what a is, but for the refinement or for the time step.
+    // Whether b differs from a in the refinement at most.
     bool
     is_refinement_of(const StudyCase &b, StudyCase a)
     {
@@ -100,7 +100,7 @@ namespace corotet
     error.orders.assign(values.size(), nan);
     error.orders_in_time.assign(values.size(), nan);
     for (unsigned int i = 0; i < values.size(); ++i)
-      // The nearest one that comes before it.
+      // The last assignment is from the nearest such result before this one.
       for (unsigned int j = 0; j < i; ++j)
         {
           const StudyCase &coarse = results[j].study_case;
@@ -123,7 +123,7 @@ namespace corotet
   std::vector<std::string>
   StudyTable::not_converging() const
   {
-    // Errors below that may be those of solvers.
+    // Smaller errors may be those of solvers.
     constexpr double         least_error = 1e-6, least_order = 0.5;
     std::vector<std::string> lines;
     for (const Error &error : errors)
@@ -210,7 +210,7 @@ namespace corotet
     std::vector<std::string> titles{"degree", "refinements"};
     if (first.time_step)
       titles.emplace_back("time step");
-    // Where some steps are not those asked for.
+    // Whether some steps have another length than the given one.
     const bool has_mean_steps =
       std::any_of(results.begin(), results.end(), [](const auto &result) {
         return result.study_case.time_step && result.steps > 0 &&

@@ -27,23 +27,24 @@ namespace corotet
     using BoundingBox = dealii::BoundingBox<3>;
     using Corners     = std::array<Point<3>, 2>;
 
-    // Numbers of a cell before its values.
+    // The number of values of a cell before its nodal values.
     constexpr unsigned int n_geometry = 12;
-    // That a rank tells others of, at most.
+    // The largest number of boxes that a rank sends to others.
     constexpr unsigned int n_boxes = 64;
-    // How far points may be outside of the body that their cells are sought in,
-    // in sides of these: finer cells follow a shape that coarse ones cut off.
+    // The distance up to which points outside of the cells are found, relative
+    // to the sum of the sides of a cell's box: finer cells follow a curved
+    // shape that coarse cells cut off.
     constexpr double beyond = 0.1;
 
-    // Of the barycentric coordinates, the smallest: negative outside.
+    // The smallest barycentric coordinate: negative outside.
     double
     depth(const Point<3> &xi)
     {
       return std::min({xi[0], xi[1], xi[2], 1 - xi[0] - xi[1] - xi[2]});
     }
 
-    // Of each owned cell: vertex 0, the inverse of its Jacobian, values
-    // [node][component].
+    // The numbers of each owned cell: vertex 0, the inverse of its Jacobian,
+    // the values [node][component].
     std::vector<double>
     cells_with_values(const Discretization &discretization,
                       const Vector         &u,
@@ -82,8 +83,8 @@ namespace corotet
       return BoundingBox(vertices);
     }
 
-    // Around pieces of the owned cells, which follow a curve through the body:
-    // lower and upper corners.
+    // The boxes around pieces of the owned cells, whose order follows a curve
+    // through the body: lower and upper corners.
     std::vector<Corners>
     boxes_of_pieces(const Discretization &discretization)
     {
@@ -104,8 +105,8 @@ namespace corotet
       return result;
     }
 
-    // Those of all ranks' cells that are where the owned cells of @p target
-    // are.
+    // The numbers of those cells, of all ranks, that are near the owned cells
+    // of @p target.
     std::vector<double>
     cells_at(std::vector<double>   own,
              const unsigned int    stride,

@@ -17,7 +17,7 @@ namespace corotet
   unused_parameters(const ParameterFile &file, const RunParameters &parameters)
   {
     std::vector<std::string> used;
-    // As its description says.
+    // The solver 'automatic' uses these sections, as its description says.
     const nlohmann::ordered_json values = file.values();
     const auto                  &solver = values.at("Linear solver");
     if (solver.at("Type") == "automatic")

@@ -17,7 +17,8 @@ namespace corotet
 {
   namespace
   {
-    // Quantity, computed, reference, error, tolerance, pass.
+    // A row of the table: quantity, computed, reference, error, tolerance,
+    // pass.
     using Cells = std::array<std::string, 6>;
 
     const Cells header = {
@@ -26,7 +27,8 @@ namespace corotet
     Cells
     cells_of(const CheckResult &result)
     {
-      // As many digits as it takes to read the same double back.
+      // The computed value and the reference have enough digits to read the
+      // same double back.
       return {
         {result.name,
          fmt::format("{}", result.computed),

@@ -18,33 +18,35 @@
 namespace corotet
 {
   /**
-   * Takes the state of a run to a checkpoint, or back from one.
+   * Transfers the state of a run to a checkpoint, or back from one.
    *
-   * Whatever has a state that outlives a step has one function transfer() for
-   * both directions, so that what is written and what is read cannot differ.
-   * Values have names; those of parts stand in sections. All members are
-   * collective; those that read throw InputError if the checkpoint has no such
-   * value.
+   * Every class with a state that outlives a step has one function transfer()
+   * for both directions, so that what is written and what is read cannot
+   * differ. Values have names, grouped in sections (within()). All members are
+   * collective; when reading, they throw InputError if the checkpoint has no
+   * such value.
    */
   class Archive
   {
   public:
     virtual ~Archive() = default;
 
-    /// Whether values come from a checkpoint. If not, they do not change.
+    /// Whether values are read from a checkpoint. If not, they do not change.
     virtual bool
     is_reading() const = 0;
 
-    /// A text that is the same on all ranks; that of rank 0 is written.
+    /// Transfers a text that is the same on all ranks; that of rank 0 is
+    /// written.
     virtual void
     transfer(const std::string &name, std::string &text) = 0;
 
-    /// A vector of the body's unknowns, or one that is empty. Read ones have
-    /// the same owned entries on any number of ranks, and no ghost entries.
+    /// Transfers a vector of the body's unknowns, or an empty vector. A vector
+    /// that is read has the same owned entries on any number of ranks, and no
+    /// ghost entries.
     virtual void
     transfer(const std::string &name, Vector &vector) = 0;
 
-    /// A number that is the same on all ranks, to the last bit.
+    /// Transfers a number that is the same on all ranks, to the last bit.
     template <typename Number>
       requires std::is_arithmetic_v<Number>
     void
@@ -59,7 +61,7 @@ namespace corotet
         fail(name, text);
     }
 
-    /// Numbers that are the same on all ranks.
+    /// Transfers numbers that are the same on all ranks.
     template <typename Number>
     void
     transfer(const std::string &name, std::vector<Number> &numbers)
@@ -81,7 +83,8 @@ namespace corotet
         }
     }
 
-    /// Names of what @p action transfers are those in section @p name.
+    /// Runs @p action; the names of all values that it transfers are in section
+    /// @p name.
     template <typename Action>
     void
     within(const std::string &name, const Action &action)
@@ -93,11 +96,11 @@ namespace corotet
     }
 
   protected:
-    /// What names begin with.
+    /// The prefix of names: the sections that are open.
     std::string section;
 
   private:
-    /// As few digits as give the same number again.
+    /// The text of a number, with the fewest digits that give the same number.
     template <typename Number>
     static std::string
     written(const Number number)

@@ -32,7 +32,7 @@ namespace corotet
     return values.front().first;
   }
 
-  /// Pattern of the names: "a|b|c".
+  /// The pattern of the names: "a|b|c".
   template <typename Enum>
   dealii::Patterns::Selection
   selection(const Enumeration<Enum> &values)
@@ -44,8 +44,8 @@ namespace corotet
   }
 
   /**
-   * Declares an entry whose value is one of @p values, by default that of
-   * @p value, which @p prm sets when it reads another.
+   * Declares an entry whose value is one of @p values, by default the present
+   * value of @p value. When @p prm reads another value it sets @p value.
    */
   template <typename Enum>
   void

@@ -10,7 +10,8 @@
 namespace corotet
 {
   /**
-   * What ends a run. Each kind has the exit status that scripts rely on.
+   * An error that ends a run. Each kind has its own exit status, which scripts
+   * rely on.
    */
   class Error : public std::runtime_error
   {
@@ -55,8 +56,8 @@ namespace corotet
   };
 
   /**
-   * An entry's value is wrong at a time that the computation has come to, which
-   * was not looked at before the start, when it would have been @p cause.
+   * The value of an entry is wrong at a time that the computation has reached.
+   * Before the start it would have been @p cause, but it was not checked there.
    */
   class WrongValueError : public ComputationError
   {
@@ -81,7 +82,7 @@ namespace corotet
   };
 
   /**
-   * A step was given up because the run is to stop; it can be made again.
+   * A step was given up because the run is to stop; it can be repeated.
    */
   class StepInterrupted : public std::exception
   {

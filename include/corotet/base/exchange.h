@@ -14,14 +14,14 @@
 
 namespace corotet
 {
-  /// Messages by the rank that they go to, or come from.
+  /// Messages by the rank that they are sent to or received from.
   using Messages = std::map<unsigned int, std::vector<std::byte>>;
 
   /**
-   * Gives each rank what others have for it, of any length, also above 2 GiB.
-   * Nobody need know whom it gets messages from, and only ranks that have some
-   * for each other send any (the nonblocking consensus of Hoefler, Siebert and
-   * Lumsdaine, 2010). What a rank has for itself is moved. Collective.
+   * Gives each rank the messages that others have for it, of any length, also
+   * above 2 GiB. No rank needs to know its senders, and only pairs of ranks
+   * with a message communicate (the nonblocking consensus of Hoefler, Siebert
+   * and Lumsdaine, 2010). A message of a rank to itself is moved. Collective.
    */
   Messages
   exchange_messages(Messages &&sent, const MPI_Comm comm);
@@ -42,7 +42,8 @@ namespace corotet
       append(array.data(), n_bytes);
   }
 
-  /// Reads it from @p position on, which becomes what follows it.
+  /// Reads an array that starts at @p position, and moves @p position behind
+  /// it.
   template <typename T>
   void
   read_array(const std::vector<std::byte> &message,
@@ -62,7 +63,8 @@ namespace corotet
     position += n_bytes;
   }
 
-  /// The same of single arrays, by the rank that they go to, or come from.
+  /// exchange_messages() for one array per pair of ranks, by the rank that it
+  /// is sent to or received from.
   template <typename T>
   std::map<unsigned int, std::vector<T>>
   exchange_arrays(const std::map<unsigned int, std::vector<T>> &sent,

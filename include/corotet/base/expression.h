@@ -45,9 +45,9 @@ namespace corotet
     dealii::Tensor<1, 3>
     vector_value(const dealii::Point<3> &p, const double t) const;
 
-    /// First and second derivative in time; at a jump or kink, those of what
-    /// follows. They are exact but for round-off, or where no finite ones exist
-    /// (of sqrt(t) at t = 0, say), one-sided differences of values up to
+    /// The first and second derivative in time; at a jump or kink, those from
+    /// later times. They are exact up to round-off. Where they are not finite
+    /// (as of sqrt(t) at t = 0), they are one-sided differences of values up to
     /// 3 @p width [s] away.
     std::array<double, 2>
     time_derivatives(const dealii::Point<3> &p,
@@ -88,7 +88,7 @@ namespace corotet
   };
 
   /// Whether @p text is an Expression with so many components, all of which are
-  /// constants of value zero; false if it is none, or one with tables.
+  /// constants of value zero; false if it is no expression, or one with tables.
   bool
   is_zero_expression(const std::string &text, const unsigned int n_components);
 } // namespace corotet

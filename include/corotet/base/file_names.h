@@ -8,9 +8,9 @@
 
 namespace corotet
 {
-  /// The file @p name, which may be relative to @p folder, without the steps
-  /// up and down in its path that lead nowhere. (Behind a symbolic link, a step
-  /// up leads elsewhere.)
+  /// The path of the file @p name, which may be relative to @p folder, without
+  /// superfluous steps down and up again. (Behind a symbolic link, a step up
+  /// leads elsewhere, so it is kept.)
   std::string
   file_in(const std::string &folder, const std::string &name);
 } // namespace corotet

@@ -28,16 +28,17 @@ namespace corotet
                                                              "half_sine",
                                                              "triangle"};
 
-  /// Functions that other programs have and formulas must not: their values
-  /// depend on the order of evaluation, so on the number of ranks.
+  /// Functions that other programs have and formulas must not have: their
+  /// values depend on the order of evaluation, so on the number of ranks.
   inline const std::vector<std::string> random_functions = {"rand",
                                                             "rand_seed"};
 
   /**
-   * Adds to those of muParser the constant pi and the functions that formulas
-   * have.
+   * Adds the constant pi and the functions that formulas have to those of
+   * muParser.
    *
-   * Functions of time, with t0 <= t1, else their value is not a number:
+   * Functions of time. They need t0 <= t1; otherwise their value is not a
+   * number:
    * - ramp(t, t0, t1): 0 until t0, linear, 1 from t1 on.
    * - smooth_step(t, t0, t1): the same by s^3 (10 - 15 s + 6 s^2), twice
    *   continuously differentiable.
@@ -64,16 +65,16 @@ namespace corotet
   const std::map<std::string, double> &
   formula_constants();
 
-  /// Whether formulas have a variable, constant or function of this name, or
-  /// refuse one.
+  /// Whether formulas have, or refuse, a variable, constant or function of this
+  /// name.
   bool
   is_formula_name(const std::string &name);
 
-  /// How deep parentheses of a formula may stand in each other: what reads it
-  /// must not run out of its stack.
+  /// The largest depth of parentheses in a formula: recursive readers must not
+  /// run out of stack.
   constexpr int max_parentheses = 100;
 
-  /// How deep they do.
+  /// The depth of parentheses in a formula.
   int
   depth_of_parentheses(const std::string &formula);
 } // namespace corotet

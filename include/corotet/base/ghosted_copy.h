@@ -18,8 +18,8 @@ namespace corotet
   }
 
   /**
-   * Brings the ghost entries of a vector up to date for as long as it lives, if
-   * they are not in use. The vector must live as long. Collective.
+   * Brings the ghost entries of a vector up to date during its own lifetime,
+   * unless they are in use already. The vector must live as long. Collective.
    */
   class GhostsInUse
   {

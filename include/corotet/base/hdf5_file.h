@@ -29,8 +29,8 @@ namespace corotet
   };
 
   /**
-   * Owns an HDF5 identifier of any kind. Where closing may fail, take it by
-   * release() and close it.
+   * Owns an HDF5 identifier of any kind. Where closing may fail, take the
+   * identifier by release() and close it.
    */
   class Hdf5Id
   {
@@ -67,7 +67,7 @@ namespace corotet
       return id;
     }
 
-    /// Gives the identifier away.
+    /// Gives up the ownership of the identifier.
     hid_t
     release()
     {
@@ -79,8 +79,8 @@ namespace corotet
   };
 
   /**
-   * Keeps HDF5 from printing its error stack while it lives: an Error tells the
-   * user.
+   * Keeps HDF5 from printing its error stack during its lifetime: an Error
+   * tells the user.
    */
   class Hdf5Silence
   {
@@ -120,23 +120,23 @@ namespace corotet
    * An HDF5 file that is written once, by all ranks of a communicator
    * together.
    *
-   * Rank 0 makes the file and all that describes the tables, as in a program
-   * of one rank; each rank puts its rows to where the tables lie in the file
-   * (contiguously, in the processor's own number format) by itself. Without
-   * MPI-IO, no rank waits for the success of another one's writing.
+   * Rank 0 creates the file and the tables, as in a program of one rank; each
+   * rank writes its own rows to where the tables lie in the file (contiguously,
+   * in the processor's own number format). Without MPI-IO, no rank waits for
+   * the writing of another one.
    *
    * The file gets its name when it is complete: until then it is called
    * PATH.tmp. So whatever happens, PATH is whole or absent (or, where it
    * existed before, the old one).
    *
    * Errors (disk full, no permission) are noted and are thrown by finish().
-   * deal.II's HDF5 interface checks for them in debug mode only, and knows no 8
+   * deal.II's HDF5 interface checks for them in debug mode only, and lacks 8
    * and 64 bit integers.
    */
   class Hdf5File
   {
   public:
-    /// Collective.
+    /// Creates the file. Collective.
     Hdf5File(const std::string &path, const MPI_Comm comm);
     ~Hdf5File();
 
@@ -144,7 +144,7 @@ namespace corotet
     Hdf5File &
     operator=(const Hdf5File &) = delete;
 
-    /// A table of double that is to be made; 0 columns: a plain list.
+    /// A table of double to be created; with 0 columns, a plain list.
     struct NewTable
     {
       std::string name;
@@ -152,8 +152,8 @@ namespace corotet
       hsize_t     n_columns;
     };
 
-    /// Makes tables, with one message for all of them: write() of these takes
-    /// none. Collective.
+    /// Creates several tables with one message for all of them; write() of
+    /// these tables then needs no message. Collective.
     void
     create(const std::vector<NewTable> &tables);
 
@@ -175,8 +175,7 @@ namespace corotet
                     const hsize_t              n_columns = 0);
 
     /// Writes a table that has the same number everywhere and, whatever its
-    /// size, takes no room. Of rank 0; others do
-    /// nothing.
+    /// size, takes no space. Only rank 0 acts; the other ranks may call it.
     void
     write_constant(const std::string &name,
                    const std::int64_t value,
@@ -184,10 +183,10 @@ namespace corotet
                    const hsize_t      n_columns = 0);
 
     /**
-     * Writes a table of double or std::int64_t that stands for those called
-     * @p source in other files, one below the other (an HDF5 virtual dataset):
-     * the numbers stay there. @p n_columns is the same in all of them. Costs
-     * some 30 microseconds per part. Of rank 0; others do nothing.
+     * Writes a table of double or std::int64_t that concatenates the rows of
+     * the tables called @p source in other files (an HDF5 virtual dataset): the
+     * numbers stay there. @p n_columns is the same in all of them. Costs some
+     * 30 microseconds per part. Only rank 0 acts; the other ranks may call it.
      */
     template <typename Number>
     void
@@ -196,65 +195,68 @@ namespace corotet
                   const std::vector<Hdf5Part> &parts,
                   const hsize_t                n_columns);
 
-    /// Of rank 0; others do nothing.
+    /// Creates a group. Only rank 0 acts; the other ranks may call it.
     void
     create_group(const std::string &name);
 
-    /// Gives the table @p target of this file the name @p name, too. Of rank 0;
-    /// others do nothing.
+    /// Gives the table @p target of this file the additional name @p name. Only
+    /// rank 0 acts; the other ranks may call it.
     void
     link(const std::string &name, const std::string &target);
 
-    /// Makes @p name stand for @p target of @p file, a path relative to this
-    /// file's folder. Of rank 0; others do nothing.
+    /// Makes @p name a link to @p target in @p file, a path relative to this
+    /// file's folder. Only rank 0 acts; the other ranks may call it.
     void
     link(const std::string &name,
          const std::string &file,
          const std::string &target);
 
-    /// Attribute @p name of @p object. Of rank 0; others do nothing.
+    /// Writes the attribute @p name of @p object. Only rank 0 acts; the other
+    /// ranks may call it.
     void
     write_number_attribute(const std::string               &object,
                            const std::string               &name,
                            const std::vector<std::int64_t> &values);
 
-    /// Of rank 0; others do nothing.
+    /// Writes an attribute that is a text. Only rank 0 acts; the other ranks
+    /// may call it.
     void
     write_text_attribute(const std::string &object,
                          const std::string &name,
                          const std::string &text);
 
-    /// Closes the file and gives it its name. @p durable: when that returns it
-    /// survives a loss of power. Throws MachineError on all ranks if anything
-    /// went wrong on any. Collective.
+    /// Closes the file and gives it its name. @p durable: on return the file is
+    /// on the disk and survives a loss of power. Throws MachineError on all
+    /// ranks if anything went wrong on any rank. Collective.
     void
     finish(const bool durable = false);
 
   private:
-    /// Takes note of a failure; returns whether @p result is good.
+    /// Notes a failure; returns whether @p result is good.
     bool
     check(const long long result);
 
-    /// Makes a table on rank 0. Returns where in the file it begins, in bytes;
-    /// HADDR_UNDEF if it has no place, because it is empty or there was an
-    /// error.
+    /// Creates a table on rank 0. Returns the position in the file where its
+    /// data begin [byte]; HADDR_UNDEF if it has none, because the table is
+    /// empty or there was an error.
     haddr_t
     create_table(const std::string &name,
                  const hid_t        type,
                  const Hdf5Rows    &rows);
 
-    /// Writes bytes of this rank.
+    /// Writes bytes of this rank to the position @p place of the file.
     void
     write_bytes(const char *data, std::size_t size, haddr_t place);
 
     std::string path;
     MPI_Comm    comm;
     bool        good = true;
-    /// On rank 0 only.
+    /// The file, open on rank 0 only.
     Hdf5Id file;
-    /// Of the file, on each rank; -1 if it is not open.
+    /// The descriptor of the file, on each rank; -1 if it is not open.
     int descriptor = -1;
-    /// As create_table() gives them, of those that create() has made.
+    /// The positions returned by create_table(), of tables that create() has
+    /// made.
     std::map<std::string, std::uint64_t> place_of_table;
   };
 } // namespace corotet

@@ -13,22 +13,22 @@
 namespace corotet
 {
   /**
-   * The tables of an HDF5 file that a user gives, whoever wrote it: in any
-   * layout and number format that HDF5 converts. Of one rank: others may read
-   * the same file at the same time.
+   * The tables of an HDF5 file that a user provides, whatever program wrote it:
+   * in any layout and number format that HDF5 converts. One rank reads on its
+   * own; others may read the same file at the same time.
    */
   class Hdf5Tables
   {
   public:
-    /// Throws an InputError if it is no file of HDF5.
+    /// Throws an InputError if the file is not an HDF5 file.
     explicit Hdf5Tables(const std::string &path);
 
-    /// Rows of a table, which has @p n_columns, or is a plain list (0). Throws
-    /// an InputError if there is no such table.
+    /// The number of rows of a table with @p n_columns columns; 0 columns mean
+    /// a plain list. Throws an InputError if there is no such table.
     hsize_t
     n_rows(const std::string &name, const hsize_t n_columns) const;
 
-    /// Some of its rows, as double, std::int64_t or std::uint8_t. Throws an
+    /// Some rows of a table, as double, std::int64_t or std::uint8_t. Throws an
     /// InputError if there is no such table, or it cannot be read.
     template <typename Number>
     std::vector<Number>

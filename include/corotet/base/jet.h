@@ -10,8 +10,8 @@
 namespace corotet
 {
   /**
-   * Value, first and second derivative of a function of time at one instant,
-   * the limits from later times. Operations on jets are the rules of
+   * The value, first and second derivative of a function of time at one
+   * instant, as limits from later times. Operations on jets are the rules of
    * differentiation (forward automatic differentiation, Griewank and Walther,
    * Evaluating derivatives, 2008): exact but for round-off.
    */
@@ -40,16 +40,16 @@ namespace corotet
   operator/(const Jet &a, const Jet &b);
 
   /**
-   * f(a) for a function with the value and the derivatives @p f at a.value.
+   * The jet of f(a), where @p f is the jet of f at a.value.
    */
   Jet
   chain(const Jet &f, const Jet &a);
 
   /**
-   * Sign of @p a right after the instant: positive, negative, or 0 if the
+   * The sign of @p a right after the instant: positive, negative, or 0 if the
    * function is zero there. That moment is later by @p soon, some units of
-   * round-off, so that a time that should be that of a kink but for round-off
-   * belongs to what follows the kink.
+   * round-off, so that a time that misses a kink by round-off only is counted
+   * as after it.
    */
   double
   sign_soon(const Jet &a, const double soon);
@@ -60,9 +60,9 @@ namespace corotet
                               const double       soon);
 
   /**
-   * The functions that formulas have, and their operators, by name: "-" with
-   * two arguments, "negate" with one, "?:" with three. Where a derivative does
-   * not exist it is not finite.
+   * The functions and operators of formulas by name: "-" with two arguments,
+   * "negate" with one, "?:" with three. Derivatives that do not exist are not
+   * finite.
    */
   const std::map<std::string, JetFunction> &
   jet_functions();

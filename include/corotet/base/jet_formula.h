@@ -21,21 +21,21 @@ namespace corotet
   class JetFormula
   {
   public:
-    /// Of formulas with what has no rule of differentiation, values are not
-    /// numbers.
+    /// If @p text has something without a rule of differentiation, value() is
+    /// not a number.
     JetFormula(const std::string &text, const TableFunctions &tables);
 
-    /// At x, y, z and t, which @p variables gives. Not by several threads at
-    /// once.
+    /// The value and derivatives at x, y, z and t, given by @p variables. Must
+    /// not be called by several threads at once.
     Jet
     value(const std::array<double, 4> &variables) const;
 
   private:
     class Compiler;
 
-    /// Takes arguments from the top of the stack and puts its value there: a
-    /// function, else a table, else variable number @p variable, else @p
-    /// constant.
+    /// Takes its arguments from the top of the stack and puts its value there:
+    /// the value of the function if there is one, else of the table, else of
+    /// variable number @p variable, else @p constant.
     struct Instruction
     {
       JetFunction          function    = nullptr;
@@ -45,10 +45,10 @@ namespace corotet
       double               constant    = 0;
     };
 
-    /// What the instructions point to.
+    /// The tables that the instructions point to.
     TableFunctions           tables;
     std::vector<Instruction> instructions;
-    /// As large as it gets.
+    /// The stack of value(), of the largest size needed.
     mutable std::vector<Jet> stack;
   };
 } // namespace corotet

@@ -13,12 +13,12 @@
 namespace corotet
 {
   /**
-   * Sums, largest and smallest values over all ranks of numbers that are known
-   * at the same time: with one message for all of them, as with many ranks the
-   * number of messages counts and not their length.
+   * Sums, maxima and minima over all ranks of numbers that are known at the
+   * same time, with one message for all of them: with many ranks the number of
+   * messages counts and not their length.
    *
-   * First name the numbers, which must live until run(), the same ones on all
-   * ranks; run() replaces them.
+   * First register the numbers, the same ones on all ranks, which must live
+   * until run(); run() replaces them by the results.
    */
   class JointReduction
   {
@@ -36,14 +36,15 @@ namespace corotet
         sums.push_back(&value[a]);
     }
 
-    /// Sums of counts are exact up to 2^53.
+    /// Registers a count to be summed; exact up to 2^53.
     void
     sum(unsigned int &value)
     {
       counts.push_back(&value);
     }
 
-    /// Of values that are not finite the result is one of these.
+    /// Registers a number whose maximum is wanted; if values are not finite,
+    /// the result is one of these.
     void
     max(double &value)
     {
@@ -56,7 +57,7 @@ namespace corotet
       minima.push_back(&value);
     }
 
-    /// Collective.
+    /// Replaces all numbers by the results. Collective.
     void
     run(const MPI_Comm comm) const;
 

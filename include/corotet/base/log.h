@@ -14,7 +14,7 @@
 namespace corotet
 {
   /**
-   * What the program tells its user, line by line: on the terminal of rank 0
+   * The program's messages to its user, line by line: on the terminal of rank 0
    * (unless quiet) and in log.txt.
    *
    * Lines that come before the file is opened are kept and written into it
@@ -25,7 +25,7 @@ namespace corotet
   class Log
   {
   public:
-    /// On ranks other than 0 of @p comm nothing is shown or written.
+    /// On ranks of @p comm other than 0 nothing is shown or written.
     Log(const MPI_Comm comm, const bool quiet);
     ~Log();
 
@@ -36,17 +36,16 @@ namespace corotet
     void
     line(const std::string &message);
 
-    /// A line of the file only: of what another way tells the user.
+    /// Writes a line to the file only, if the user is told by other means.
     void
     note(const std::string &message);
 
-    /// A line that starts with "warning: ".
+    /// Writes a line that starts with "warning: ".
     void
     warning(const std::string &text);
 
-    /// Counts something that is worth a look at the end, such as a "step made
-    /// in parts", and "steps made in parts" where there are several; warnings
-    /// are counted, too.
+    /// Counts an event that is worth a look at the end, such as a "step made in
+    /// parts", in the plural "steps made in parts"; warnings are counted, too.
     void
     count(const std::string &one, const std::string &several);
 
@@ -54,9 +53,9 @@ namespace corotet
     std::string
     counts() const;
 
-    /// Replaces the live line. If the share that is done is known, from 0 to 1,
-    /// a bar shows it where the terminal has room. Without a terminal, or when
-    /// quiet, it does nothing.
+    /// Replaces the progress line. If the completed share is known, from 0 to
+    /// 1, a bar shows it where the terminal has room. Without a terminal, or
+    /// when quiet, nothing is shown.
     void
     progress(const std::string &text, const double share = -1);
 
@@ -65,13 +64,14 @@ namespace corotet
     void
     open(const std::string &path);
 
-    /// The same, but going on after the first @p size bytes of the file; what
-    /// follows them is not in it, and of what has been shown so far warnings
-    /// are. Collective.
+    /// Like open(), but continues the file after its first @p size bytes and
+    /// removes the rest. Of the lines shown so far only warnings are written to
+    /// it. Collective.
     void
     resume(const std::string &path, const std::int64_t size);
 
-    /// Bytes of the file. Throws MachineError if a line could not be written.
+    /// The size of the file [byte]. Throws MachineError if a line could not be
+    /// written. Collective.
     /// Collective.
     std::int64_t
     size();
@@ -79,7 +79,7 @@ namespace corotet
   private:
     void
     clear_progress();
-    /// Of the file, now or when it is opened.
+    /// Writes a line to the file, now or when it is opened.
     void
     write(const std::string &text);
 
@@ -95,7 +95,7 @@ namespace corotet
       std::string  one, several;
       unsigned int n;
     };
-    /// In the order in which they were met first.
+    /// The counts, in the order of their first events.
     std::vector<Count> counted;
   };
 } // namespace corotet

@@ -14,7 +14,7 @@
 namespace corotet
 {
   /// The largest resident memory since the start of the process or the last
-  /// reset_peak_memory(), over all ranks [byte]. Collective.
+  /// reset_peak_memory(), summed over all ranks [byte]. Collective.
   std::size_t
   peak_memory(const MPI_Comm comm);
 
@@ -24,54 +24,55 @@ namespace corotet
 
   /// Gives back the pages of the program and its libraries that only the start
   /// has read, which count as memory of each rank: tables of names and
-  /// relocations, some 80 MB of deal.II and Trilinos, and code. Those that are
-  /// as the files have them, and come back from there when they are used.
+  /// relocations (some 80 MB of deal.II and Trilinos) and code. Only pages that
+  /// are unchanged are given back; the system reads them from the files again
+  /// when they are used.
   void
   release_library_pages();
 
-  /// Gives back what has been freed and is kept for the next time, if it is
-  /// much: where other large arrays than those before are to be made.
+  /// Gives freed memory that the allocator keeps back to the system, if it is
+  /// much: to be called before arrays of other sizes are made.
   void
   release_free_memory();
 
   /**
-   * The last reading of an array on the heap, from its beginning to its end:
-   * gives back the memory of what has been passed. That has no values any more,
-   * but may be written, and is freed as ever.
+   * Gives back the memory of an array on the heap while it is read for the last
+   * time, from its beginning to its end. The part that has been passed has no
+   * values any more, but may be written, and is freed as usual.
    */
   class LastReading
   {
   public:
     explicit LastReading(void *begin);
 
-    /// All that is before @p place has been read.
+    /// Tells that everything before @p place has been read.
     void
     passed(const void *place);
 
   private:
-    /// Up to where memory has been given back, the beginning of a page.
+    /// The end of the memory that has been given back, a page boundary.
     std::uintptr_t end_of_released;
   };
 
-  /// What this process may have [byte]: the memory of the machine, or less
-  /// where a limit is set.
+  /// The memory that this process may use [byte]: that of the machine, or less
+  /// if there is a limit.
   double
   available_memory();
 
   /// Throws MachineError if @p n_bytes, which @p what needs at least, are more
-  /// than available_memory(). @p advice is what takes less.
+  /// than available_memory(). @p advice tells what would need less.
   void
   check_memory(const double       n_bytes,
                const std::string &what,
                const std::string &advice);
 
-  /// Whether an exception, of this program or of a library, tells that no
-  /// memory was to be had.
+  /// Whether an exception, of this program or of a library, means that memory
+  /// could not be allocated.
   bool
   is_lack_of_memory(const std::exception &error);
 
-  /// What there is to be said about a lack of memory, with what this process
-  /// has and may have.
+  /// The message about a lack of memory, with the memory that this process uses
+  /// and may use.
   std::string
   lack_of_memory();
 } // namespace corotet

@@ -13,10 +13,11 @@
 
 namespace corotet
 {
-  // What can fail on one rank runs inside of one of the functions below, which
-  // make its outcome that of all ranks: so nothing is thrown on some of them
-  // while others wait. Lack of memory and errors of the file system count as a
-  // MachineError. Any other exception is a bug and leaves on its own rank only.
+  // Actions that can fail on one rank run inside of one of the functions below,
+  // which make the outcome the same on all ranks, so that no rank throws while
+  // others wait. Lack of memory and errors of the file system count as a
+  // MachineError. Any other exception is a bug and leaves the function on its
+  // own rank only.
 
   /**
    * Runs @p action on rank 0 of @p comm only. An Error that it throws there is
@@ -41,15 +42,16 @@ namespace corotet
 
   /**
    * Runs @p action on every rank. If it throws an Error on some ranks, every
-   * rank throws the one of the lowest of them.
-   * @p action must not communicate. Collective.
+   * rank throws the Error of the lowest of these ranks. @p action must not
+   * communicate. Collective.
    */
   void
   on_all_ranks(const MPI_Comm comm, const std::function<void()> &action);
 
   /**
    * Sends an array of numbers, or of structures of numbers, to another rank,
-   * which calls receive_array(). Of any length, also above 2 GiB.
+   * which calls receive_array(). The array may have any length, also above 2
+   * GiB.
    */
   template <typename T>
   void
@@ -65,7 +67,7 @@ namespace corotet
     MPI_Send(array.data(), 1, *type, receiver, 0, comm);
   }
 
-  /// Its counterpart.
+  /// Receives an array that another rank sends by send_array().
   template <typename T>
   void
   receive_array(std::vector<T>    &array,
@@ -82,8 +84,8 @@ namespace corotet
 
   /**
    * Runs a whole @p program on every rank and returns its exit status: 0, that
-   * of the Error which it throws, or 3 for any other exception. The error is
-   * shown on stderr once, by rank 0.
+   * of the Error which it throws, or 3 for any other exception. Rank 0 shows
+   * the error on stderr, once.
    *
    * An exception that leaves @p program on some ranks only is a bug: the others
    * may wait for it in vain. When they have not ended within @p patience

@@ -13,13 +13,14 @@
 
 namespace corotet
 {
-  /// Where the quotes end that a name has which begins at @p i of a list:
-  /// "a, b"; npos if none begins there, or it has no end.
+  /// The position of the closing quotation mark of a name that begins at @p i
+  /// of a list of names such as "a, b"; npos if no quotation begins there, or
+  /// it is not closed.
   std::size_t
   end_of_quotes(const std::string &text, const std::size_t i);
 
-  /// Names with commas between them, and in quotes where a list would take them
-  /// for several.
+  /// A list of the names, separated by commas; names that a list would take for
+  /// several get quotation marks.
   std::string
   list_of_names(std::vector<std::string> names);
 

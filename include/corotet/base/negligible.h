@@ -7,9 +7,9 @@
 namespace corotet
 {
   /**
-   * Norms below this are as good as zero, in any unit: those of forces of a
-   * body that has come to rest. Solvers divide products of two of them, which
-   * from some 1e-154 on are zero.
+   * Norms below this value count as zero, in any unit, such as those of forces
+   * of a body that has come to rest. Solvers divide by products of two norms,
+   * which underflow to zero below norms of some 1e-154.
    */
   constexpr double negligible = 1e-100;
 } // namespace corotet

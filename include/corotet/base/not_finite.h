@@ -17,17 +17,17 @@ namespace corotet
    */
   struct NotFinite
   {
-    /// The parameter that has it, "Section/Entry".
+    /// The parameter with the formula, "Section/Entry".
     std::string entry;
-    /// What was found, where and when.
+    /// The value, the place and the time.
     std::string message;
   };
 
   /**
-   * Expressions note the first value of theirs that is not finite: sums of
-   * many, which are what is looked at, do not tell whose it was. This is the
-   * one noted since the last call, on the lowest rank that has one; from then
-   * on the next is noted. Collective.
+   * Expressions note their first value that is not finite, because the sums
+   * that are checked later do not tell which formula caused it. Returns the
+   * value noted since the last call, on the lowest rank that has one; from then
+   * on the next one is noted. Collective.
    */
   std::optional<NotFinite>
   take_not_finite(const MPI_Comm comm);

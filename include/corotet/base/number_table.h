@@ -12,21 +12,21 @@
 namespace corotet
 {
   /**
-   * Numbers in the order in which they were met, each once: a hash table with
+   * Distinct numbers in the order of their first occurrence: a hash table with
    * open addressing, ten times as fast as one of the standard library where
-   * numbers come again soon.
+   * numbers are soon repeated.
    */
   class NumberTable
   {
   public:
-    /// With room for so many; more are taken, too.
+    /// Reserves room for @p n_expected numbers; more are possible, too.
     explicit NumberTable(const std::size_t n_expected = 512)
       : slots(std::bit_ceil(2 * n_expected + 2), empty)
     {
       met.reserve(n_expected);
     }
 
-    /// The place of a number among those that have been met.
+    /// The index of a number in the order of first occurrences.
     unsigned int
     index_of(const std::uint64_t number)
     {
@@ -56,7 +56,7 @@ namespace corotet
   private:
     static constexpr unsigned int empty = static_cast<unsigned int>(-1);
 
-    // Neighbours stay neighbours, in lines of the cache.
+    // Neighbouring numbers stay neighbours, in the same cache line.
     static std::size_t
     hash(const std::uint64_t number)
     {

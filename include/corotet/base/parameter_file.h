@@ -29,7 +29,7 @@ namespace corotet
   class ParameterFile
   {
   public:
-    /// Where parameters are declared, and where they can be got from.
+    /// The handler that parameters are declared in and read from.
     dealii::ParameterHandler &
     handler()
     {
@@ -65,11 +65,11 @@ namespace corotet
     }
 
     /// All declared entries with their present values, as ParameterHandler
-    /// prints them; parameter_listing.h knows its nodes.
+    /// prints them; parameter_listing.h has functions for its nodes.
     nlohmann::ordered_json
     tree() const;
 
-    /// The text of every entry as used: an object per section.
+    /// The text of every entry as used: one object per section.
     nlohmann::ordered_json
     values() const;
 
@@ -80,7 +80,8 @@ namespace corotet
       return file;
     }
 
-    /// The folder that the file is in, for names relative to it.
+    /// The folder of the file; names of files in it are relative to this
+    /// folder.
     std::string
     folder() const;
 
@@ -89,21 +90,21 @@ namespace corotet
     print(std::ostream &out, const std::string &style) const;
 
     /**
-     * Writes every entry as used to a .prm file. Reading that reproduces the
-     * run: names of files relative to folder() become relative to the new
-     * file's. Throws MachineError if it cannot be written, and what
-     * check_effective() throws.
+     * Writes every entry as used to a .prm file. Reading that file reproduces
+     * the run: names of files relative to folder() become relative to the
+     * folder of the new file. Throws MachineError if it cannot be written, and
+     * what check_effective() throws.
      */
     void
     write_effective(const std::string &path) const;
 
     /// Throws InputError if write_effective() could not write the new name of a
-    /// file so that it can be read: if a folder's name has a "#", say.
+    /// file so that it can be read again: if a folder's name has a "#", say.
     void
     check_effective(const std::string &path) const;
 
   private:
-    /// tree() with names of files as they are in a file @p path.
+    /// tree() with the names of files as they are in a file @p path.
     nlohmann::ordered_json
     entries_for(const std::string &path) const;
 

@@ -14,18 +14,18 @@ namespace corotet
 {
   /**
    * A deal.II pattern in words: "[Double 0...MAX_DOUBLE (inclusive)]" is "a
-   * number >= 0". Unknown ones are given back as they are.
+   * number >= 0". Unknown patterns are returned as they are.
    */
   std::string
   describe_pattern(const std::string &description);
 
-  /// What the pattern of an entry allows, for a message about the @p value that
-  /// does not fit: that a whole number has an upper limit needs no words unless
-  /// it is above.
+  /// What the pattern of an entry allows, for a message about a @p value that
+  /// does not match. The upper limit of a whole number is mentioned only if the
+  /// value exceeds it.
   std::string
   allowed_instead(const std::string &value, const std::string &description);
 
-  /// The names among which a deal.II pattern lets one choose; empty if the
+  /// The names that a deal.II pattern allows to choose from; empty if the
   /// pattern is of another kind.
   std::vector<std::string>
   selection_names(const std::string &description);
@@ -44,8 +44,8 @@ namespace corotet
   is_section(const nlohmann::ordered_json &node);
 
   /**
-   * Prints a ParameterHandler's JSON tree as a parameter file; @p documented
-   * with the meaning of each entry and what is allowed above it.
+   * Prints a ParameterHandler's JSON tree as a parameter file; if @p
+   * documented, with the meaning of each entry and its allowed values above it.
    */
   void
   print_prm(const nlohmann::ordered_json &tree,

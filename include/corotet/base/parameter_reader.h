@@ -11,14 +11,15 @@
 namespace corotet
 {
   /**
-   * What one statement of a parameter file says.
+   * One statement of a parameter file.
    */
   struct ParameterStatement
   {
     /// "Section/Subsection/Entry", or "Section/Subsection" if there is no
     /// value.
     std::string path;
-    /// What the entry is set to; none if the statement only opens a subsection.
+    /// The new value of the entry; none if the statement only opens a
+    /// subsection.
     std::optional<std::string> value;
     /// "FILE:LINE", or "FILE" where lines are unknown.
     std::string place;
@@ -26,7 +27,7 @@ namespace corotet
     /// without content.
     bool may_be_section = false;
 
-    /// For boost::serialization.
+    /// Serialization by Boost.
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)
@@ -57,8 +58,8 @@ namespace corotet
   read_parameter_statements(const std::string &path);
 
   /**
-   * "Section/Subsection/Entry = value", as given on the command line. Throws
-   * InputError.
+   * The statement "Section/Subsection/Entry = value" of the command line.
+   * Throws InputError.
    */
   ParameterStatement
   parse_override(const std::string &text);

@@ -13,8 +13,9 @@ namespace corotet
   /**
    * Prints the JSON Schema (draft 2020-12) of parameter files in JSON, made of
    * a ParameterHandler's JSON tree: with it editors complete names and values,
-   * show what they mean, and mark mistakes. It allows what is read: an entry's
-   * value as number, true, false or text, alone or in an object as its "value".
+   * show their meaning, and mark mistakes. It allows what the program reads: an
+   * entry's value as number, true, false or text, alone or in an object as its
+   * "value".
    */
   void
   print_schema(const nlohmann::ordered_json &tree, std::ostream &out);

@@ -12,12 +12,12 @@
 
 namespace corotet
 {
-  /// Sections in sections: no parameter file needs so many, and readers must
-  /// not run out of their stack.
+  /// The largest depth of nested sections, more than any parameter file needs:
+  /// recursive readers must not run out of stack.
   constexpr int max_section_depth = 20;
 
-  /// What a parameter file may have; none needs a tenth of it. So no file makes
-  /// the program want much more memory or time than it is long.
+  /// Limits of parameter files, more than ten times what any file needs, so
+  /// that no file can make the program need much memory or time.
   constexpr std::size_t max_file_size    = 2'000'000;
   constexpr std::size_t max_statements   = 50'000;
   constexpr std::size_t max_path_length  = 1'000;
@@ -33,27 +33,29 @@ namespace corotet
   [[noreturn]] void
   refuse_statement(const std::string &place, const std::string &message);
 
-  /// Throws it if @p text has a zero byte.
+  /// Throws an InputError at @p place if @p text has a zero byte.
   void
   check_zero_bytes(const std::string &text, const std::string &place);
 
-  /// Throws the one of an entry, or in .json and .xml files a section, that is
-  /// in a file twice. @p first: where before, ", first in line N" or nothing.
+  /// Throws the InputError about an entry, or in .json and .xml files a
+  /// section, that a file has twice. @p first tells the first place: ", first
+  /// in line N" or nothing.
   [[noreturn]] void
   refuse_second(const std::string &place,
                 const std::string &name,
                 const std::string &first = "");
 
-  /// Throws the one of a file with more levels.
+  /// Throws the InputError about a file with more than max_section_depth
+  /// levels.
   [[noreturn]] void
   refuse_as_too_deep(const std::string &place);
 
-  /// Throws the one of a file that has more than max_tree_entries.
+  /// Throws the InputError about a file with more than max_tree_entries.
   [[noreturn]] void
   refuse_as_too_many(const std::string &path);
 
-  /// The statements of an open .xml or .json file called @p path. Throw
-  /// InputError, with the place in the message.
+  /// The statements of an open .xml or .json file called @p path. Both
+  /// functions throw InputError, with the place in the message.
   std::vector<ParameterStatement>
   read_xml_statements(const std::string &path, std::istream &file);
   std::vector<ParameterStatement>

@@ -10,20 +10,20 @@
 namespace corotet
 {
   /**
-   * Path of a file that is installed with the library, @p name relative to the
-   * installation ("share/corotet/scripts/draw_study"): in the nearest folder
-   * above the running program that has it, or above the file that this code is
-   * in (the shared library), or above the `corotet` that a shell would start.
-   * So it is found wherever the installation, or the folder of the build, was
-   * moved to. Empty if there is none.
+   * The path of a file that is installed with the library; @p name is relative
+   * to the installation ("share/corotet/scripts/draw_study"). It is looked for
+   * in the nearest folder above the running program that has it, above the file
+   * with this code (the shared library), or above the `corotet` that a shell
+   * would start. So it is found wherever the installation, or the folder of the
+   * build, was moved to. Empty if there is none.
    */
   std::string
   find_installed(const std::string &name);
 
-  /// How a program has ended.
+  /// The end of a program.
   struct ProgramEnd
   {
-    /// What it wrote to its standard output.
+    /// The standard output of the program.
     std::string output;
     /// Exit status; 0 if a signal ended it.
     int status = 0;

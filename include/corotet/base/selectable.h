@@ -32,7 +32,7 @@ namespace corotet
   /**
    * The candidate called @p name of class @p Derived, made with @p arguments:
    * one line in a layer's list registers it. A copy of a @p Derived must have
-   * its parameters; whatever else it has when it is used, it need not.
+   * its parameters, but need not have any other state.
    */
   template <typename Base, typename Derived, typename... Arguments>
   Candidate<Base>
@@ -47,8 +47,8 @@ namespace corotet
   }
 
   /**
-   * Candidates that programs have added to the list of @p Base: what
-   * AddedCandidate keeps.
+   * The candidates that programs have added to the list of @p Base by
+   * AddedCandidate.
    */
   template <typename Base>
   std::list<Candidate<Base>> &
@@ -58,7 +58,7 @@ namespace corotet
     return candidates;
   }
 
-  /// Throws std::logic_error.
+  /// Throws std::logic_error if both candidates have the same name.
   template <typename Base>
   void
   refuse_same_name(const Candidate<Base> &a, const Candidate<Base> &b)
@@ -68,18 +68,18 @@ namespace corotet
   }
 
   /**
-   * Adds a candidate to a layer's list, without a change of the library, for as
-   * long as this object lives: the choices that are made in that time have it,
-   * by its name, with its parameters. As a global variable, or at the start of
-   * main(), of a program that uses the library:
+   * Adds a candidate to a layer's list, without a change of the library, during
+   * the lifetime of this object: choices that are declared in that time offer
+   * it, by its name and with its parameters. Use it as a global variable, or at
+   * the start of main(), of a program that uses the library:
    *
    *   const AddedCandidate<TimeIntegrator> added(
    *     candidate<TimeIntegrator, MyIntegrator>("my integrator"));
    *
-   * All ranks must add the same. The name must not be that of another
-   * candidate, must not be empty or have '|' or '/' in it, and neither begin
-   * nor end with a blank. Throws std::logic_error otherwise; that one of the
-   * library's own candidates has the name is found when a choice is made.
+   * All ranks must add the same candidates. The name must not be that of
+   * another candidate, must not be empty, contain '|' or '/', or begin or end
+   * with a blank. Throws std::logic_error otherwise; a conflict with the name
+   * of one of the library's own candidates is found when a choice is declared.
    */
   template <typename Base>
   class AddedCandidate
@@ -112,7 +112,7 @@ namespace corotet
   };
 
   /**
-   * A layer's own candidates, and those that programs have added. Throws
+   * A layer's own candidates and those that programs have added. Throws
    * std::logic_error if two have the same name.
    */
   template <typename Base>
@@ -133,9 +133,9 @@ namespace corotet
    * `Type`, and a subsection with the parameters of each candidate.
    *
    * @p Base has a member `void declare_parameters(dealii::ParameterHandler &)`.
-   * This object holds one of each candidate, for its parameters; nobody works
-   * with these: make() makes the object that does, as often as one is wanted.
-   * It must not be moved after declare_parameters(): the handler writes into it
+   * This object holds one object of each candidate, which only keeps its
+   * parameters; make() makes the objects that are used, as many as wanted. It
+   * must not be moved after declare_parameters(): the handler writes into it
    * while it reads a file.
    */
   template <typename Base>
@@ -180,8 +180,8 @@ namespace corotet
       return selected_name;
     }
 
-    /// Names of the candidates, with their present parameters, that have a
-    /// property: "a, b, c".
+    /// The names of the candidates that have a property with their present
+    /// parameters: "a, b, c".
     std::string
     names_of(const std::function<bool(const Base &)> &property) const
     {
@@ -192,14 +192,14 @@ namespace corotet
       return names;
     }
 
-    /// What is selected, to be asked for its properties.
+    /// The selected candidate, to be asked for its properties.
     const Base &
     selected() const
     {
       return *selected_entry().object;
     }
 
-    /// A new object of what is selected, with its parameters.
+    /// A new object of the selected candidate, with its parameters.
     std::unique_ptr<Base>
     make() const
     {

@@ -7,15 +7,15 @@
 #include <cstring>
 #include <utility>
 
-/// For functions that hold a register full of everything in their caller's
-/// registers: a call would spill it.
+/// For functions whose arguments fill many of the caller's registers: a call
+/// would spill them to memory.
 #define COROTET_ALWAYS_INLINE __attribute__((always_inline)) inline
 
 namespace corotet
 {
   /**
-   * How many numbers of type T a kernel treats at once: as many as a register
-   * of this machine holds, at least four (a shorter register takes two turns).
+   * The number of values of type T that a kernel treats at once: as many as a
+   * register of this machine holds, at least four (two shorter registers then).
    */
   template <typename T>
   inline constexpr int n_lanes =
@@ -27,7 +27,8 @@ namespace corotet
     4;
 #endif
 
-  /// What this is compiled for: the newest of the extensions that matter.
+  /// The instruction set that this is compiled for: the newest of the
+  /// extensions that matter.
   inline constexpr const char *instruction_set =
 #if defined(__AVX512F__)
     "AVX-512";
@@ -68,7 +69,7 @@ namespace corotet
     }(std::make_integer_sequence<int, n>());
   }
 
-  /// All lanes @p value.
+  /// A register with all lanes equal to @p value.
   template <typename T>
   COROTET_ALWAYS_INLINE Simd<T>
                         broadcast(const T value)
@@ -76,7 +77,7 @@ namespace corotet
     return Simd<T>{} + value;
   }
 
-  /// The n numbers from @p source on, wherever it lies.
+  /// Loads n numbers from @p source, which may have any alignment.
   template <int n, typename T>
   COROTET_ALWAYS_INLINE SimdVector<T, n>
                         load_unaligned(const T *source)
@@ -86,7 +87,7 @@ namespace corotet
     return v;
   }
 
-  /// n numbers from an address that is a multiple of their size together.
+  /// Loads n numbers from an address that is a multiple of their total size.
   template <int n, typename T>
   COROTET_ALWAYS_INLINE SimdVector<T, n>
                         load_aligned(const T *source)

@@ -8,18 +8,18 @@
 
 namespace corotet
 {
-  /// From now on output that nobody reads any more does not end the process:
-  /// readers may stop, as `head` does, or end first at a signal for both.
+  /// From now on, writing to a pipe without a reader does not end the process:
+  /// readers may stop, as `head` does, or end first when both get a signal.
   void
   ignore_closed_pipes();
 
   /**
-   * While it lives, SIGTERM, SIGINT, SIGHUP, which comes when the terminal is
-   * closed, and SIGXCPU, which comes at the limit of CPU time, are remembered
-   * instead of ending the process, and so is SIGUSR1, a wish to save. A second
-   * SIGINT ends the process at once. SIGHUP is left alone where it
-   * would not end the process, as with nohup. What lives within the life of
-   * another one changes nothing.
+   * Handles signals during its lifetime: SIGTERM, SIGINT, SIGHUP (the terminal
+   * was closed) and SIGXCPU (the limit of CPU time) are remembered instead of
+   * ending the process, and so is SIGUSR1, a request to save. A second SIGINT
+   * ends the process at once. SIGHUP is left alone where it would not end the
+   * process, as with nohup. An object that lives within the lifetime of another
+   * one changes nothing.
    */
   class StopSignals
   {
@@ -31,11 +31,12 @@ namespace corotet
     StopSignals &
     operator=(const StopSignals &) = delete;
 
-    /// That of the first four which came to this process; 0 if none did.
+    /// The stop signal (one of the first four above) that this process has
+    /// received; 0 if there was none.
     static int
     received();
 
-    /// How long ago it came [s]; 0 if none did.
+    /// The time since the stop signal was received [s]; 0 if there was none.
     static double
     waiting_time();
 

@@ -51,14 +51,14 @@ namespace corotet
       return arguments;
     }
 
-    /// Their values.
+    /// The values of the rows.
     const std::vector<double> &
     row_values() const
     {
       return values;
     }
 
-    /// Whether it is smooth at the rows.
+    /// Whether the interpolation is cubic, and so smooth at the rows.
     bool
     is_cubic() const
     {
@@ -68,7 +68,7 @@ namespace corotet
   private:
     std::vector<double> arguments;
     std::vector<double> values;
-    /// At rows; empty for linear interpolation.
+    /// The slopes at the rows; empty for linear interpolation.
     std::vector<double> slopes;
   };
 } // namespace corotet

@@ -34,8 +34,8 @@ namespace corotet
 
   /**
    * Reads all tables on rank 0 and gives them to all ranks. File names are
-   * relative to @p folder. Throws InputError, on every rank, if a name is none
-   * for a function or is taken, or if a file is missing or no table.
+   * relative to @p folder. Throws InputError, on every rank, if a name is not
+   * valid for a function or is taken, or if a file is missing or has no table.
    * Collective.
    */
   TableFunctions

@@ -28,11 +28,11 @@ namespace corotet
   join(const std::vector<std::string> &parts,
        const std::string              &separator = ", ");
 
-  /// Of letters of ASCII.
+  /// A text with its ASCII letters in upper case.
   std::string
   upper_case(const std::string_view text);
 
-  /// The name, or if that is taken "NAME (2)", "NAME (3)" and so on.
+  /// The name, or if it is taken "NAME (2)", "NAME (3)" and so on.
   template <typename IsTaken>
   std::string
   unused_name(const std::string &name, const IsTaken &is_taken)
@@ -43,26 +43,28 @@ namespace corotet
     return result;
   }
 
-  /// The finite number that a whole word is, whatever the locale; with a plus
-  /// sign, as some programs write, and Fortran's exponents, "1.D-3", too.
+  /// The finite number that a whole word is, whatever the locale; a plus sign
+  /// and Fortran's exponents, "1.D-3", are accepted, as some programs write
+  /// them.
   std::optional<double>
   parse_number(const std::string_view word);
 
-  /// The mark of UTF-8 that some editors write at the start of a file.
+  /// The UTF-8 byte order mark, which some editors write at the start of a
+  /// file.
   inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-  /// Skips it.
+  /// Skips a byte order mark at the start of @p file.
   void
   skip_byte_order_mark(std::istream &file);
 
-  /// A text of any length for a message: of one that is longer than @p most
-  /// bytes the start, and how long it is.
+  /// A text of any length shortened for a message: if it is longer than @p most
+  /// bytes, its start and its length.
   std::string
   shortened(const std::string &text, const std::size_t most = 80);
 
-  /// A message for a terminal: control characters as \\xNN, those that end
-  /// lines and tabs, too, unless @p keep_lines; others that are not seen or
-  /// look like a space or a hyphen as <U+NNNN>; and no more than a few thousand
+  /// A message for a terminal, with control characters as \\xNN (line ends and
+  /// tabs, too, unless @p keep_lines), other characters that are invisible or
+  /// look like a space or a hyphen as <U+NNNN>, and at most a few thousand
   /// characters.
   std::string
   printable(const std::string &message, const bool keep_lines = false);

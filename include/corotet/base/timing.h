@@ -36,8 +36,8 @@ namespace corotet
   };
 
   /**
-   * Where the wall time [s] of a run went. Reading or making the mesh, and
-   * giving each rank its part, are parts of the set-up.
+   * The wall time [s] of the parts of a run. Reading or making the mesh and
+   * distributing it to the ranks are parts of the set-up.
    */
   struct WallTimes
   {

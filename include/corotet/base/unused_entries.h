@@ -28,9 +28,9 @@ namespace corotet
                       const std::vector<std::string> &used);
 
   /**
-   * A line of text if the entry @p place, or one in the subsection of that
-   * path, was set to another value than its default, which has no effect as the
-   * entry @p choice is what it is. Empty otherwise.
+   * A line of text if the entry @p place, or an entry in the subsection of that
+   * path, has another value than its default, which has no effect because of
+   * the value of the entry @p choice. Empty otherwise.
    */
   std::string
   unused_entry(const ParameterFile &file,

@@ -33,8 +33,8 @@ namespace corotet
                          {b.begin(), b.locally_owned_size()});
   }
 
-  /// Replaces this rank's shares of sums by the sums over all ranks, with one
-  /// message. Collective.
+  /// Replaces each rank's shares of several sums by the sums over all ranks,
+  /// with one message. Collective.
   void
   sum_over_ranks(const std::span<double> values, const MPI_Comm comm);
 
@@ -45,7 +45,8 @@ namespace corotet
   local_inner_products(
     const std::array<std::pair<const Vector *, const Vector *>, n> &pairs)
   {
-    // Blocks of all vectors stay in the first-level cache.
+    // The size of blocks of entries, such that the blocks of all vectors stay
+    // in the first-level cache.
     constexpr std::size_t block_size = 1024;
     const std::size_t     size       = pairs[0].first->locally_owned_size();
     std::array<double, n> result{};
@@ -72,13 +73,14 @@ namespace corotet
   }
 
   /**
-   * Euclidean norm. Other than Vector::l2_norm(), which stops the program in
-   * debug mode, it is not finite if the vector is not. Collective.
+   * The Euclidean norm. It is not finite if the vector is not, whereas
+   * Vector::l2_norm() stops the program then in debug mode. Collective.
    */
   double
   norm(const Vector &vector);
 
-  /// The norms of several vectors, with one message; 0 for null. Collective.
+  /// The norms of several vectors, with one message; the norm of a null pointer
+  /// is 0. Collective.
   template <std::size_t n>
   std::array<double, n>
   norms(const std::array<const Vector *, n> &vectors)

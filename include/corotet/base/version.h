@@ -11,8 +11,8 @@ namespace corotet
   /// The program's version, MAJOR.MINOR.PATCH.
   extern const std::string version;
 
-  /// The git revision it was built from, with "-dirty" if there were
-  /// uncommitted changes; "unknown" outside a checkout.
+  /// The git revision that the program was built from, with "-dirty" if there
+  /// were uncommitted changes; "unknown" outside a checkout.
   extern const std::string git_revision;
 } // namespace corotet
 

@@ -13,9 +13,9 @@
 
 namespace corotet
 {
-  /// Writes a file that is complete or absent. Throws MachineError: @p what
-  /// ("the summary") cannot be written. @p durable: it also survives a loss of
-  /// power.
+  /// Writes a file so that it is complete or absent. Throws MachineError: @p
+  /// what ("the summary") cannot be written. @p durable: the file also survives
+  /// a loss of power.
   void
   write_whole_file(const std::string &path,
                    const std::string &text,
@@ -29,23 +29,23 @@ namespace corotet
                   const nlohmann::ordered_json &values,
                   const std::string            &what);
 
-  /// The content of a file. Throws MachineError if it cannot be read, or not to
+  /// The content of a file. Throws MachineError if the file cannot be read to
   /// its end.
   std::string
   read_whole_file(const std::string &path);
 
-  /// What is left of the file @p path. Throws MachineError if it cannot be read
-  /// to its end.
+  /// The rest of the file @p path. Throws MachineError if it cannot be read to
+  /// its end.
   std::string
   read_to_end(std::istream &file, const std::string &path);
 
-  /// Throws MachineError if reading the file @p path has failed: that is no end
-  /// of it.
+  /// Throws MachineError if reading of the file @p path stopped because of a
+  /// failure and not at its end.
   void
   check_read_to_end(const std::istream &file, const std::string &path);
 
-  /// Opens @p file at @p path to write on after its first @p size bytes, which
-  /// must be there; what follows them goes. Throws MachineError.
+  /// Opens @p file at @p path to continue after its first @p size bytes, which
+  /// must exist; the rest is removed. Throws MachineError.
   void
   continue_file(const std::string &path,
                 const std::int64_t size,
@@ -53,7 +53,7 @@ namespace corotet
                 std::ofstream     &file);
 
   /// Waits until a file, or the names in a folder, are on the disk. Returns
-  /// whether that went well.
+  /// whether that succeeded.
   bool
   sync_to_disk(const std::string &path);
 

@@ -22,7 +22,7 @@ namespace corotet::bernstein
 {
   using MultiIndex = std::array<int, 4>;
 
-  /// Polynomials of degree n: 1, 4, 10, 20.
+  /// The number of polynomials of degree n: 1, 4, 10, 20.
   template <int n>
   inline constexpr int size = (n + 1) * (n + 2) * (n + 3) / 6;
 
@@ -68,8 +68,8 @@ namespace corotet::bernstein
     return -1;
   }
 
-  /// raised<n>[i][k]: number of alpha + e_k in degree n + 1, for the
-  /// multi-index i of degree n.
+  /// raised<n>[i][k]: the number in degree n + 1 of the multi-index alpha +
+  /// e_k, where alpha has the number i in degree n.
   template <int n>
   constexpr std::array<std::array<int, 4>, size<n>>
   make_raised()
@@ -101,7 +101,7 @@ namespace corotet::bernstein
     return k == 0 ? 1. : binomial(n - 1, k - 1) * n / k;
   }
 
-  /// B_alpha at the point with barycentric coordinates lambda.
+  /// The value of B_alpha at the point with barycentric coordinates lambda.
   constexpr double
   value(const MultiIndex &alpha, const std::array<double, 4> &lambda)
   {
@@ -118,8 +118,8 @@ namespace corotet::bernstein
   template <int n>
   using Matrix = std::array<std::array<double, size<n>>, size<n>>;
 
-  /// Gauss-Jordan elimination. Entries that are zero but for round-off become
-  /// zero: the kernel leaves them out.
+  /// The inverse of a matrix by Gauss-Jordan elimination. Entries that are zero
+  /// up to round-off become zero, so that the kernel leaves them out.
   template <int n>
   constexpr Matrix<n>
   inverse(Matrix<n> A)
@@ -168,13 +168,13 @@ namespace corotet::bernstein
     return inverse<p>(values);
   }
 
-  /// from_lagrange<p>[i][j]: share of the value at node j in the Bernstein
-  /// coefficient i of the polynomial of degree p.
+  /// from_lagrange<p>[i][j]: the factor of the value at node j in the Bernstein
+  /// coefficient i of a polynomial of degree p.
   template <int p>
   inline constexpr Matrix<p> from_lagrange = make_from_lagrange<p>();
 
   /**
-   * Mean of B_alpha B_beta over the tetrahedron is mass_scale(n) times the
+   * The mean of B_alpha B_beta over the tetrahedron is mass_scale(n) times the
    * product of the four binomials (alpha_i + beta_i choose alpha_i).
    */
   constexpr double
@@ -183,8 +183,8 @@ namespace corotet::bernstein
     return 1 / (binomial(2 * n, n) * binomial(2 * n + 3, 3));
   }
 
-  /// derivative<p>[i][k]: d N_i / d lambda_k of the Lagrange polynomials at the
-  /// barycentre, with all four lambda taken as independent.
+  /// derivative<p>[i][k]: the derivative d N_i / d lambda_k of a Lagrange
+  /// polynomial at the barycentre, with all four lambda taken as independent.
   template <int p>
   constexpr std::array<std::array<double, 4>, size<p>>
   make_centre_derivatives()
@@ -202,7 +202,7 @@ namespace corotet::bernstein
   template <int p>
   inline constexpr std::array<std::array<double, 4>, size<p>>
     centre_derivatives = make_centre_derivatives<p>();
-  /// Mean of the product of two Bernstein polynomials of the same degree.
+  /// The mean of the product of two Bernstein polynomials of the same degree.
   constexpr double
   mean_product(const MultiIndex &alpha, const MultiIndex &beta)
   {
@@ -216,13 +216,13 @@ namespace corotet::bernstein
     return mass_scale(n) * product;
   }
 
-  /// Means of squares of the Lagrange polynomials N_i and of products of their
-  /// derivatives d_k by lambda_k - lambda_0.
+  /// The means of squares of the Lagrange polynomials N_i, and of products of
+  /// their derivatives d_k by lambda_k - lambda_0.
   template <int p>
   struct DiagonalProducts
   {
     std::array<double, size<p>> mass{};
-    /// d_1 d_1, d_2 d_2, d_3 d_3, 2 d_2 d_3, 2 d_1 d_3, 2 d_1 d_2.
+    /// The means of d_1 d_1, d_2 d_2, d_3 d_3, 2 d_2 d_3, 2 d_1 d_3, 2 d_1 d_2.
     std::array<std::array<double, 6>, size<p>> gradient{};
   };
 

@@ -31,24 +31,24 @@ namespace corotet
     std::string traction;
     std::string pressure;
 
-    /// No parameter: boundaries, by id, that have the displacement of an exact
-    /// solution, and that as a text of three components.
+    /// Not parameters: the ids of boundaries that have the displacement of an
+    /// exact solution, and this displacement as a text of three components.
     std::set<unsigned int> boundaries_of_solution;
     std::string            displacement_of_solution;
   };
 
   /**
-   * What happens on each boundary of the body. Each component of each boundary
-   * has exactly one condition: a displacement, a traction, a pressure, or none
-   * of them (free of force). So has each edge and corner that has a name, or
-   * where such places meet: a displacement, or none.
+   * The conditions on the boundaries of the body. Each component of each
+   * boundary has exactly one condition: a displacement, a traction, a pressure,
+   * or none of them (free of force). Each edge and corner that has a name, or
+   * where such places meet, has a displacement or no condition.
    */
   class BoundaryConditions
   {
   public:
-    /// Displacement in m, by component, of the nodes that all of these places
-    /// have in common, each the union of some ids; a component without value is
-    /// free.
+    /// The prescribed displacement in m, by component, of the nodes that all of
+    /// these places have in common. Each place is the union of some ids. A
+    /// component without value is free.
     struct Displacement
     {
       std::set<Place>                          places;
@@ -57,8 +57,8 @@ namespace corotet
       std::string entry;
     };
 
-    /// Dead traction in Pa (force per area at rest), three components; or
-    /// follower pressure in Pa, one component, positive into the body.
+    /// A dead traction in Pa (force per area at rest) with three components, or
+    /// a follower pressure in Pa with one component, positive into the body.
     struct SurfaceLoad
     {
       unsigned int boundary;
@@ -66,7 +66,7 @@ namespace corotet
     };
 
     /// Throws InputError for unknown names, wrong expressions, and components
-    /// with two conditions. @p tables are for the expressions; @p names must
+    /// with two conditions. The expressions may use @p tables; @p names must
     /// outlive this object.
     BoundaryConditions(const BoundaryConditionParameters &parameters,
                        const PlaceNames                  &names,
@@ -76,31 +76,32 @@ namespace corotet
     std::vector<SurfaceLoad>  tractions;
     std::vector<SurfaceLoad>  pressures;
 
-    /// What "name & name" means, each place once. Throws InputError, blamed on
-    /// @p entry, for unknown names.
+    /// The places that "name & name" means, each once. Throws InputError,
+    /// blamed on @p entry, for unknown names.
     std::set<Place>
     find(const std::string &text, const std::string &entry) const;
 
-    /// "name", or "name & name" for what places have in common.
+    /// The text "name", or "name & name" for the common nodes of several
+    /// places.
     std::string
     name(const std::set<Place> &places) const;
 
-    /// What a message calls these: "boundary", also where several meet, "edge",
-    /// "corner" or "place".
+    /// The word for these places in a message: "boundary", also where several
+    /// meet, "edge", "corner" or "place".
     static std::string
     kind(const std::set<Place> &places);
 
   private:
-    /// Prescribes the displacement that @p value has three components of on
-    /// what @p name means, which are @p places.
+    /// Prescribes the three components of the displacement @p value on @p
+    /// places, which the user has called @p name.
     void
     prescribe(const std::set<Place> &places,
               const std::string     &name,
               const std::string     &value,
               const TableFunctions  &tables);
 
-    /// Adds a load on each of the boundaries that a name means; @p what: "a
-    /// traction", say.
+    /// Adds a load on each of the boundaries that a name means; @p what is the
+    /// kind of load in messages, such as "a traction".
     void
     add(std::vector<SurfaceLoad> &loads,
         const std::string        &what,
@@ -114,8 +115,8 @@ namespace corotet
           const std::string     &entry);
 
     const PlaceNames &names;
-    /// Entry that sets the condition of [places][component]: of one place, by
-    /// its ids one by one.
+    /// The entry that sets the condition of [places][component]. Each place has
+    /// a single id here.
     std::map<std::set<Place>, std::array<std::string, 3>> claims;
   };
 } // namespace corotet

@@ -17,38 +17,38 @@ namespace corotet
 {
   class CurvedBatches;
 
-  /// Registers of this many cells are what batches are counted in; a register
-  /// of floats holds floats_per_batch batches.
+  /// The number of cells in a batch; a register of floats holds
+  /// floats_per_batch batches.
   inline constexpr unsigned int batch_size       = n_lanes<double>;
   inline constexpr unsigned int floats_per_batch = n_lanes<float> / batch_size;
 
   /**
    * The local cells in batches of batch_size, and the plan of a sweep over
-   * them. Owned cells, ghost cells and Nodes::first_cells_of_registers() begin
-   * a register of floats. What is before it is filled up: lanes
-   * without a cell have nodes of another one and must contribute zeros.
+   * them. Owned cells, ghost cells and Nodes::first_cells_of_registers() each
+   * begin a new register of floats. The register before is filled up: lanes
+   * without a cell have the nodes of another cell and must contribute zeros.
    *
-   * A sweep goes from chunk to chunk: batches whose nodes fit into the second
-   * level of the caches together. Nodes have a number in each chunk that has
-   * them, and sweeps know these numbers only: what they read is copied into an
-   * array with four numbers for each node of the chunk, and what they add up is
-   * taken from another one (operators/cell_loop.h). So the scattered accesses
-   * of cells stay in the cache and need half the memory for numbers, and
-   * vectors are read and written from one end to the other.
+   * A sweep goes from chunk to chunk: batches whose nodes fit into the
+   * second-level cache together. A node has a number in each chunk that has it,
+   * and sweeps use only these numbers: their input is copied into an array with
+   * four numbers for each node of the chunk, and their output is taken from
+   * another such array (operators/cell_loop.h). So the scattered accesses of
+   * cells stay in the cache, numbers need half the memory, and vectors are read
+   * and written from one end to the other.
    */
   class CellBatches
   {
   public:
-    /// Batches [first, end). In the chunk the nodes [first_node, n_final) are
-    /// the first ones, in this order: they are owned, and no owned cell
-    /// contributes to them afterwards. Others follow.
+    /// The batches [first, end). The first nodes of the chunk are the final
+    /// ones, [first_node, n_final), in this order: they are owned, and no later
+    /// owned cell contributes to them. The other nodes follow.
     struct Chunk
     {
       unsigned int first;
       unsigned int end;
       unsigned int first_node;
       unsigned int n_final;
-      /// Ranges of open_nodes() and continued_nodes().
+      /// Ranges in open_nodes() and continued_nodes().
       unsigned int first_open;
       unsigned int end_open;
       unsigned int first_continued;
@@ -63,23 +63,23 @@ namespace corotet
 
     explicit CellBatches(const Nodes &nodes);
 
-    /// Batches of owned cells, a multiple of floats_per_batch; those of ghost
-    /// cells follow.
+    /// The number of batches of owned cells, a multiple of floats_per_batch;
+    /// those of ghost cells follow.
     unsigned int
     n_owned_batches() const
     {
       return n_owned;
     }
 
-    /// Batches of owned and ghost cells.
+    /// The number of batches of owned and ghost cells.
     unsigned int
     n_batches() const
     {
       return n_all;
     }
 
-    /// What there is to know about batches with curved cells; null if no cell
-    /// of the rank is curved.
+    /// The data of batches with curved cells; null if no cell of the rank is
+    /// curved.
     const CurvedBatches *
     curved() const
     {
@@ -92,7 +92,7 @@ namespace corotet
       curved_batches = curved;
     }
 
-    /// Batch and lane of a local cell.
+    /// The batch and lane of a local cell.
     std::pair<unsigned int, unsigned int>
     place(const unsigned int cell) const
     {
@@ -103,8 +103,8 @@ namespace corotet
       return {section->first_batch + i / batch_size, i % batch_size};
     }
 
-    /// First local cell of a batch, and how many cells it has, which may be
-    /// none.
+    /// The first local cell of a batch, and its number of cells, which may be
+    /// zero.
     std::pair<unsigned int, unsigned int>
     cells(const unsigned int batch) const;
 
@@ -114,7 +114,7 @@ namespace corotet
     CellBatches
     apart() const;
 
-    /// Numbers of the nodes of a batch in its chunk, [node][lane].
+    /// The numbers of the nodes of a batch in its chunk, [node][lane].
     const std::uint16_t *
     nodes(const unsigned int batch) const
     {
@@ -122,13 +122,12 @@ namespace corotet
              static_cast<std::size_t>(batch) * n_cell_nodes * batch_size;
     }
 
-    /// Those of a local cell.
+    /// The nodes of a local cell.
     CellNodes
     cell_nodes(const unsigned int cell) const;
 
-    /// Whether sweeps should ask ahead for what they read of the cells: with
-    /// vectors of numbers of type T it is too large for the caches of a
-    /// processor core.
+    /// Whether sweeps should prefetch what they read of the cells: with vectors
+    /// of numbers of type T it is too large for the caches of a processor core.
     template <typename T>
     bool
     exceed_caches() const
@@ -142,21 +141,21 @@ namespace corotet
       return plan;
     }
 
-    /// Chunks whose cells may have ghost nodes: [first, second).
+    /// The chunks whose cells may have ghost nodes: [first, second).
     std::pair<unsigned int, unsigned int>
     chunks_with_ghosts() const
     {
       return ghosted_chunks;
     }
 
-    /// Those of ghost cells; all their nodes are open.
+    /// The chunks of ghost cells; all their nodes are open.
     const std::vector<Chunk> &
     chunks_of_ghosts() const
     {
       return plan_of_ghosts;
     }
 
-    /// The nodes that follow the final ones in a chunk, ascending.
+    /// The nodes that follow the final nodes in a chunk, in ascending order.
     std::span<const PartialSum>
     open_nodes(const Chunk &chunk) const
     {
@@ -172,15 +171,16 @@ namespace corotet
               continued.data() + chunk.end_continued};
     }
 
-    /// The most that a chunk has.
+    /// The largest number of nodes in a chunk.
     unsigned int
     max_chunk_nodes() const
     {
       return most_nodes;
     }
 
-    /// Slots of partial sums. The first ones are those of the owned nodes that
-    /// other ranks contribute to and of ghosts, in their order.
+    /// The number of slots of partial sums. The first slots belong to owned
+    /// nodes that other ranks contribute to, and to ghost nodes, in their
+    /// order.
     unsigned int
     n_slots() const
     {
@@ -188,7 +188,7 @@ namespace corotet
     }
 
   private:
-    /// Consecutive cells in consecutive batches.
+    /// A range of consecutive cells in consecutive batches.
     struct Section
     {
       unsigned int first_cell;
@@ -198,20 +198,21 @@ namespace corotet
     void
     make_sections(const std::vector<unsigned int> &first_cells);
 
-    /// First local cell of a batch, and the one after the last of its section,
-    /// which may come before.
+    /// The first local cell of a batch, and the end of the cells of its
+    /// section, which may come before if the batch has no cells.
     std::pair<unsigned int, unsigned int>
     cells_from(const unsigned int batch) const;
 
-    /// Calls function(k, n) for the numbers k among node_numbers of a batch and
-    /// the local nodes n that belong there.
+    /// Calls function(k, n) for each place k in node_numbers that belongs to
+    /// the batch, and its local node n.
     template <typename Function>
     void
     for_nodes(const Nodes       &nodes,
               const unsigned int batch,
               const Function    &function) const;
 
-    /// Divides batches [begin, end) into chunks, also at @p cuts.
+    /// Divides the batches [begin, end) into chunks; chunks also begin at @p
+    /// cuts.
     std::vector<Chunk>
     divide(const Nodes                     &nodes,
            const unsigned int               begin,
@@ -231,9 +232,9 @@ namespace corotet
       return c < plan.size() ? plan[c] : plan_of_ghosts[c - plan.size()];
     }
 
-    /// What a core has to itself is half a megabyte to two, and what lies
-    /// behind that is shared and slower: cells are asked for ahead where
-    /// vectors of three and four numbers for each node take more than 3 MiB.
+    /// A core has half a megabyte to two of cache to itself; the next level is
+    /// shared and slower. Cells are prefetched where vectors of three and four
+    /// numbers for each node take more than 3 MiB.
     static constexpr unsigned int max_cached_nodes =
       (3 << 20) / (7 * sizeof(double));
 
@@ -245,7 +246,7 @@ namespace corotet
     unsigned int               n_all   = 0;
     std::vector<Section>       sections;
     std::vector<std::uint16_t> node_numbers;
-    /// Of each batch: its chunk; those of ghost cells are counted on.
+    /// The chunk of each batch; the numbers of chunks of ghost cells follow.
     std::vector<unsigned int>             chunk_of_batch;
     std::vector<Chunk>                    plan;
     std::vector<Chunk>                    plan_of_ghosts;

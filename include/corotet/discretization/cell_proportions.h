@@ -21,16 +21,16 @@ namespace corotet
    */
   struct CellProportions
   {
-    /// From which ratio on a cell counts as flat, or as stretched.
+    /// The ratio above which a cell counts as flat, or as stretched.
     static constexpr double limit = 4;
-    /// Up to which share of such cells a body counts as well-shaped.
+    /// The share of such cells up to which a body counts as well-shaped.
     static constexpr double few = 0.1;
 
     double share_flat      = 0;
     double share_stretched = 0;
-    /// Geometric mean over the cells of the larger of the two ratios.
+    /// The geometric mean over the cells of the larger of the two ratios.
     double mean_ratio = 1;
-    /// The largest of these, and the centre of its cell at rest [m].
+    /// The largest ratio, and the centre of its cell at rest [m].
     double           largest_ratio = 1;
     dealii::Point<3> place;
 
@@ -41,14 +41,14 @@ namespace corotet
       return share_flat > few || share_stretched > few;
     }
 
-    /// "12 % of the cells are flat, 3 % stretched (by more than 4; most by
-    /// 17, at (x, y, z))".
+    /// The text "12 % of the cells are flat, 3 % stretched (by more than 4;
+    /// most by 17, at (x, y, z))".
     std::string
     text() const;
   };
 
-  /// Of all cells of all ranks, with the straight edges between their
-  /// vertices. Collective.
+  /// The proportions of all cells of all ranks, with straight edges between
+  /// their vertices. Collective.
   CellProportions
   cell_proportions(const Discretization &discretization);
 } // namespace corotet

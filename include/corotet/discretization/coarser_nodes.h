@@ -12,19 +12,19 @@
 namespace corotet
 {
   /**
-   * The nodes of the next coarser element on the same cells, of degree p - 1 or
-   * without bubbles, and the natural embedding P of the coarser functions in
-   * the finer ones.
+   * The nodes of the next coarser element on the same cells (degree p - 1, or
+   * no bubbles), and the natural embedding P of the coarser functions in the
+   * finer ones.
    *
-   * Each coarser node is numbered by a finer one, its key, on the same vertex
-   * or edge: it has the same owner and the same place in the order.
+   * Each coarser node has a key, a finer node on the same vertex or edge: the
+   * coarser node has the same owner and the same place in the order.
    *
    * @p finer must outlive this object.
    */
   class CoarserNodes : public Nodes
   {
   public:
-    /// A finer node and the coarser ones that its value comes from.
+    /// A finer node and the coarser nodes that its value is interpolated from.
     template <int n>
     struct Parents
     {
@@ -35,17 +35,17 @@ namespace corotet
     /// Collective.
     explicit CoarserNodes(const Nodes &finer);
 
-    /// Local number of the finer node that a local node is numbered by; at
-    /// vertices it is the node there, below an element with bubbles
-    /// everywhere.
+    /// The local number of the finer node that is the key of a local node. At
+    /// vertices, and everywhere if the finer element has bubbles, it is the
+    /// node at the same place.
     unsigned int
     key(const unsigned int local_node) const
     {
       return keys[local_node];
     }
 
-    /// Marks of the finer local unknowns at the nodes that are here. Not
-    /// collective.
+    /// The marks of this object's local unknowns, copied from the finer nodes
+    /// at the same places. Not collective.
     std::vector<unsigned char>
     marks(const std::vector<unsigned char> &finer_marks) const;
 
@@ -64,8 +64,8 @@ namespace corotet
       dealii::LinearAlgebra::distributed::Vector<Number>       &coarse,
       const dealii::LinearAlgebra::distributed::Vector<Number> &fine) const;
 
-    /// Owned finer nodes of degree 2 in the middle of edges, and the vertices
-    /// at their ends, where this is degree 1.
+    /// The owned finer nodes of degree 2 in the middle of edges, and the
+    /// vertices at their ends. For degree 1 only.
     const std::vector<Parents<2>> &
     middles() const
     {
@@ -86,8 +86,8 @@ namespace corotet
     const Nodes              &finer;
     std::vector<unsigned int> keys;
 
-    /// Owned finer nodes at the place of a coarser one, on edges of cubic cells
-    /// (near and far vertex, middle), in the middle of edges, on faces
+    /// Owned finer nodes by their places: at a coarser node, on edges of cubic
+    /// cells (near and far vertex, middle), in the middle of edges, on faces
     /// (vertices, middles of edges), in cells (the same).
     std::vector<Parents<1>>  on_nodes;
     std::vector<Parents<3>>  on_thirds;

@@ -13,13 +13,13 @@
 namespace corotet
 {
   /**
-   * The parts of a body whose cells are connected through faces: what moves
-   * without strain moves as one rigid body in each of them, as two cells have
-   * three points of a face in common. Parts may have nodes in common: at a
-   * vertex or an edge, about which they turn as on a hinge.
+   * The parts of a body whose cells are connected through faces. In a motion
+   * without strain each part moves as one rigid body, since two neighbouring
+   * cells have the three points of a face in common. Parts may have nodes in
+   * common: at a vertex or an edge, about which they turn as on a hinge.
    *
-   * All ranks know all parts, and number them alike; not so other numbers of
-   * ranks.
+   * All ranks know all parts, with the same numbers, which depend on the number
+   * of ranks.
    */
   struct ConnectedParts
   {
@@ -35,21 +35,21 @@ namespace corotet
     explicit ConnectedParts(const Discretization &discretization);
 
     unsigned int n_parts = 0;
-    /// Of each owned node one of its parts.
+    /// One part of each owned node.
     std::vector<unsigned int> part_of_node;
-    /// Of each owned cell.
+    /// The part of each owned cell.
     std::vector<unsigned int> part_of_cell;
-    /// For each further part of an owned node.
+    /// The further parts of owned nodes that belong to several.
     std::vector<Joint> joints;
-    /// Mean of the nodes' positions of each part [m].
+    /// The mean of the nodes' positions of each part [m].
     std::vector<dealii::Point<3>> centres;
-    /// Largest distance of a node from there [m].
+    /// The largest distance of a node from the centre of its part [m].
     std::vector<double> radii;
-    /// Regions of each part's cells.
+    /// The regions of each part's cells.
     std::vector<std::set<unsigned int>> regions;
 
   private:
-    /// Numbers the parts; the part of each cell of the LocalMesh.
+    /// Numbers the parts; returns the part of each cell of the LocalMesh.
     std::vector<unsigned int>
     number_parts(const Discretization &discretization);
     void
@@ -59,7 +59,7 @@ namespace corotet
     measure(const Discretization &discretization);
   };
 
-  /// Those of all ranks, the same on each. Collective.
+  /// The union of all ranks' @p pairs, on each rank. Collective.
   std::set<std::pair<unsigned int, unsigned int>>
   of_all_ranks(const std::set<std::pair<unsigned int, unsigned int>> &pairs,
                const MPI_Comm                                         comm);

@@ -17,29 +17,33 @@
 namespace corotet
 {
   /**
-   * The batches of curved cells, as kernels take them: they are integrated over
-   * by quadrature. None holds straight cells: where quadrature is not exact,
-   * that would make a difference, and on other ranks, others would be there.
+   * The batches of curved cells for kernels, which integrate over them by
+   * quadrature. None of them holds straight cells: these would be integrated
+   * differently where quadrature is not exact, and which cells they are would
+   * depend on the number of ranks.
    *
-   * With the Jacobian J(xi) of a cell's map x(xi), gradients are those by xi
-   * times J^{-1} = (J^{-1} J_c) J_c^{-1}, where J_c is that of the centre.
-   * J_c^{-1} is the CellGeometry of the cell. So only J^{-1} J_c, close to the
-   * identity, distinguishes a curved cell from a straight one: gradients by xi
-   * times that matrix are gradients by the centre's coordinates, and all that
-   * is done with these, rotations above all, is the same.
+   * Gradients by x are gradients by xi times J^{-1} = (J^{-1} J_c) J_c^{-1},
+   * with the Jacobian J(xi) of the cell's map x(xi) and its value J_c at the
+   * centre. J_c^{-1} is in the CellGeometry of the cell. So only J^{-1} J_c,
+   * close to the identity, distinguishes a curved cell from a straight one:
+   * gradients by xi times that matrix are gradients by the centre's
+   * coordinates, and all that is done with these, rotations above all, is the
+   * same.
    *
-   * All elements on the same cells share these numbers, and the points, which
-   * are those of the finest element: coarser forms are Galerkin projections.
+   * All elements on the same cells share the numbers and the points, which are
+   * those of the finest element: coarser forms are Galerkin projections.
    */
   class CurvedBatches
   {
   public:
-    /// Per point: J^{-1} J_c by rows, and the point's share of the volume.
+    /// The numbers of a point: J^{-1} J_c by rows, and the point's share of the
+    /// volume.
     static constexpr unsigned int n_numbers = 10;
 
     /**
-     * With @p element's own points, and the numbers of straight cells so far.
-     * @param is_curved By local cell; the same in all of a register.
+     * Uses @p element's own points; the numbers are at first those of straight
+     * cells. @param is_curved Whether each local cell is curved; the same for
+     * all cells of a register.
      */
     CurvedBatches(const Element                     element,
                   const CellBatches                &batches,
@@ -48,22 +52,22 @@ namespace corotet
     /// The same cells for another element.
     CurvedBatches(const Element element, const CurvedBatches &other);
 
-    /// To be called before numbers().
+    /// Sets the numbers of a point of a cell. To be called before numbers().
     void
     set(const std::pair<unsigned int, unsigned int> &place,
         const unsigned int                           point,
         const dealii::Tensor<2, 3>                  &matrix,
         const double                                 weight);
 
-    /// Whether the register of cells that @p batch belongs to is of curved
-    /// ones. A register is one of floats: floats_per_batch batches.
+    /// Whether the register of cells that @p batch belongs to has curved cells.
+    /// A register is one of floats: floats_per_batch batches.
     bool
     has(const unsigned int batch) const
     {
       return maps->index[batch / floats_per_batch] != none;
     }
 
-    /// Numbers of the register of T that starts with @p batch,
+    /// The numbers of the register of T that starts with @p batch,
     /// [point][number][lane].
     template <typename T>
     const T *
@@ -80,7 +84,8 @@ namespace corotet
         return maps->float_numbers.data() + i * register_size;
     }
 
-    /// Makes the numbers of floats: once, by who needs them.
+    /// Computes the numbers in single precision; called once, if they are
+    /// needed.
     void
     make_floats() const;
 
@@ -90,15 +95,15 @@ namespace corotet
       return shape_functions.weights.size();
     }
 
-    /// The element's functions at the points, with the weights of straight
-    /// cells.
+    /// The element's shape functions at the points, with the weights of
+    /// straight cells.
     const ReferenceElement::PointValues &
     shapes() const
     {
       return shape_functions;
     }
 
-    /// The same as numbers of type T: [point][node][value, three derivatives].
+    /// shapes() as numbers of type T: [point][node][value, three derivatives].
     template <typename T>
     const T *
     shape_numbers() const
@@ -109,7 +114,7 @@ namespace corotet
         return shapes_float.data();
     }
 
-    /// Number of a batch among those that are curved.
+    /// The number of a curved batch among the curved batches.
     unsigned int
     index(const unsigned int batch) const
     {
@@ -117,7 +122,7 @@ namespace corotet
              batch % floats_per_batch;
     }
 
-    /// Batches that are curved, of owned and of ghost cells.
+    /// The number of curved batches, of owned and of ghost cells.
     unsigned int
     n_batches() const
     {
@@ -130,7 +135,7 @@ namespace corotet
 
     struct Maps
     {
-      /// Of each register of floats its number among the curved ones, or none.
+      /// The number of each register of floats among the curved ones, or none.
       std::vector<unsigned int>     index;
       unsigned int                  n_registers = 0;
       dealii::AlignedVector<double> numbers;

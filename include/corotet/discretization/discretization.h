@@ -22,8 +22,8 @@ namespace corotet
   struct LocalNodes;
 
   /**
-   * Geometry of a cell: x = p0 + J xi, with xi in the reference tetrahedron; of
-   * a curved cell J at its centre.
+   * The geometry of a cell: x = p0 + J xi, with xi in the reference
+   * tetrahedron; for a curved cell J is the Jacobian at its centre.
    */
   struct CellGeometry
   {
@@ -32,7 +32,7 @@ namespace corotet
     dealii::Tensor<2, 3> inverse_jacobian;
     /// Volume in m^3, positive.
     double volume;
-    /// Region as the mesh numbers it.
+    /// The region of the cell, as the mesh numbers it.
     unsigned int region;
   };
 
@@ -63,8 +63,8 @@ namespace corotet
   class Discretization : public Nodes
   {
   public:
-    /// Throws InputError if a curved cell is folded at a point that matters.
-    /// Collective.
+    /// Throws InputError if a curved cell is folded at its centre or a
+    /// quadrature point. Collective.
     Discretization(const Mesh &mesh, const Element element);
 
     const Mesh &
@@ -79,18 +79,19 @@ namespace corotet
       return mesh_pointer->local().n_global_cells;
     }
 
-    /// Computed at each call, but for curved cells.
+    /// The geometry of a local cell; computed at each call, except for curved
+    /// cells.
     CellGeometry
     geometry(const unsigned int cell) const;
 
-    /// Of the body at rest, on all ranks together [m^3].
+    /// The volume of the body at rest, on all ranks together [m^3].
     double
     volume() const
     {
       return body_volume;
     }
 
-    /// As the mesh numbers it.
+    /// The region of a local cell, as the mesh numbers it.
     unsigned int
     region(const unsigned int cell) const
     {
@@ -103,8 +104,8 @@ namespace corotet
       return !curved_cells.empty() && curved_cells[cell] != 0;
     }
 
-    /// dx / dxi of a cell, straight or curved, at point @p q of a rule with
-    /// this element's functions.
+    /// The Jacobian dx / dxi of a cell, straight or curved, at point @p q of a
+    /// rule with this element's functions.
     dealii::Tensor<2, 3>
     jacobian(const unsigned int                   cell,
              const ReferenceElement::PointValues &rule,
@@ -123,28 +124,30 @@ namespace corotet
       return J;
     }
 
-    /// Number of local cell @p cell in the mesh's LocalMesh.
+    /// The number of local cell @p cell in the mesh's LocalMesh.
     unsigned int
     cell_in_local_mesh(const unsigned int cell) const
     {
       return local_mesh_cells[cell];
     }
 
-    /// Number of local cell @p cell in the mesh, whatever its partition.
+    /// The number of local cell @p cell in the whole mesh, whatever its
+    /// partition.
     dealii::types::coarse_cell_id
     mesh_cell(const unsigned int cell) const
     {
       return mesh_pointer->local().numbers[local_mesh_cells[cell]];
     }
 
-    /// The surface, as far as it belongs to owned cells.
+    /// The faces of the body's surface that belong to owned cells.
     const std::vector<BoundaryFace> &
     boundary_faces() const
     {
       return surface;
     }
 
-    /// What belongs to a boundary; with unnamed_boundary, what belongs to none.
+    /// The faces of a boundary, or with unnamed_boundary those that belong to
+    /// none.
     const std::vector<BoundaryFace> &
     boundary_faces(const unsigned int boundary) const
     {
@@ -153,7 +156,7 @@ namespace corotet
       return found == faces_of_boundaries.end() ? none : found->second;
     }
 
-    /// Those of ghost cells, where the boundary has a number in the mesh.
+    /// The faces of ghost cells on boundaries that have a number in the mesh.
     const std::vector<BoundaryFace> &
     ghost_boundary_faces() const
     {
@@ -175,8 +178,8 @@ namespace corotet
               positions.local_element(3 * local_node + 2)};
     }
 
-    /// Lower and upper corner of the box around the body's nodes at rest in m,
-    /// the same on any number of ranks. Collective.
+    /// The lower and upper corner of the box around the body's nodes at rest in
+    /// m, the same on any number of ranks. Collective.
     std::pair<dealii::Point<3>, dealii::Point<3>>
     bounding_box() const;
 
@@ -186,27 +189,28 @@ namespace corotet
       return fe;
     }
 
-    /// That of straight cells.
+    /// deal.II's mapping of straight cells.
     const dealii::MappingFE<3> &
     mapping() const
     {
       return linear_mapping;
     }
 
-    /// For deal.II's tools; its numbering is the one described above. Made, and
-    /// its triangulation, when it is asked for; the first call is collective.
+    /// A DoFHandler for deal.II's tools; its numbering is the one described
+    /// above. It is made, like its triangulation, at the first call, which is
+    /// collective.
     const dealii::DoFHandler<3> &
     dof_handler() const;
 
   private:
-    /// All cells of the LocalMesh, in the order of Nodes.
+    /// Puts all cells of the LocalMesh into the order of Nodes.
     void
     order_cells(const LocalNodes &nodes);
-    /// Puts cells of one kind, curved or straight, side by side, so that none
-    /// shares a register with one of the other, where they are near each other.
+    /// Puts nearby cells of the same kind, curved or straight, side by side, so
+    /// that no register has cells of both kinds.
     void
     gather_curved(std::vector<unsigned int> &cells);
-    /// Global numbers.
+    /// The global numbers of the nodes.
     std::vector<dealii::types::global_dof_index>
     number_nodes(const LocalNodes &nodes);
     void
@@ -215,10 +219,10 @@ namespace corotet
       const std::vector<dealii::types::global_dof_index> &numbers);
     void
     set_up_cells();
-    /// Positions of the nodes of curved cells.
+    /// Computes the positions of the nodes of curved cells.
     void
     curve_positions();
-    /// Geometries of curved cells, and what kernels need of them.
+    /// Computes the geometries of curved cells, and the numbers for kernels.
     void
     set_up_curved_cells();
 
@@ -227,15 +231,16 @@ namespace corotet
     dealii::MappingFE<3> linear_mapping;
 
     std::vector<unsigned int> local_mesh_cells;
-    /// Empty, or of all local cells, of which curved ones have theirs.
+    /// Geometries by local cell, set for curved cells only; empty if there are
+    /// none.
     std::vector<CellGeometry> curved_geometries;
     std::vector<BoundaryFace> surface;
     std::vector<BoundaryFace> surface_of_ghosts;
-    /// Of those with a number.
+    /// The surface's faces by boundary.
     std::map<unsigned int, std::vector<BoundaryFace>> faces_of_boundaries;
     Vector                                            positions;
     double                                            body_volume = 0;
-    /// By local cell; empty if no cell of any rank is curved.
+    /// Whether each local cell is curved; empty if no cell of any rank is.
     std::vector<unsigned char> curved_cells;
 
     mutable std::unique_ptr<dealii::DoFHandler<3>> dofs;

@@ -7,9 +7,9 @@
 namespace corotet
 {
   /**
-   * A finite element on tetrahedra: polynomials of degree p = 1, 2, 3
-   * (FE_SimplexP), or those of degree 2 and five bubbles
-   * (FE_SimplexP_Bubbles): 27 lambda_a lambda_b lambda_c for each face, 256
+   * A finite element on tetrahedra: the polynomials of degree p = 1, 2, 3
+   * (FE_SimplexP), or those of degree 2 with five bubbles
+   * (FE_SimplexP_Bubbles): 27 lambda_a lambda_b lambda_c for each face, and 256
    * lambda_0 lambda_1 lambda_2 lambda_3. With the bubbles, quadrature at the
    * nodes has positive weights and a diagonal mass matrix of full order
    * (Geevers, Mulder, van der Vegt 2018, @cite geevers2018).
@@ -29,7 +29,7 @@ namespace corotet
       return element;
     }
 
-    /// Of the polynomials that it has all of.
+    /// The highest degree of which the element has all polynomials.
     constexpr unsigned int
     degree() const
     {
@@ -42,15 +42,15 @@ namespace corotet
       return bubbles;
     }
 
-    /// 4, 10, 20; 15 with bubbles.
+    /// The number of nodes: 4, 10, 20; 15 with bubbles.
     constexpr unsigned int
     n_nodes() const
     {
       return bubbles ? 15 : (p + 1) * (p + 2) * (p + 3) / 6;
     }
 
-    /// The next one whose functions this one has: without bubbles, or of degree
-    /// p - 1.
+    /// The next coarser element, whose functions are among this element's: the
+    /// same without bubbles, or degree p - 1.
     constexpr Element
     coarser() const
     {

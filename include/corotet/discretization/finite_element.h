@@ -10,8 +10,7 @@
 
 namespace corotet
 {
-  /// An element for scalar functions as deal.II has it; lives as long as the
-  /// program.
+  /// deal.II's element for scalar functions; it lives as long as the program.
   const dealii::FiniteElement<3> &
   finite_element(const Element element);
 } // namespace corotet

@@ -10,9 +10,10 @@
 namespace corotet
 {
   /**
-   * The nodes of an element in the cells that a rank has of a mesh: which of
-   * them cells share, and who owns them. Numbers are those of this rank alone;
-   * at first those at vertices, then on edges, on faces and inside of cells.
+   * The nodes of an element in the cells of a mesh that a rank has: which nodes
+   * cells share, and who owns them. Numbers are valid on this rank only; the
+   * nodes at vertices come first, then those on edges, on faces and inside of
+   * cells.
    */
   struct LocalNodes
   {
@@ -25,10 +26,10 @@ namespace corotet
     }
 
     unsigned int n_per_cell;
-    /// Of each cell, in the order of the element.
+    /// The nodes of each cell, in the order of the element.
     std::vector<unsigned int> of_cells;
-    /// The lowest rank with a cell that has the node. Right for nodes of owned
-    /// cells, all of whose cells are known.
+    /// The lowest rank with a cell that has the node. Correct for nodes of
+    /// owned cells, since all cells around them are known.
     std::vector<dealii::types::subdomain_id> owners;
   };
 } // namespace corotet

@@ -12,9 +12,9 @@ namespace corotet
 {
   /**
    * Finds the few owned cells and nodes of the body at rest that are near a
-   * point: by boxes around pieces of the cells and of the nodes, whose numbers
-   * follow a curve through the body. A search looks at the boxes, some 64 times
-   * fewer than cells, and at the pieces in those that count.
+   * point, by boxes around pieces of consecutive cells or nodes, whose numbers
+   * follow a curve through the body. A search checks the boxes, some 64 times
+   * fewer than cells, and then the cells or nodes of the pieces nearby.
    *
    * @p discretization must outlive this object. No member is collective.
    */
@@ -23,23 +23,24 @@ namespace corotet
   public:
     explicit NearbyCells(const Discretization &discretization);
 
-    /// Owned cells, ascending, among them all where PointSearch finds @p x [m],
-    /// and those of whose barycentric coordinates, continued beyond the faces
-    /// from its middle, none is below -@p outside.
+    /// Owned cells in ascending order: all cells where PointSearch may find @p
+    /// x [m] or where none of its barycentric coordinates, continued beyond the
+    /// faces from the middle of the cell, is below -@p outside, and some more.
     std::vector<unsigned int>
     cells(const dealii::Point<3> &x, const double outside = 0) const;
 
-    /// From @p x to the nearest owned node [m]; infinity if there is none.
+    /// The distance from @p x to the nearest owned node [m]; infinity if there
+    /// is none.
     double
     distance_to_nodes(const dealii::Point<3> &x) const;
 
-    /// Owned nodes, ascending, that are no farther from @p x than @p distance
-    /// [m].
+    /// The owned nodes, in ascending order, that are no farther from @p x than
+    /// @p distance [m].
     std::vector<unsigned int>
     nodes(const dealii::Point<3> &x, const double distance) const;
 
   private:
-    /// Around cells or nodes with consecutive numbers.
+    /// A box around cells or nodes with consecutive numbers.
     struct Box
     {
       Box();
@@ -50,26 +51,26 @@ namespace corotet
       void
       include(const Box &other);
 
-      /// Makes it larger by @p by [m] in all directions.
+      /// Makes the box larger by @p by [m] in all directions.
       void
       widen(const dealii::Tensor<1, 3> &by);
 
-      /// Square of the distance from @p x [m^2]; 0 inside.
+      /// The square of the distance of @p x from the box [m^2]; 0 inside.
       double
       distance_square(const dealii::Point<3> &x) const;
 
       dealii::Point<3> lower, upper;
     };
 
-    /// With the longest sides of boxes of cells in it.
+    /// The box of a piece of cells, and the longest sides of its cells' boxes.
     struct CellPiece
     {
       Box                  box;
       dealii::Tensor<1, 3> sides;
     };
 
-    /// Where x may be for PointSearch to find it, but for a negligible part of
-    /// the sides, and for cells().
+    /// The box of the points that PointSearch may find in a cell, up to a
+    /// negligible part of its sides; cells() also needs it.
     Box
     box_of_cell(const unsigned int cell) const;
 

@@ -12,12 +12,12 @@
 namespace corotet
 {
   /**
-   * The point of the body at rest that is nearest to @p x [m], of cells that
-   * are so near that their surface may be meant: @p x is outside of a straight
-   * cell with the same vertices by less than a fifth of its heights. Points on
-   * the surface of a curved part are a little outside of its cells. Of several
-   * that are as near, that of the lowest rank; @p x itself if a cell has it;
-   * nothing if no cell is near. Collective.
+   * The point of the body at rest that is nearest to @p x [m], if @p x is so
+   * near that a point of the surface may be meant: outside of a straight cell
+   * with the same vertices by less than a fifth of its heights. (Points on the
+   * exact surface of a curved part are a little outside of its cells.) Returns
+   * @p x itself if a cell contains it, that of the lowest rank if several
+   * points are equally near, and nothing if no cell is near. Collective.
    */
   std::optional<dealii::Point<3>>
   nearest_point(const Discretization   &discretization,

@@ -22,8 +22,8 @@ namespace corotet
   class CellBatches;
 
   /**
-   * A node that several chunks of cells have, and where their contributions to
-   * it are added up (CellBatches).
+   * A node that several chunks of cells have, and the slot where their
+   * contributions to it are added up (CellBatches).
    */
   struct PartialSum
   {
@@ -32,8 +32,8 @@ namespace corotet
   };
 
   /**
-   * Local numbers of the nodes of a cell, in the order of the element: a list,
-   * or numbers in a chunk of cells, as CellBatches have them.
+   * The local numbers of the nodes of a cell, in the order of the element. They
+   * are kept as a list, or as numbers in a chunk of cells (CellBatches).
    */
   class CellNodes
   {
@@ -43,8 +43,9 @@ namespace corotet
       , n(n)
     {}
 
-    /// Node i has the number k = numbers[stride i] in a chunk: it is first_node
-    /// + k if k < @p n_final, open[k - n_final] otherwise.
+    /// A list of numbers in a chunk. Node i has the number k = numbers[stride
+    /// i] there: it is first_node + k if k < @p n_final, open[k - n_final]
+    /// otherwise.
     CellNodes(const std::uint16_t *numbers,
               const unsigned int   stride,
               const unsigned int   n,
@@ -74,7 +75,7 @@ namespace corotet
       return k < n_final ? first_node + k : open[k - n_final].node;
     }
 
-    /// Goes through the nodes.
+    /// Iterates over the nodes.
     struct Iterator
     {
       unsigned int
@@ -122,8 +123,8 @@ namespace corotet
     unsigned int         n;
   };
   /**
-   * The nodes of an element on a distributed mesh of tetrahedra: which
-   * ones each cell has, who owns them, and their unknowns.
+   * The nodes of an element on a distributed mesh of tetrahedra: the nodes of
+   * each cell, their owners, and their unknowns.
    *
    * Cells and nodes are addressed by local numbers. Owned cells come first,
    * then ghost cells (all that share a vertex with an owned one); owned nodes
@@ -131,13 +132,12 @@ namespace corotet
    * unknowns 3n, 3n+1, 3n+2 (x, y, z), in global numbers and in the local ones
    * of vectors made by initialize_vector().
    *
-   * The order serves sweeps over the cells. Cells that are neighbours are near
-   * each other. Those with ghost nodes stand together in the middle, so that
-   * there is work to do before the values of ghosts have come and after their
-   * contributions have gone. Owned nodes are numbered in the order in which the
-   * sweep leaves them for good, so that what is to be done with a result can be
-   * done while it is in the cache; those that get contributions from other
-   * ranks are the last.
+   * The order is made for sweeps over the cells. Neighbouring cells are near
+   * each other. Cells with ghost nodes stand together in the middle, so that
+   * there is work to do before the values of ghosts arrive and after their
+   * contributions are sent. Owned nodes are numbered in the order in which the
+   * sweep leaves them for good, so that results can be processed while they are
+   * in the cache; nodes with contributions from other ranks are the last.
    */
   class Nodes
   {
@@ -172,32 +172,31 @@ namespace corotet
       return n_owned;
     }
 
-    /// Owned and ghost cells.
+    /// The number of owned and ghost cells.
     unsigned int
     n_local_cells() const
     {
       return n_local;
     }
 
-    /// First of the owned cells that may have ghost nodes, and the one after
-    /// the last.
+    /// The range of owned cells that may have ghost nodes: [first, second).
     std::pair<unsigned int, unsigned int>
     cells_with_ghosts() const
     {
       return ghosted_cells;
     }
 
-    /// Cells that begin a register, so that none has both curved and straight
-    /// ones: ascending, not all different, and the number of local cells may be
-    /// among them. Empty where the mesh has straight cells only, or the degree
-    /// is 1.
+    /// The cells that begin a new register, so that none has both curved and
+    /// straight cells: ascending, possibly repeated, and the number of local
+    /// cells may be among them. Empty where the mesh has straight cells only,
+    /// or the degree is 1.
     const std::vector<unsigned int> &
     first_cells_of_registers() const
     {
       return register_starts;
     }
 
-    /// Those of local cell @p cell.
+    /// The nodes of local cell @p cell.
     CellNodes
     cell_nodes(const unsigned int cell) const;
 
@@ -213,15 +212,15 @@ namespace corotet
       return vector_partitioner->locally_owned_size() / 3;
     }
 
-    /// Owned and ghost nodes.
+    /// The number of owned and ghost nodes.
     unsigned int
     n_local_nodes() const
     {
       return n_owned_nodes() + vector_partitioner->n_ghost_indices() / 3;
     }
 
-    /// Owned nodes from this one on belong to ghost cells, too: other ranks
-    /// contribute to them.
+    /// The first of the owned nodes that also belong to ghost cells, so that
+    /// other ranks contribute to them.
     unsigned int
     first_shared_node() const
     {
@@ -241,15 +240,15 @@ namespace corotet
       return vector_partitioner;
     }
 
-    /// The cells as kernels take them.
+    /// The cells in batches, for kernels.
     const CellBatches &
     batches() const
     {
       return *cell_batches;
     }
 
-    /// Makes @p vector one of unknowns with ghost entries for all local nodes;
-    /// all zero.
+    /// Makes @p vector a vector of unknowns with ghost entries for all local
+    /// nodes, all zero.
     template <typename Number>
     void
     initialize_vector(
@@ -258,8 +257,9 @@ namespace corotet
       vector.reinit(vector_partitioner);
     }
 
-    /// Work space for sweeps, which all who ask for one of this type share, one
-    /// at a time; made, of these nodes, at the first call.
+    /// Work space for sweeps over these nodes. All callers with the same type
+    /// share one object, which is made at the first call; only one may use it
+    /// at a time.
     template <typename Space>
     std::shared_ptr<Space>
     work_space() const
@@ -274,8 +274,8 @@ namespace corotet
     explicit Nodes(const Element element);
     ~Nodes();
 
-    /// To be called when all else is known: from then on the batches have the
-    /// nodes of the cells.
+    /// Makes the batches, which from then on keep the nodes of the cells. To be
+    /// called after everything else is set.
     void
     make_batches();
 
@@ -286,7 +286,8 @@ namespace corotet
     unsigned int                          first_shared  = 0;
     std::pair<unsigned int, unsigned int> ghosted_cells = {0, 0};
     std::vector<unsigned int>             register_starts;
-    /// Of all local cells, one after the other; empty once there are batches.
+    /// The nodes of all local cells, one cell after another; empty once there
+    /// are batches.
     std::vector<unsigned int> nodes_of_cells;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>

@@ -11,7 +11,7 @@
 namespace corotet
 {
   /**
-   * What a cell at rest is like at a point of a rule.
+   * The geometry of a cell at rest at a point of a rule.
    */
   struct PointGeometry
   {
@@ -27,15 +27,16 @@ namespace corotet
                  const unsigned int                   cell,
                  const unsigned int                   q);
 
-  /// Of a point of a rule in a cell at rest [m].
+  /// The position of a point of a rule in a cell at rest [m].
   dealii::Point<3>
   point_position(const Discretization                &discretization,
                  const ReferenceElement::PointValues &rule,
                  const unsigned int                   cell,
                  const unsigned int                   q);
 
-  /// grad u [component][direction] [-] at point @p q of a rule in a local cell,
-  /// with @p u's ghosts up to date. A translation costs it no digits.
+  /// The gradient grad u [component][direction] [-] at point @p q of a rule in
+  /// a local cell. The ghost entries of @p u must be up to date. A translation
+  /// does not reduce the accuracy.
   dealii::Tensor<2, 3>
   displacement_gradient(const Discretization                &discretization,
                         const Vector                        &u,

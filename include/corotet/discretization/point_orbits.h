@@ -8,14 +8,14 @@
 
 namespace corotet
 {
-  /// Puts the points of a rule, and their weights, into the order of orbits.
-  /// Throws an ExcInternalError if it does not consist of orbits.
+  /// Sorts the points of a rule and their weights by orbits. Throws an
+  /// ExcInternalError if the rule does not consist of orbits.
   std::vector<PointOrbit>
   sort_into_orbits(std::vector<dealii::Point<3>> &points,
                    std::vector<double>           &weights);
 
   /// Sets the factors of @p orbit for derivatives of polynomials of @p degree 2
-  /// or 3; those of degree 1 need none.
+  /// or 3; degree 1 needs none.
   void
   set_factors(PointOrbit &orbit, const unsigned int degree);
 } // namespace corotet

@@ -17,30 +17,30 @@ namespace corotet
    * Finds points of the body at rest in cells, however thin and curved these
    * are.
    *
-   * A curved cell is cut into eight parts again and again, where a part may
+   * A curved cell is divided into eight parts recursively, wherever a part may
    * contain the point, until the map of the part is almost affine: from there
-   * Newton's method finds the point if it is in the part. Parts that cannot
-   * contain the point are told by bounds of the map, so none is missed.
+   * Newton's method finds the point if it is in the part. Bounds of the map
+   * exclude parts that cannot contain the point, so none is missed.
    *
    * @p discretization must outlive this object.
    */
   class PointSearch
   {
   public:
-    /// How far a point may be beyond a face of a cell, in lengths of the cell's
-    /// longest edge, and yet belong to it: round-off in the coordinates of a
-    /// point on the surface.
+    /// The distance by which a point may be beyond a face of a cell and yet
+    /// belong to it, in lengths of the cell's longest edge: coordinates of
+    /// points on the surface have round-off.
     static constexpr double tolerance = 1e-8;
 
-    /// A polynomial of degree 2 or 3 that is zero at the vertices is nowhere
-    /// larger than this many times its largest value at the nodes: sums of the
-    /// sizes of the other nodes' functions are at most 1.5 and 2.77.
+    /// A bound of polynomials of degree 2 or 3 that are zero at the vertices,
+    /// as a multiple of their largest value at the nodes: the sum of the
+    /// absolute values of the other nodes' functions is at most 1.5 and 2.77.
     static constexpr double growth = 3;
 
     explicit PointSearch(const Discretization &discretization);
 
-    /// Reference coordinates of the point at @p x [m] in local cell @p cell, if
-    /// it belongs to it. Not collective.
+    /// The reference coordinates of the point @p x [m] in local cell @p cell,
+    /// if the point belongs to it. Not collective.
     std::optional<dealii::Point<3>>
     find(const unsigned int cell, const dealii::Point<3> &x) const;
 
@@ -50,7 +50,7 @@ namespace corotet
     {
       unsigned int     cell;
       dealii::Point<3> x;
-      /// Distance that is allowed [m].
+      /// The distance that is allowed [m].
       double distance;
     };
 
@@ -59,17 +59,17 @@ namespace corotet
     {
       unsigned int                    level;
       std::array<dealii::Point<3>, 4> corners;
-      /// Images of the part's own map points, less the point sought [m].
+      /// Images of the part's own map points, minus the point sought [m].
       std::vector<dealii::Point<3>> nodes;
     };
 
-    /// Along a direction d, unit 1/m: f = d . (x(xi) - x).
+    /// Bounds of f = d . (x(xi) - x) in a part, for a direction d [1/m].
     struct Bounds
     {
       /// Whether f is zero somewhere in the part, or nearly.
       bool may_contain;
-      /// Most that f differs at nodes from the affine function with the same
-      /// values at the corners.
+      /// The largest difference at the nodes between f and the affine function
+      /// with the same values at the corners.
       double deviation;
     };
 

@@ -19,10 +19,10 @@ namespace corotet
   /**
    * The unknowns whose displacement is prescribed, and their motion in time.
    *
-   * Velocity and acceleration are the time derivatives of the expression,
-   * exact where it has any; see Expression::time_derivatives(). (Derivatives by
-   * the integrator's own formulas would oscillate from step to step.) At an
-   * instant where none is finite, the expression is also evaluated up to three
+   * Velocity and acceleration are the time derivatives of the expression, exact
+   * where they exist; see Expression::time_derivatives(). (Derivatives by the
+   * integrator's own formulas would oscillate from step to step.) At an instant
+   * where they are not finite, the expression is also evaluated up to three
    * tenths of a time scale later, or earlier.
    *
    * @p discretization and @p conditions must outlive this object.
@@ -30,8 +30,8 @@ namespace corotet
   class PrescribedMotion
   {
   public:
-    /// @p time_scale [s]: the time step, or one that would be accurate; 0 if
-    /// velocities and accelerations are to be zero, as in statics. Throws
+    /// @p time_scale [s] is the time step, or one that would be accurate; with
+    /// 0 velocities and accelerations are zero, as in statics. Throws
     /// InputError. Collective.
     PrescribedMotion(const Discretization     &discretization,
                      const ReferenceElement   &reference,
@@ -66,23 +66,22 @@ namespace corotet
     void
     set_zero(Vector &vector) const;
 
-    /// Prescribed owned unknowns, as local numbers.
+    /// The prescribed owned unknowns, as local numbers.
     const std::vector<unsigned int> &
     unknowns() const
     {
       return prescribed;
     }
 
-    /// Whether all @p places have each local node in common (0 or 1), ghosts
-    /// included. Throws InputError, blamed on @p entry, if they have none.
-    /// Collective.
+    /// Whether each local node, ghosts included, belongs to all @p places (0 or
+    /// 1). Throws InputError, blamed on @p entry, if no node does. Collective.
     std::vector<unsigned char>
     common_nodes(const ReferenceElement &reference,
                  const std::set<Place>  &places,
                  const std::string      &entry) const;
 
   private:
-    /// An unknown and the condition that sets it.
+    /// An unknown and the condition that prescribes it.
     struct Entry
     {
       unsigned int unknown;
@@ -96,8 +95,8 @@ namespace corotet
                 .components[entry.unknown % 3];
     }
 
-    /// Adds 1 or more to the first component of the nodes of a place that owned
-    /// cells have there.
+    /// Adds 1 or more to the first component of those nodes of a place that are
+    /// on faces, edges or vertices of owned cells there.
     void
     mark(Vector                 &marks,
          const ReferenceElement &reference,
@@ -106,7 +105,7 @@ namespace corotet
     double
     value(const Entry &entry, const double time) const;
 
-    /// Displacement, velocity, acceleration. Throws InputError.
+    /// The displacement, velocity and acceleration. Throws InputError.
     std::array<double, 3>
     motion(const Entry &entry, const double time) const;
 

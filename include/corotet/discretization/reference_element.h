@@ -23,13 +23,13 @@ namespace dealii
 namespace corotet
 {
   /**
-   * Points of a tetrahedron that permutations of its vertices exchange. Rules
-   * of quadrature that favour no vertex consist of such orbits, and values at
-   * their points have most of their sums in common (operators/orbit_form.h).
+   * Points of a tetrahedron that permutations of its vertices exchange.
+   * Symmetric quadrature rules consist of such orbits, and values at the points
+   * of an orbit have most of their sums in common (operators/orbit_form.h).
    */
   struct PointOrbit
   {
-    /// The points, and which barycentric coordinates they have.
+    /// The number of points, and which barycentric coordinates they have.
     enum class Kind
     {
       /// One point.
@@ -46,15 +46,15 @@ namespace corotet
       directed_edges
     };
 
-    /// The most numbers that values need.
+    /// The largest number of factors that values need.
     static constexpr unsigned int n_factors = 7;
 
     Kind                  kind;
     std::array<double, 3> coordinates;
-    /// Of each point, as PointValues::weights.
+    /// The weight of each point, as in PointValues::weights.
     double weight = 0;
-    /// Numbers that multiply sums of coefficients, see orbit_form.h; and those
-    /// times the weight.
+    /// Factors of sums of coefficients, see orbit_form.h; and the same times
+    /// the weight.
     std::array<double, n_factors> factors          = {};
     std::array<double, n_factors> weighted_factors = {};
 
@@ -67,10 +67,9 @@ namespace corotet
   };
 
   /**
-   * Everything about an element on the reference tetrahedron that cell and
-   * face integrals need, computed once: after set-up nothing asks a finite
-   * element again. Weights are fractions of the cell's (face's) measure: they
-   * sum to 1.
+   * All data of an element on the reference tetrahedron that cell and face
+   * integrals need, computed once: after set-up no finite element is evaluated.
+   * Weights are fractions of the cell's (face's) measure: they sum to 1.
    */
   class ReferenceElement
   {
@@ -84,14 +83,14 @@ namespace corotet
       dealii::Table<2, double> values;
       /// [point][node][k]: derivative by the reference coordinate xi_k.
       dealii::Table<3, double> gradients;
-      /// What the points consist of, in their order, with factors for
-      /// derivatives. Only of the rules for stiffness of degrees 2 and 3.
+      /// The orbits that the points consist of, in their order, with factors
+      /// for derivatives. Only for stiffness rules of degrees 2 and 3.
       std::vector<PointOrbit> orbits;
     };
 
-    /// The most points that rules for stiffness, of straight and of curved
-    /// cells, have for an element of @p n_nodes nodes: kernels keep the values
-    /// at all of them.
+    /// The largest number of points in stiffness rules, of straight and of
+    /// curved cells, for an element of @p n_nodes nodes: kernels keep the
+    /// values at all of them.
     static constexpr unsigned int
     max_stiffness_points(const unsigned int n_nodes)
     {
@@ -100,30 +99,31 @@ namespace corotet
 
     explicit ReferenceElement(const Element element);
 
-    /// One that is made once, and lives as long as the program.
+    /// The reference element, made at the first call; it lives as long as the
+    /// program.
     static const ReferenceElement &
     of(const Element element);
 
-    /// The functions of @p element at some points. Weights are scaled.
+    /// The shape functions of @p element at some points. Weights are scaled.
     static PointValues
     tabulate(const Element                        element,
              const std::vector<dealii::Point<3>> &points,
              const std::vector<double>           &weights);
 
-    /// The same of a scalar element that is there already: making one takes
-    /// longer than a point.
+    /// The same for a scalar element that exists already: making one takes
+    /// longer than evaluating a point.
     static PointValues
     tabulate(const dealii::FiniteElement<3, 3>   &fe,
              const std::vector<dealii::Point<3>> &points,
              const std::vector<double>           &weights);
 
     /**
-     * For stiffness and mass of curved cells with maps of at most the element's
-     * degree p: of degree 2p; 4, 14, 24 points; with bubbles of degree 5, 14
-     * points. So, with q <= p for the degree of the map,
+     * The rule for stiffness and mass of curved cells with maps of at most the
+     * element's degree p. Its degree is 2p, with 4, 14, 24 points; with bubbles
+     * it is 5, with 14 points. So, with the degree q <= p of the map,
      * - volumes are exact, of degree 3(q-1), and so are forces of constant
      *   stresses, of degree p-1 + 2(q-1);
-     * - what full order takes, degree 2(p-1), is there;
+     * - degree 2(p-1), which full order needs, is integrated exactly;
      * - the mass matrix is definite: it is a product of functions that, on a
      *   straight cell, would be exact.
      */
@@ -133,16 +133,17 @@ namespace corotet
     unsigned int degree;
     unsigned int n_nodes;
 
-    /// Exact for products of two gradients, of degree 2(p-1): 1, 4, 14 points.
-    /// With bubbles of degree 5, 14 points: all that full order takes.
+    /// The rule for stiffness of straight cells. It is exact for products of
+    /// two gradients, of degree 2(p-1), with 1, 4, 14 points. With bubbles its
+    /// degree is 5, which full order needs, with 14 points.
     PointValues stiffness_rule;
-    /// For loads that are given as expressions; exact for the element's
-    /// functions times polynomials of degree p.
+    /// The rule for loads that are given as expressions; exact for the
+    /// element's functions times polynomials of degree p.
     PointValues load_rule;
     /// The barycentre, weight 1.
     PointValues centre;
-    /// For each face, exact for a follower pressure: degree 3p-2, 7 with
-    /// bubbles.
+    /// The rule of each face, exact for a follower pressure: degree 3p-2, with
+    /// bubbles 7.
     std::array<PointValues, 4> face_rules;
     /**
      * Derivatives of xi by the two parameters of each face, ordered such that
@@ -150,19 +151,19 @@ namespace corotet
      * of twice the face's area.
      */
     std::array<std::array<dealii::Tensor<1, 3>, 2>, 4> face_tangents;
-    /// Nodes on each face.
+    /// The nodes on each face.
     std::array<std::vector<unsigned int>, 4> face_nodes;
-    /// Nodes on each edge, as ends_of_edges numbers them.
+    /// The nodes on each edge, as ends_of_edges numbers them.
     std::array<std::vector<unsigned int>, 6> edge_nodes;
 
-    /// Mean of N_i N_j over the cell: the mass matrix of a unit mass.
+    /// The mean of N_i N_j over the cell: the mass matrix of a unit mass.
     dealii::Table<2, double> mass;
-    /// [i][j][3 k + l]: mean of d_k N_i d_l N_j over the cell, by the stiffness
-    /// rule.
+    /// [i][j][3 k + l]: the mean of d_k N_i d_l N_j over the cell, by the
+    /// stiffness rule.
     dealii::Table<3, double> gradient_products;
 
   private:
-    /// A rule for stiffness, its points in the order of orbits.
+    /// A stiffness rule with its points in the order of orbits.
     static PointValues
     tabulate_orbits(const Element element, const dealii::Quadrature<3> &rule);
 

@@ -18,19 +18,19 @@ namespace corotet
    * space of the stiffness of linear elasticity.
    *
    * Each of the ConnectedParts moves by u(x) = t + w x (x - c) / r, with its
-   * centre c and radius r; the six numbers t, w of all parts are in the null
+   * centre c and radius r. The six numbers t, w of all parts are in the null
    * space of the equations "prescribed unknowns are zero", "parts agree at
-   * their joints" and "what springs resist is zero". Motions of size one that
-   * move these by less than the square root of the machine precision (root mean
-   * square over the nodes concerned) count as free: the energy that resists
-   * them is round-off.
+   * their joints" and "displacements that springs resist are zero". A motion of
+   * size one counts as free if it violates them by less than the square root of
+   * the machine precision (root mean square over the nodes concerned): then the
+   * energy that resists it is round-off.
    *
    * The arguments of the constructor must outlive this object.
    */
   class RigidMotions
   {
   public:
-    /// A point of the body where something elastic resists displacements in a
+    /// A point of the body where an elastic support resists displacements in a
     /// direction.
     struct Spring
     {
@@ -45,15 +45,15 @@ namespace corotet
                  const PrescribedMotion    &motion,
                  const std::vector<Spring> &springs = {});
 
-    /// How many there are, linearly independent.
+    /// The number of linearly independent motions.
     unsigned int
     size() const
     {
       return motions.size();
     }
 
-    /// Whether all were found. They are not looked for among more than 100
-    /// parts that hang together by joints.
+    /// Whether all motions were found. They are not looked for among more than
+    /// 100 parts that are connected by joints.
     bool
     is_complete() const
     {
@@ -61,13 +61,14 @@ namespace corotet
     }
 
     /// Sets the owned entries of @p u to motion number @p k, 0 to size() - 1,
-    /// of size one [m]: exactly zero where prescribed. Those of a part that is
-    /// free are translations along x, y, z and rotations about these axes.
+    /// of size one [m]; prescribed entries are exactly zero. The motions of a
+    /// part that is free are translations along x, y, z and rotations about
+    /// these axes.
     void
     evaluate(Vector &u, const unsigned int k) const;
 
-    /// What can move, and how, in words; empty if there are no motions. The
-    /// same on any number of ranks.
+    /// A description of what can move, and how; empty if there are no motions.
+    /// The same on any number of ranks.
     std::string
     description() const;
 
@@ -75,14 +76,14 @@ namespace corotet
     using Numbers = std::array<double, 6>;
 
   private:
-    /// Parts that joints connect, and their numbers in ascending order.
+    /// The numbers of parts that joints connect, in ascending order.
     using Cluster = std::vector<unsigned int>;
 
-    /// Finds the motions of a cluster from its equations, a row for each, which
+    /// Finds the motions of a cluster from its equations, one per row, which
     /// are overwritten.
     void
     solve(const Cluster &cluster, std::vector<std::vector<double>> &equations);
-    /// What one part can do, as independent motions.
+    /// The linearly independent motions of one part.
     std::vector<Numbers>
     motions_of(const unsigned int part) const;
     std::string
@@ -92,24 +93,24 @@ namespace corotet
     const PrescribedMotion &motion;
     const ConnectedParts    parts;
     bool                    complete = true;
-    /// Of each motion the parts that move, with their numbers.
+    /// The parts that move in each motion, with their six numbers.
     std::vector<std::vector<std::pair<unsigned int, Numbers>>> motions;
-    /// Of each part its numbers in all of them.
+    /// The six numbers of each part in all motions.
     std::vector<std::vector<std::vector<double>>> numbers_of_parts;
   };
 
   /**
-   * In words, if the body consists of several that have no node in common:
-   * which, by their places and regions. Empty otherwise. The same on any number
-   * of ranks. Collective.
+   * A text that lists the bodies, by their places and regions, if there are
+   * several that have no node in common. Empty otherwise. The same on any
+   * number of ranks. Collective.
    */
   std::string
   unconnected_parts(const Discretization &discretization);
 
   /**
-   * In words: "move along x and rotate about the axis through (0, 0, 0) along
-   * z". @p motions are linearly independent, those of a part with this @p
-   * centre and @p radius, as RigidMotions has them.
+   * The motions in words: "move along x and rotate about the axis through (0,
+   * 0, 0) along z". @p motions are linearly independent motions of a part with
+   * this @p centre and @p radius, as RigidMotions has them.
    */
   std::string
   describe(const std::vector<RigidMotions::Numbers> &motions,
@@ -119,7 +120,7 @@ namespace corotet
   /**
    * The reduced row echelon form of linearly independent rows, with columns
    * taken in the order @p columns: the same for all bases of their span.
-   * Entries below @p tolerance are no pivots.
+   * Entries below @p tolerance are not used as pivots.
    */
   void
   reduce_rows(std::vector<std::vector<double>> &rows,

@@ -13,9 +13,10 @@ namespace corotet
   struct MeshPart;
 
   /**
-   * A box of cuboids, each cut into five tetrahedra: one regular in the middle
-   * (if the cuboid is a cube) and one at every other corner. Neighbours are
-   * mirror images, so the mesh is conforming and prefers no diagonal.
+   * A box of cuboids, each cut into five tetrahedra: one in the middle (regular
+   * if the cuboid is a cube) and one at every other corner. Neighbouring
+   * cuboids are mirror images, so the mesh is conforming and prefers no
+   * diagonal.
    *
    * The sides are the boundaries x-min, x-max, y-min, y-max, z-min, z-max with
    * the ids 0 to 5; the volume is the region body with the id 0.
@@ -35,13 +36,13 @@ namespace corotet
                   const MPI_Comm     comm) const override;
 
   private:
-    /// Throws InputError, and MachineError if that many ranks do not have the
-    /// memory for the mesh.
+    /// Throws InputError for wrong parameters, and MachineError if @p n_ranks
+    /// ranks do not have the memory for the mesh.
     void
     check(const unsigned int n_ranks) const;
 
-    /// Of as many pieces of the sequence of cells as there are ranks, all of
-    /// the same length.
+    /// The part of a rank: the sequence of cells is divided into one piece per
+    /// rank, all of the same length.
     MeshPart
     piece(const unsigned int rank, const unsigned int n_ranks) const;
 

@@ -8,9 +8,9 @@
 
 namespace corotet
 {
-  /// Work of a cell, if that of a straight one is 1: on a curved one the
-  /// matrix-free product takes about three times as long, that with the exact
-  /// tangent as long as on a straight one.
+  /// The relative work of a cell, 1 for a straight one. For a curved cell the
+  /// matrix-free product takes about three times as long; the product with the
+  /// exact tangent takes as long as for a straight one.
   inline unsigned int
   work_of(const MeshCells::Cell &cell)
   {
@@ -20,20 +20,21 @@ namespace corotet
   /**
    * Sorts the cells of all ranks along a Hilbert curve, so that neighbours are
    * close in memory, and gives each rank a piece of the sequence, all with
-   * equal work up to one percent (that of curved cells is larger): pieces end
-   * between cubes of space, as large ones as that allows. Cells at the same
-   * place are sorted by their numbers. Then cells have the numbers of their
-   * places in the sequence, which depend on nothing but the mesh. Vertices of
-   * no cell are dropped. No rank is without a cell if there are as many as
-   * ranks. Collective.
+   * equal work up to one percent (curved cells count more): pieces end between
+   * cubes of space that are as large as this tolerance allows. Cells at the
+   * same place are sorted by their numbers. Then each cell gets the number of
+   * its place in the sequence, which depends on nothing but the mesh. Vertices
+   * without a cell are dropped. Each rank has a cell if there are as many cells
+   * as ranks. Collective.
    */
   void
   sort_along_curve(MeshPart &part, const MPI_Comm comm);
 
   /**
-   * The cells of a mesh in pieces as sort_along_curve() would make them, but
-   * for some near the ends of a piece: from the places of vertices, and a
-   * sample of cells, in a tenth of the time. In the order of the mesh.
+   * The cells of a mesh in pieces as sort_along_curve() would make them, except
+   * for some cells near the ends of pieces: they are found from the positions
+   * of vertices and a sample of the cells, in a tenth of the time. The cells of
+   * a piece are in the order of the mesh.
    */
   std::vector<std::vector<unsigned int>>
   pieces_of_curve(const MeshPart &part, const unsigned int n_pieces);

@@ -9,20 +9,21 @@
 namespace corotet
 {
   /**
-   * Refuses a .msh that is not a whole one, before it is read: it must start
-   * with '$MeshFormat', or comments before it, and have all of '$Nodes', or
-   * '$ParametricNodes', and '$Elements'. Returns its version. Throws
-   * InputError, and MachineError if it cannot be read.
+   * Refuses an incomplete .msh file before it is read: it must start with
+   * '$MeshFormat', or comments before it, and have complete sections '$Nodes'
+   * (or '$ParametricNodes') and '$Elements'. Returns the version of its format.
+   * Throws InputError, and MachineError if the file cannot be read.
    */
   double
   check_msh(const std::string &path);
 
   /**
-   * Refuses a .geo, which is a program, that contains what would run commands,
-   * write files, read files outside of its folder or end gmsh; files that it
-   * includes are read, too. Names that are composed at run time are not seen
-   * here: the process in which gmsh runs cannot open them. Throws InputError
-   * with file and line, and MachineError if a file cannot be read.
+   * Refuses a .geo file, which is a program, that contains instructions which
+   * would run commands, write files, read files outside of its folder or end
+   * gmsh; included files are checked, too. Names that are composed at run time
+   * cannot be checked here: the process in which gmsh runs cannot open such
+   * files. Throws InputError with file and line, and MachineError if a file
+   * cannot be read.
    */
   void
   check_geo(const std::string &path);

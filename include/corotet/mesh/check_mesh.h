@@ -24,20 +24,18 @@ namespace corotet
    *   two layers of surface.)
    * - listed faces are faces of cells, and each has one boundary.
    *
-   * Listed faces that lie inside the body (a named interface of two regions)
-   * are removed with a remark, and so are named edges and corners that no cell
-   * has.
+   * Listed faces inside the body (a named interface of two regions) are removed
+   * with a remark, and so are named edges and corners that belong to no cell.
    */
   void
   check_mesh(SerialMesh &mesh, const unsigned int element_degree = 3);
 
-  /// The part of check_mesh() that looks at coordinates and at numbers of
-  /// vertices.
+  /// The part of check_mesh() that checks coordinates and indices of vertices.
   void
   check_vertices(const SerialMesh &mesh);
 
-  /// The part of check_mesh() that looks at volumes and folds, of a mesh that
-  /// is spread over the ranks. Returns what check_curved_cells() does.
+  /// The part of check_mesh() that checks volumes and folds, for a mesh that is
+  /// spread over the ranks. Returns the result of check_curved_cells().
   /// Collective.
   double
   check_cells_on_ranks(const MeshPart    &part,
@@ -45,7 +43,7 @@ namespace corotet
                        const unsigned int element_degree,
                        const MPI_Comm     comm);
 
-  /// How many cells may be refined so often.
+  /// The largest number of cells that may be refined @p n_refinements times.
   double
   largest_number_of_cells(const unsigned int n_refinements);
 
@@ -55,25 +53,25 @@ namespace corotet
                         const unsigned int n_refinements);
 
   /**
-   * Throws the InputError that says @p message about a mesh: blamed on the file
-   * @p origin that it is from or, if that is empty and so the mesh generated,
-   * on the parameter that chose its generator.
+   * Throws the InputError with @p message about a mesh. It blames the file @p
+   * origin or, if that is empty and so the mesh was generated, the parameter
+   * that chose its generator.
    */
   [[noreturn]] void
   refuse_mesh(const std::string &origin, const std::string &message);
 
-  /// A point as messages show it.
+  /// The text of a point in messages.
   std::string
   position(const dealii::Point<3> &p);
 
-  /// Vertices of a triangle.
+  /// The vertices of a triangle.
   using Triangle = std::array<unsigned int, 3>;
 
   /// The centre of the triangle with these vertices.
   dealii::Point<3>
   centre(const MeshCells &mesh, const Triangle &triangle);
 
-  /// A boundary as messages call it.
+  /// The text of a boundary in messages.
   std::string
   boundary_name(const SerialMesh &mesh, const unsigned int id);
 } // namespace corotet

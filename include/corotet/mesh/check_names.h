@@ -9,10 +9,11 @@
 namespace corotet
 {
   /**
-   * Part of check_mesh(): listed faces must be faces of cells, and one on the
-   * surface has one boundary. Keeps those on the surface, the named edges that
-   * are edges of cells and the corners that are vertices of cells, each once
-   * for each id; remarks count the others. Returns what is kept, in the cells.
+   * The part of check_mesh() that checks named faces, edges and corners: listed
+   * faces must be faces of cells, and a face on the surface has one boundary.
+   * Keeps the faces on the surface, the named edges that are edges of cells and
+   * the corners that are vertices of cells, each once for each id; remarks
+   * count the others. Returns the kept ones as parts of cells.
    */
   NamedParts
   check_names(SerialMesh &mesh);

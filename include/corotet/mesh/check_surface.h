@@ -13,21 +13,22 @@
 
 namespace corotet
 {
-  /// Triangles that only one cell has, and their vertices.
+  /// The triangles that belong to only one cell, and their vertices.
   struct CellSurface
   {
     std::vector<dealii::Point<3>> vertices;
-    /// Of each vertex, what it is known by.
+    /// The number by which all ranks know each vertex.
     std::vector<std::uint64_t> vertex_numbers;
     std::vector<Triangle>      triangles;
-    /// These are triangles of this rank's cells; those that follow are others'.
+    /// The number of triangles of this rank's cells, which come first; the
+    /// others belong to other ranks.
     std::size_t n_own = 0;
   };
 
   /**
    * The surface of the cells for which @p is_owned is true: faces without a
-   * neighbor, as find_neighbors() gives them. @p number is what a vertex is
-   * known by.
+   * neighbor, as find_neighbors() gives them. @p number gives the number by
+   * which all ranks know a vertex.
    */
   CellSurface
   cell_surface(
@@ -37,17 +38,19 @@ namespace corotet
     const std::function<bool(const unsigned int c)>          &is_owned,
     const std::function<std::uint64_t(const unsigned int v)> &number);
 
-  /// Adds what other ranks have where @p surface is. Collective.
+  /// Adds the triangles of other ranks that are near those of @p surface.
+  /// Collective.
   void
   add_triangles_nearby(CellSurface &surface, const MPI_Comm comm);
 
   /**
-   * Part of check_mesh(): throws an InputError if one of the own triangles
-   * touches another elsewhere than in shared vertices and edges.
+   * The part of check_mesh() that checks the surface: throws an InputError if
+   * one of this rank's triangles touches another elsewhere than in shared
+   * vertices and edges.
    *
-   * This finds every place where cells do not fit together. There are two
-   * layers of surface there, and a vertex of one lies on a triangle of the
-   * other or, at crossing diagonals, the centre of a triangle does.
+   * This finds every place where cells do not fit together. The surface has two
+   * layers there, and a vertex of one lies on a triangle of the other or, at
+   * crossing diagonals, the centre of a triangle does.
    */
   void
   check_surface(const CellSurface &surface, const std::string &origin);

@@ -16,8 +16,9 @@
 
 namespace corotet
 {
-  /// FE_SimplexP(@p degree), degrees 1, 2, 3. Each is made once, and lives as
-  /// long as the program: that takes longer than many of its uses.
+  /// The element FE_SimplexP(@p degree), for degrees 1, 2, 3. Each is made once
+  /// and lives as long as the program, as making it takes longer than many of
+  /// its uses.
   const dealii::FiniteElement<3> &
   map_element(const unsigned int degree);
 
@@ -44,7 +45,7 @@ namespace corotet
       return values.size(0);
     }
 
-    /// x at point @p q.
+    /// The position x at point @p q.
     dealii::Point<3>
     position(const dealii::Point<3> *nodes, const unsigned int q) const
     {
@@ -54,7 +55,7 @@ namespace corotet
       return x;
     }
 
-    /// dx_a / dxi_k at point @p q.
+    /// The Jacobian dx_a / dxi_k at point @p q.
     dealii::Tensor<2, 3>
     jacobian(const dealii::Point<3> *nodes, const unsigned int q) const
     {
@@ -69,41 +70,42 @@ namespace corotet
     dealii::Table<2, dealii::Tensor<1, 3>> gradients;
   };
 
-  /// Support points of FE_SimplexP(@p degree): the vertices come first.
+  /// The support points of FE_SimplexP(@p degree): the vertices come first.
   std::vector<dealii::Point<3>>
   map_points(const unsigned int degree);
 
-  /// Nodes of the map of a curved cell of @p mesh.
+  /// The nodes of the map of a curved cell of @p mesh.
   const dealii::Point<3> *
   curved_nodes(const MeshCells &mesh, const MeshCells::Cell &cell);
 
-  /// Forgets the maps of cells that are straight but for round-off.
+  /// Removes the maps of cells that are straight up to round-off.
   void
   remove_straight_maps(MeshCells &mesh);
 
-  /// The same for cells whose coordinates are those of a file, which may have
-  /// few digits of them. Returns a remark if these have made cells straight, or
-  /// nothing.
+  /// Like remove_straight_maps(), for coordinates from a file, which may have
+  /// few digits: cells that are straight up to these digits become straight.
+  /// Returns a remark if few digits were the reason, or an empty text.
   std::string
   remove_written_straight_maps(MeshCells &mesh);
 
-  /// For @p nodes of a file that are to be moved, which gives them other
-  /// digits: takes those of @p cells that are straight but for the digits of
-  /// the file to their straight positions. Each cell has the nodes of a map of
-  /// degree @p degree. Returns a remark as above.
+  /// To be called before @p nodes of a file are moved, which changes their
+  /// digits: moves the nodes of those of @p cells that are straight up to the
+  /// digits of the file to their straight positions. Each cell has the nodes of
+  /// a map of degree @p degree. Returns a remark like
+  /// remove_written_straight_maps().
   std::string
   straighten_written_cells(std::vector<dealii::Point<3>>    &nodes,
                            const std::vector<std::uint32_t> &cells,
                            const unsigned int                degree);
 
   /**
-   * Smallest determinant of the Jacobians of curved cells over its mean in the
-   * cell [-]: 1 for a straight one; infinity if none is curved. Throws
-   * InputError, as check_mesh() does, unless it is positive. Looks at the
-   * points with barycentric coordinates of i / 6, of the interpolants of the
-   * map (itself among them) with degrees from 2 to @p element_degree: elements
-   * use no others, and those of degree 1 none. Of all ranks' cells.
-   * Collective.
+   * The smallest determinant of the Jacobian of curved cells divided by its
+   * mean in the cell [-]: 1 for a straight cell; infinity if no cell is curved.
+   * Throws InputError, as check_mesh() does, unless it is positive. Checks the
+   * points with barycentric coordinates i / 6, for the interpolants of the map
+   * (and the map itself) with degrees from 2 to @p element_degree: elements use
+   * no other maps, and those of degree 1 none. The result is for the cells of
+   * all ranks. Collective.
    */
   double
   check_curved_cells(const MeshCells   &mesh,
@@ -111,8 +113,8 @@ namespace corotet
                      const unsigned int element_degree,
                      const MPI_Comm     comm);
 
-  /// Volumes of curved cells less those of the straight ones with the same
-  /// vertices, summed up [m^3]. Exact.
+  /// The sum of the volumes of curved cells minus those of the straight cells
+  /// with the same vertices [m^3]. Exact.
   double
   volume_by_curvature(const MeshCells &mesh);
 } // namespace corotet

@@ -12,16 +12,17 @@
 
 namespace corotet
 {
-  /// Which vertices of a tetrahedron are the ends of its edges.
+  /// The vertices of a tetrahedron at the ends of its edges.
   constexpr std::array<std::array<unsigned int, 2>, 6> ends_of_edges{
     {{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{1, 3}}, {{2, 3}}}};
 
-  /// And the corners of its faces, ascending, as deal.II numbers these.
+  /// The vertices at the corners of its faces, in ascending order; faces have
+  /// deal.II's numbers.
   constexpr std::array<std::array<unsigned int, 3>, 4> corners_of_faces{
     {{{0, 1, 2}}, {{0, 1, 3}}, {{0, 2, 3}}, {{1, 2, 3}}}};
 
-  /// A cell's face, by its number in corners_of_faces, edge, by its number in
-  /// ends_of_edges, or vertex that has a name.
+  /// A part of a cell with a name: a face, by its number in corners_of_faces,
+  /// an edge, by its number in ends_of_edges, or a vertex.
   struct CellPart
   {
     unsigned int cell;
@@ -29,7 +30,7 @@ namespace corotet
     unsigned int id;
   };
 
-  /// What has a name, in the cells: each list by cells, ascending.
+  /// The named parts of cells, each list in ascending order of cells.
   struct NamedParts
   {
     std::vector<CellPart> faces;
@@ -54,7 +55,8 @@ namespace corotet
       return (is_on[a] | is_on[b] | is_on[c] | is_on[d]) != 0;
     }
 
-    /// Appends those of the cell, which is called @p name in what is appended.
+    /// Append the parts of a cell; @p name is the number of the cell in the
+    /// appended parts.
     void
     add_faces(std::vector<CellPart>  &parts,
               const SerialMesh::Cell &cell,
@@ -68,8 +70,8 @@ namespace corotet
                 const SerialMesh::Cell &cell,
                 const unsigned int      name) const;
 
-    /// Indices of the edges in SerialMesh::edges that two vertices, in any
-    /// order, are the ends of.
+    /// The indices in SerialMesh::edges of the edges between two vertices,
+    /// given in any order.
     std::vector<std::size_t>
     edges_between(const unsigned int a, const unsigned int b) const;
 
@@ -77,26 +79,26 @@ namespace corotet
     using Ends = std::array<unsigned int, 2>;
 
     const SerialMesh &mesh;
-    /// Ascending vertices of each face, and its boundary; sorted.
+    /// The ascending vertices of each face, and its boundary; sorted.
     std::vector<std::pair<std::array<unsigned int, 3>, unsigned int>> faces;
-    /// Ascending ends of each edge, and its index; sorted.
+    /// The ascending ends of each edge, and its index; sorted.
     std::vector<std::pair<Ends, std::size_t>> edges;
-    /// Vertex and id of each corner, sorted.
+    /// The vertex and id of each corner; sorted.
     std::vector<Ends> corners;
-    /// Whether a vertex is on a face, the end of an edge, or a corner (bits of
-    /// a number): most are not.
+    /// Whether each vertex is on a face, the end of an edge, or a corner (bits
+    /// of a number): most vertices are not.
     std::vector<unsigned char> is_on;
   };
 
-  /// Ends in ascending order: what an edge is known by.
+  /// The ends of an edge in ascending order, which identify it.
   std::array<unsigned int, 2>
   ascending_ends(const unsigned int a, const unsigned int b);
 
-  /// The same of a face.
+  /// The vertices of a face in ascending order, which identify it.
   std::array<unsigned int, 3>
   ascending_vertices(std::array<unsigned int, 3> vertices);
 
-  /// All that has a name in the cells of a mesh.
+  /// All named parts of the cells of a mesh.
   NamedParts
   named_parts(const SerialMesh &mesh);
 } // namespace corotet

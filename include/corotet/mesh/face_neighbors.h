@@ -13,16 +13,16 @@
 
 namespace corotet
 {
-  /// Of each face of each cell, as corners_of_faces numbers them, the cell
-  /// behind it.
+  /// The cell behind each face of each cell; corners_of_faces numbers the
+  /// faces.
   using CellNeighbors = std::vector<std::array<unsigned int, 4>>;
 
   /**
    * The neighbors of cells, @p none where no other cell has the face. Throws an
    * InputError if a triangle belongs to more than two cells, or to two on the
-   * same side of it; unless @p is_owned says of all of them that they are
-   * others' (another rank finds it then). Faces with a neighbor in @p known,
-   * those of undisputed_neighbors(), are not looked at again.
+   * same side of it, unless none of these cells satisfies @p is_owned (then
+   * another rank finds it). Faces that have a neighbor in @p known, a result of
+   * undisputed_neighbors(), are not checked again.
    */
   CellNeighbors
   find_neighbors(const MeshCells                                 &mesh,
@@ -31,8 +31,8 @@ namespace corotet
                  const std::function<bool(const unsigned int c)> &is_owned,
                  CellNeighbors                                    known = {});
 
-  /// The same of a part of a mesh, where a wrong face has @p none: so
-  /// find_neighbors() looks at it, which knows more of its cells.
+  /// The neighbors in a part of a mesh. A wrong face has @p none, so that
+  /// find_neighbors(), which knows more cells, checks it again.
   CellNeighbors
   undisputed_neighbors(const MeshCells &mesh, const unsigned int none);
 } // namespace corotet

@@ -12,13 +12,12 @@
 
 namespace corotet
 {
-  /// Of surfaces that belong to no boundary.
+  /// The id of surfaces that belong to no boundary.
   constexpr unsigned int no_boundary = std::numeric_limits<unsigned int>::max();
 
   /**
-   * Boundaries (ids, or no_boundary) on which facets of a mesh of
-   * straight cells look like those of a curved surface, of which nothing else
-   * is known.
+   * The boundaries (ids, or no_boundary) where the faces of straight cells look
+   * like facets of a curved surface, of which nothing else is known.
    *
    * Triangles of a boundary that lie in one plane (within 0.1 degrees) and
    * share edges are a facet. A curved surface has facets that are one cell
@@ -31,12 +30,13 @@ namespace corotet
   std::set<unsigned int>
   faceted_boundaries(const SerialMesh &mesh);
 
-  /// What the log says of straight cells along curved boundaries, by their ids.
+  /// The remark for the log about straight cells along the curved boundaries
+  /// with these ids.
   std::string
   remark_on_facets(const std::set<unsigned int> &boundaries,
                    const NamedSets              &named);
 
-  /// Adds that remark to a mesh, unless there are no such @p boundaries.
+  /// Adds remark_on_facets() to a mesh, unless there are no such @p boundaries.
   void
   remark_facets(SerialMesh &mesh, const std::set<unsigned int> &boundaries);
 } // namespace corotet

@@ -12,9 +12,10 @@
 namespace corotet
 {
   /**
-   * A mesh from a file of any format in mesh_format.h, which is known by the
-   * file's content: a mesh, which is taken as it is, or a geometry, which gmsh
-   * (https://gmsh.info) meshes in a process of its own (source/gmsh).
+   * A mesh from a file of any format in mesh_format.h, which is recognized by
+   * the file's content: either a mesh, which is taken as it is, or a geometry,
+   * which gmsh (https://gmsh.info) meshes in a process of its own
+   * (source/gmsh).
    *
    * Named volumes of a file become regions and named surfaces boundaries. Cells
    * are tetrahedra of degree 1, 2 or 3; those whose nodes are off the straight
@@ -23,7 +24,7 @@ namespace corotet
   class FileMesh : public MeshSource
   {
   public:
-    /// @p name: that of the subsection with its parameters.
+    /// @p name is the name of the subsection with its parameters.
     explicit FileMesh(const std::string &name);
 
     void
@@ -33,14 +34,15 @@ namespace corotet
     create(const std::string &folder,
            const unsigned int n_refinements = 0) const override;
 
-    /// Of a file that `corotet mesh --out x.h5` has written.
+    /// Reads a file that `corotet mesh --out x.h5` has written; a null pointer
+    /// for other files.
     std::shared_ptr<SpreadMesh>
     create_spread(const std::string &folder,
                   const MPI_Comm     comm) const override;
 
   private:
-    /// The file, and what it is. Throws InputError about either, or about a
-    /// parameter that it has no use for.
+    /// The path of the file and its format. Throws InputError about either, or
+    /// about a parameter that this format does not use.
     std::pair<std::string, const MeshFormatDescription &>
     checked_file(const std::string &folder) const;
 
@@ -53,8 +55,8 @@ namespace corotet
   };
 
   /**
-   * The mesh in a file, or that is made of it (as FileMesh does, which has the
-   * same parameters), checked. Throws what FileMesh throws.
+   * The mesh that is in a file, or is made of its geometry, checked. Does the
+   * same as FileMesh, with the same parameters. Throws what FileMesh throws.
    */
   SerialMesh
   read_mesh_file(const std::string &file,

@@ -15,17 +15,18 @@
 namespace corotet
 {
   /**
-   * Which owned cells of a rank are ghosts on others, and the other way round:
-   * what is to be sent to give ghosts the values of their owners. Every rank
-   * finds that out by itself, as it has all cells around its own.
+   * The owned cells of a rank that are ghosts on other ranks, and its own
+   * ghosts: the lists of what to send so that ghosts get the values of their
+   * owners. Every rank finds its lists by itself, as it has all cells around
+   * its own.
    */
   class GhostCells
   {
   public:
     explicit GhostCells(const LocalMesh &mesh);
 
-    /// Of @p values, @p n of each local cell, those of ghosts become what their
-    /// owners have. One message to each rank that owns ghosts. Collective.
+    /// Copies values from owners to ghosts: @p values has @p n values for each
+    /// local cell. Sends one message to each rank that owns ghosts. Collective.
     template <typename T>
     void
     update(std::vector<T> &values, const unsigned int n = 1) const
@@ -40,8 +41,9 @@ namespace corotet
         });
     }
 
-    /// The same of what is not kept by cells: calls get(c, sent) for an owned
-    /// cell, to fill in @p n values, and put(c, received) for a ghost.
+    /// Like update(), for values that are not stored by cells: calls get(c,
+    /// sent) for an owned cell, to fill in @p n values, and put(c, received)
+    /// for a ghost.
     template <typename T, typename Get, typename Put>
     void
     send(const unsigned int n, const Get &get, const Put &put) const
@@ -84,7 +86,7 @@ namespace corotet
     struct Neighbor
     {
       unsigned int rank;
-      /// Local cells, ascending.
+      /// Numbers of local cells, ascending.
       std::vector<unsigned int> owned, ghosts;
     };
 

@@ -9,7 +9,8 @@
 
 namespace corotet
 {
-  /// Mesh/Type = gmsh, as files had to be given before there were others.
+  /// The mesh source "gmsh": the name that FileMesh had before it read other
+  /// formats.
   class GmshMesh : public FileMesh
   {
   public:
@@ -19,17 +20,17 @@ namespace corotet
   };
 
   /**
-   * The mesh that a model, whose parts fit together, consists of: physical
-   * volumes become regions, physical surfaces boundaries, and physical curves
-   * and points names of edges and corners, with gmsh's names and ids. Groups of
-   * one dimension and name are one, with the id of the first. Without any
+   * The mesh of a model whose parts fit together: physical volumes become
+   * regions, physical surfaces boundaries, and physical curves and points names
+   * of edges and corners, with gmsh's names and ids. Groups with the same
+   * dimension and name are united, with the id of the first. Without any
    * physical volume all cells belong to region 0; if there are some, tetrahedra
    * outside of them are left out with a remark, as gmsh does when it writes a
    * file. Nodes that no element uses are dropped.
    *
-   * Throws InputError that blames the file @p path if it has other cells than
-   * tetrahedra of one degree, or nodes without coordinates. @p has_geometry:
-   * gmsh knows which of its surfaces are curved.
+   * Throws InputError that blames the file @p path if the model has other cells
+   * than tetrahedra of one degree, or nodes without coordinates. @p
+   * has_geometry tells that gmsh knows which of its surfaces are curved.
    */
   SerialMesh
   mesh_of_model(const GmshModel   &model,

@@ -15,36 +15,38 @@
 
 namespace corotet
 {
-  /// What gmsh is to make of a file.
+  /// A request to gmsh to read or mesh a file.
   struct GmshRequest
   {
     std::string path;
-    /// By its name in mesh_formats(), or "surface": triangles of closed
-    /// surfaces in a file of gmsh, an entity for each, in the physical group of
-    /// the body that they are around.
+    /// The format by its name in mesh_formats(), or "surface": closed surfaces
+    /// of triangles in a file of gmsh, one entity each, in the physical group
+    /// of the body that they enclose.
     std::string format;
-    /// The end of the file's name by which gmsh knows the format; empty if it
-    /// knows it by its content.
+    /// The ending of the file's name by which gmsh recognizes the format; empty
+    /// if it recognizes it by the content.
     std::string extension;
-    /// Cells are made of a geometry; a mesh has them.
+    /// Whether the file has a geometry, for which cells are made; otherwise it
+    /// has a mesh.
     bool is_geometry = false;
-    /// Of the edges; 0 leaves it to the file.
+    /// The length of edges; 0 leaves it to the file.
     double element_size = 0;
-    /// Where the surface of triangles has an edge: between normals that differ
-    /// by more [degree].
+    /// The angle between the normals of triangles above which the surface has
+    /// an edge [degree].
     double       feature_angle = 40;
     unsigned int degree        = 1;
     unsigned int n_refinements = 0;
-    /// Before the refinements; with more, none are made.
+    /// The largest number of cells before the refinements; with more cells, no
+    /// refinements are made.
     double max_n_cells = 0;
-    /// Of gmsh [s], and the parameter that sets it.
+    /// The time limit of gmsh [s], and the parameter that sets it.
     double      time_limit = 0;
     std::string time_limit_entry;
   };
 
   /**
-   * What gmsh has read or made of a file, in gmsh's own terms: what the program
-   * corotet-gmsh hands to the one that has started it.
+   * The model that gmsh has read or made of a file, in gmsh's own terms: the
+   * result that the program corotet-gmsh hands to its caller.
    */
   struct GmshModel
   {
@@ -58,17 +60,17 @@ namespace corotet
       std::vector<int> entities;
     };
 
-    /// A type of elements that volumes have.
+    /// A type of elements that a model's volumes have.
     struct ElementType
     {
       int           type = 0;
       std::string   name;
       std::uint64_t n_elements = 0;
-      /// Reference coordinates of the nodes, one point after another.
+      /// The reference coordinates of the nodes, one point after another.
       std::vector<double> nodes;
     };
 
-    /// Elements of one type in one geometric entity: tags of their nodes, of
+    /// Elements of one type in one geometric entity: the tags of their nodes,
     /// one element after another.
     struct Elements
     {
@@ -77,37 +79,38 @@ namespace corotet
       std::vector<std::uint64_t> nodes;
     };
 
-    /// Why there is no model; empty if there is one.
+    /// The reason why there is no model; empty if there is one.
     std::string error;
 
     std::vector<Group>       groups;
     std::vector<ElementType> volume_types;
     std::vector<Elements>    volumes;
     std::vector<Elements>    surfaces;
-    /// Surfaces of volumes that are curved, by the geometry: its normals at the
-    /// mesh's nodes differ by more than 1e-3.
+    /// Surfaces of volumes that are curved according to the geometry: its
+    /// normals at the mesh's nodes differ by more than 1e-3.
     std::vector<int> curved_surfaces;
 
     std::vector<std::uint64_t> node_tags;
-    /// x, y, z of each node.
+    /// The coordinates x, y, z of each node.
     std::vector<double> coordinates;
 
-    /// Of curves and points that belong to a group.
+    /// Elements of curves and points that belong to a group.
     std::vector<Elements> curves;
     std::vector<Elements> points;
 
-    /// Whether refining would make more cells than are allowed: nothing but
-    /// volume_types is there then.
+    /// Whether refining would make more cells than are allowed: then only
+    /// volume_types is set.
     bool is_too_large = false;
 
-    /// How surfaces were sewn to solids, and how the cells differ from what was
-    /// asked for; empty if there is nothing to say.
+    /// Remarks: how surfaces were sewn to solids, and how the cells differ from
+    /// the request; empty if there are none.
     std::string remark;
   };
 
 
 
-  /// Lets @p bytes transfer all of @p model: one function for both directions.
+  /// Makes @p bytes transfer all of @p model; the same function writes and
+  /// reads.
   template <typename Bytes>
   void
   transfer(Bytes &bytes, GmshModel &model)
@@ -145,7 +148,7 @@ namespace corotet
 
 
 
-  /// Hands what is transferred to @p write, piece by piece.
+  /// Passes the transferred data to @p write, piece by piece.
   class BytesWriter
   {
   public:
@@ -163,7 +166,7 @@ namespace corotet
       write({reinterpret_cast<const char *>(&number), sizeof(number)});
     }
 
-    /// A text or numbers.
+    /// Transfers a text or numbers.
     template <typename List>
       requires(!std::is_arithmetic_v<List>)
     void
@@ -191,8 +194,8 @@ namespace corotet
 
 
 
-  /// Takes what is transferred from @p bytes, which must outlive this object.
-  /// Throws std::out_of_range where they end too early.
+  /// Takes the transferred data from @p bytes, which must outlive this object.
+  /// Throws std::out_of_range if they end too early.
   class BytesReader
   {
   public:
@@ -221,7 +224,7 @@ namespace corotet
     void
     transfer_all(std::vector<Part> &parts, const Action &action)
     {
-      // All parts have two numbers and the length of a list, at least.
+      // Each part has at least two numbers and the length of a list.
       parts.resize(size(2 * sizeof(int) + sizeof(std::uint64_t)));
       for (Part &part : parts)
         action(part);
@@ -234,7 +237,7 @@ namespace corotet
     }
 
   private:
-    // Of a list whose parts take @p part_size bytes or more.
+    // Reads the length of a list whose parts take @p part_size bytes or more.
     std::uint64_t
     size(const std::size_t part_size)
     {

@@ -9,21 +9,21 @@
 namespace corotet
 {
   /**
-   * What gmsh makes of a file, in a process of its own that has limits on its
-   * memory (of a mesh: ten times its file and 100 MB; of a geometry: that of
-   * the machine) and on its time, reads no files outside of the file's folder,
-   * writes none and starts no programs. Throws InputError if it fails there or
-   * ends by a signal, or if refinements would make too many cells, and
-   * MachineError if it cannot be started. Errors blame the
-   * file @p origin, which is that of the request if it is empty.
+   * Runs gmsh on a file, in a process of its own with limited memory (for a
+   * mesh ten times its file and 100 MB, for a geometry the machine's) and time,
+   * which reads no files outside of the file's folder, writes none and starts
+   * no programs. Returns the model. Throws InputError if gmsh fails or is ended
+   * by a signal, or if refinements would make too many cells, and MachineError
+   * if it cannot be started. Errors blame the file @p origin, or if that is
+   * empty the file of the request.
    */
   GmshModel
   run_gmsh(const GmshRequest &request, const std::string &origin = "");
 
   /**
-   * The model that such a process has handed back as @p bytes, which may be
-   * anything: the file @p path may have damaged it. Throws InputError that
-   * blames the file if they are no model, or one whose parts do not fit
+   * The model that such a process has returned as @p bytes. The file @p path
+   * may have damaged it, so any bytes are possible. Throws InputError that
+   * blames the file if they are not a model, or one whose parts do not fit
    * together.
    */
   GmshModel

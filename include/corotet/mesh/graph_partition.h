@@ -10,33 +10,34 @@
 namespace corotet
 {
   /**
-   * How the cells of a mesh are shared out among the ranks.
+   * The methods to distribute the cells of a mesh to the ranks.
    */
   enum class Partitioner
   {
-    /// In pieces of the curve that cells are sorted along.
+    /// Pieces of the curve that cells are sorted along.
     hilbert_curve,
-    /// In parts of the graph of cells and faces.
+    /// Parts of the graph of cells and faces.
     pt_scotch
   };
 
-  /// Those that the library was built with.
+  /// The partitioners that the library was built with.
   const Enumeration<Partitioner> &
   partitioners();
 
-  /// Of all ranks, how many faces of cells have a cell of another rank behind
-  /// them. Each is counted once. Collective.
+  /// The number of faces between cells of different ranks, in the whole mesh.
+  /// Each face is counted once. Collective.
   std::uint64_t
   n_faces_between_ranks(const LocalMesh &mesh);
 
   /**
    * Gives each rank the cells that PT-Scotch [chevalier2008] finds for it, so
    * that ranks have equal work up to one percent, and few faces are between
-   * them. @p mesh is as sort_along_curve() and with_cells_beside() make it;
-   * cells keep their numbers, and those of a rank are in ascending order. The
-   * answer is the same at each call. Where PT-Scotch would leave a rank without
-   * a cell, cells stay where they are. Throws InputError if it cannot count the
-   * cells, ComputationError if it fails or is not there. Collective.
+   * them. @p mesh must come from sort_along_curve() and with_cells_beside().
+   * Cells keep their numbers, and those of a rank are in ascending order. The
+   * result is the same at each call. If PT-Scotch would leave a rank without
+   * cells, cells stay where they are. Throws InputError if there are too many
+   * cells for PT-Scotch's numbers, ComputationError if it fails or is not
+   * available. Collective.
    */
   MeshPart
   partition_graph(const LocalMesh &mesh);

@@ -9,14 +9,14 @@
 
 namespace corotet
 {
-  /// Bits of a coordinate, so that a place on the curve has 63.
+  /// The number of bits of a coordinate; a place on the curve has 63 bits.
   inline constexpr unsigned int hilbert_bits = 21;
 
   /**
-   * The place of a point @p x on Hilbert's curve through a cube [skilling2004]:
-   * that of dealii::Utilities::inverse_Hilbert_space_filling_curve, with the
-   * bits of its three numbers in one, from a table of the curve's turns.
-   * Coordinates are below 2^hilbert_bits.
+   * The place of a point @p x on Hilbert's curve through a cube [skilling2004].
+   * It is that of dealii::Utilities::inverse_Hilbert_space_filling_curve, with
+   * the bits of its three numbers in one, and is computed from a table of the
+   * curve's turns. Coordinates are below 2^hilbert_bits.
    */
   std::uint64_t
   place_on_hilbert_curve(const std::array<std::uint32_t, 3> &x);

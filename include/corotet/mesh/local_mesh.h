@@ -19,34 +19,36 @@
 namespace corotet
 {
   /**
-   * Some of the cells of a mesh that is spread over the ranks, with numbers of
-   * vertices that are those of this part.
+   * Some of the cells of a mesh that is spread over the ranks; vertices are
+   * numbered within this part.
    */
   struct MeshPart : MeshCells
   {
-    /// Of each cell, its number in the mesh.
+    /// The number of each cell in the mesh.
     std::vector<std::uint64_t> numbers;
-    /// Of each vertex, what all ranks know it by.
+    /// The number by which all ranks know each vertex.
     std::vector<std::uint64_t> vertex_numbers;
 
-    /// What has a name: faces on boundaries, edges and vertices. Each list by
-    /// cells, ascending.
+    /// The named parts: faces on boundaries, edges and vertices. Each list is
+    /// in ascending order of cells.
     std::vector<CellPart> faces;
     std::vector<CellPart> edges;
     std::vector<CellPart> corners;
   };
 
   /**
-   * What a rank has of a mesh: the cells that it owns, and those beside them,
-   * which share a vertex with one of its own. In the order of the mesh, the
-   * vertices in the order in which the cells of the mesh meet them. A vertex is
-   * known by that: 4 c + k if cell c is the first that has it, as corner k.
+   * A rank's part of a mesh: the cells that it owns, and those beside them,
+   * which share a vertex with one of its own. Cells are in the order of the
+   * mesh, vertices in the order in which the cells of the mesh first use them.
+   * That order gives a vertex the number by which all ranks know it: 4 c + k if
+   * cell c is the first that has it, as corner k.
    *
-   * Named are faces of all cells, edges and vertices of the owned ones.
+   * Named parts are listed for faces of all cells, but for edges and vertices
+   * of owned cells only.
    */
   struct LocalMesh : MeshPart
   {
-    /// Of a face that no other local cell has.
+    /// The neighbor of a face that no other local cell has.
     static constexpr unsigned int no_cell =
       dealii::numbers::invalid_unsigned_int;
 
@@ -60,31 +62,31 @@ namespace corotet
     unsigned int  rank           = 0;
     std::uint64_t n_global_cells = 0;
 
-    /// Of each cell, the rank that owns it.
+    /// The rank that owns each cell.
     std::vector<dealii::types::subdomain_id> owners;
 
     /// The cell behind each face, as corners_of_faces numbers them, or no_cell:
-    /// that is the surface of the body, or for ghost cells also where the known
+    /// on the surface of the body, and for ghost cells also where the known
     /// part of the mesh ends.
     std::vector<std::array<unsigned int, 4>> neighbors;
   };
 
   /**
-   * Adds the cells beside those of this rank to a part that sort_along_curve()
-   * or partition_graph() has made. Throws an InputError if cells overlap, as
-   * check_mesh() does. Collective.
+   * Adds the cells beside those of this rank to a part made by
+   * sort_along_curve() or partition_graph(). Throws an InputError if cells
+   * overlap, as check_mesh() does. Collective.
    */
   LocalMesh
   with_cells_beside(MeshPart         &&part,
                     const std::string &origin,
                     const MPI_Comm     comm);
 
-  /// The part of check_mesh() that finds where cells do not fit together.
-  /// Collective.
+  /// The part of check_mesh() that finds places where cells do not fit
+  /// together. Collective.
   void
   check_surface_on_ranks(const LocalMesh &mesh, const std::string &origin);
 
-  /// The cells that a rank owns.
+  /// The cells that a rank owns, with their named parts.
   MeshPart
   owned_part(const LocalMesh &mesh);
 

@@ -23,8 +23,8 @@ namespace corotet
 
   /**
    * The parameters of section Mesh: the source, uniform refinements, a scale
-   * and how cells are shared out; and those of section Selections, which
-   * declares its own.
+   * and the distribution of cells; and the parameters of section Selections,
+   * which SelectionParameters declares.
    */
   struct MeshParameters
   {
@@ -36,7 +36,7 @@ namespace corotet
     Selectable<MeshSource> source;
     unsigned int           n_refinements = 0;
     double                 scale         = 1;
-    /// At first the curve, which is the first value.
+    /// The partitioner; the default is the first value, the curve.
     Partitioner         partitioner{};
     SelectionParameters selections;
   };
@@ -44,17 +44,17 @@ namespace corotet
   /**
    * A checked tetrahedral mesh, distributed over the ranks of a communicator.
    * All cells are on level 0 (refinements are flattened), in an order that
-   * keeps neighbours close in memory. Lengths in metres.
+   * keeps neighbours close in memory. Lengths are in metres.
    */
   class Mesh
   {
   public:
     /**
-     * Makes the mesh on rank 0 and shares it out, or reads it on all ranks, as
-     * its source can; checks it, refines it and logs its statistics. @p folder
-     * is that of the parameter file. Folds of curved cells that elements of
-     * degree @p element_degree do not use are allowed. Throws InputError.
-     * Collective.
+     * Makes the mesh on rank 0 and distributes it, or reads it on all ranks if
+     * its source can; then checks it, refines it and logs its statistics. @p
+     * folder is the folder of the parameter file. Folds of curved cells that
+     * elements of degree @p element_degree do not use are allowed. Throws
+     * InputError. Collective.
      */
     Mesh(const MeshParameters &parameters,
          const std::string    &folder,
@@ -62,7 +62,8 @@ namespace corotet
          Log                  &log,
          const unsigned int    element_degree = 3);
 
-    /// The same for a mesh that is already made (it is read on rank 0 only).
+    /// Does the same with a mesh that exists already; only that of rank 0 is
+    /// used.
     Mesh(SerialMesh         mesh,
          const unsigned int n_refinements,
          const double       scale,
@@ -70,7 +71,7 @@ namespace corotet
          Log               &log,
          const unsigned int element_degree = 3);
 
-    /// What this rank has of it: its own cells and those beside them.
+    /// This rank's part of the mesh: its own cells and those beside them.
     const LocalMesh &
     local() const
     {
@@ -78,11 +79,11 @@ namespace corotet
     }
 
     /**
-     * The same for deal.II's tools, with the cells in the same order: made when
-     * it is asked for, which takes longer than all else. Cells carry the region
-     * as material id and the surface's faces the boundary as boundary id, or
-     * unnamed_boundary (mesh_names.h) where they belong to none. The first
-     * call is collective.
+     * The mesh for deal.II's tools, with the cells in the same order. It is
+     * made at the first call, which is collective and takes longer than the
+     * rest of the set-up. Cells carry the region as material id and the
+     * surface's faces the boundary as boundary id, or unnamed_boundary
+     * (mesh_names.h) if they belong to none.
      */
     const dealii::parallel::fullydistributed::Triangulation<3> &
     triangulation() const;
@@ -99,28 +100,28 @@ namespace corotet
       return place_names.boundaries;
     }
 
-    /// Of boundaries, edges and corners.
+    /// The names of boundaries, edges and corners.
     const PlaceNames &
     places() const
     {
       return place_names;
     }
 
-    /// Edges with names of the owned cells, in ascending order of these.
+    /// The named edges of the owned cells, in ascending order of the cells.
     const std::vector<CellPart> &
     named_edges() const
     {
       return local_mesh.edges;
     }
 
-    /// Vertices with names, in the same way.
+    /// The named vertices of the owned cells, in ascending order of the cells.
     const std::vector<CellPart> &
     named_corners() const
     {
       return local_mesh.corners;
     }
 
-    /// Wall times [s] on rank 0: what reading or making the mesh took, and
+    /// Wall times [s] on rank 0: of reading or making the mesh, and of
     /// checking, sorting and distributing its cells.
     double
     read_time() const
@@ -140,7 +141,7 @@ namespace corotet
       return local_mesh.communicator;
     }
 
-    /// Degree q of the maps of curved cells; 1 if there are none.
+    /// The degree q of the maps of curved cells; 1 if there are none.
     unsigned int
     geometry_degree() const
     {
@@ -148,8 +149,8 @@ namespace corotet
     }
 
     /**
-     * Images of the support points of FE_SimplexP(q) under the map of a local
-     * cell, owned or ghost; none if it is straight.
+     * The images of the support points of FE_SimplexP(q) under the map of a
+     * local cell, owned or ghost; none if it is straight.
      */
     dealii::ArrayView<const dealii::Point<3>>
     curved_nodes(const unsigned int cell) const
@@ -162,9 +163,8 @@ namespace corotet
     }
 
   private:
-    /// What constructors end with: the cells of @p mesh are not yet checked,
-    /// refined, as often as is left to be done, multiplied by the scale, and
-    /// sorted.
+    /// The last part of all constructors: the cells of @p mesh still have to be
+    /// checked, refined @p n_refinements times, scaled and sorted.
     void
     set_up(SpreadMesh          &&mesh,
            const unsigned int    n_refinements,
@@ -173,11 +173,12 @@ namespace corotet
            Log                  &log,
            const unsigned int    element_degree);
 
-    /// Gives cells to ranks by PT-Scotch.
+    /// Distributes the cells to ranks by PT-Scotch.
     void
     share_out_by_graph(const std::string &origin, Log &log);
 
-    /// Named boundaries must be on the surface. Throws InputError. Collective.
+    /// Checks that named boundaries are on the surface. Throws InputError.
+    /// Collective.
     void
     check_boundaries(const std::string &origin) const;
 

@@ -34,12 +34,13 @@ namespace corotet
   struct MeshFormatDescription
   {
     MeshFormat format;
-    /// As programs know it, in lower case: "step".
+    /// The name of the format in lower case: "step".
     std::string name;
-    /// Usual ends of file names: ".step, .stp". gmsh knows the first.
+    /// The usual endings of file names: ".step, .stp". gmsh knows the first.
     std::string extensions;
     std::string description;
-    /// Whether cells are made of a geometry; a mesh has them.
+    /// Whether the file has a geometry, for which cells are made; otherwise it
+    /// has a mesh.
     bool is_geometry;
     /// Whether the geometry is a surface of triangles.
     bool is_surface = false;
@@ -49,18 +50,19 @@ namespace corotet
   mesh_formats();
 
   /**
-   * The format of a file, by its content; a geometry of gmsh (.geo), which
-   * begins with anything, by its name, and so a file that begins like no format
-   * but has the name of one. Throws InputError blamed on the parameter @p entry
-   * if it is none, and MachineError if the file cannot be read.
+   * The format of a file, recognized by its content. A geometry of gmsh (.geo),
+   * which may begin with anything, is recognized by its name, and so is a file
+   * that begins like no known format. Throws InputError blamed on the parameter
+   * @p entry if the format is unknown, and MachineError if the file cannot be
+   * read.
    */
   const MeshFormatDescription &
   mesh_format(const std::string &path, const std::string &entry);
 
   /**
-   * Throws InputError if a file of a format that has a last word (Nastran,
-   * UNV, Medit) does not end with it: the rest would be missing in silence. So
-   * would what a file of Nastran includes, which is refused, too.
+   * Throws InputError if a file of a format that has a last word (Nastran, UNV,
+   * Medit) does not end with it: a part would be missing without notice. For
+   * the same reason Nastran files that include other files are refused.
    */
   void
   check_end(const std::string &path, const MeshFormat format);

@@ -23,20 +23,21 @@ namespace corotet
     dealii::numbers::internal_face_boundary_id - 1;
 
   /**
-   * What a mesh calls its regions or its boundaries. Each cell has one region
-   * and each face of the surface one boundary, which are known by ids. A name
-   * means one id, or several: so sets may overlap. Edges and corners are named
-   * in the same way.
+   * The names of a mesh's regions or boundaries. Each cell has one region and
+   * each face of the surface one boundary, which are identified by ids. A name
+   * means one id, or several, so named sets may overlap. Edges and corners are
+   * named in the same way.
    */
   struct NamedSets
   {
-    /// By id; ids that are not here, or have an empty name, have no name of
-    /// their own.
+    /// The name of each id. An id that is not listed, or has an empty name, has
+    /// no name of its own.
     std::map<unsigned int, std::string> names;
-    /// Names that mean several ids (ascending), or one that has others, too.
+    /// The names that mean several ids (ascending), or one id that other names
+    /// also mean.
     std::map<std::string, std::vector<unsigned int>> sets;
-    /// What the number of an id in @p names that has been split means: all ids
-    /// that its members have now (ascending).
+    /// For an id in @p names that has been split, all ids that its members have
+    /// now (ascending): the meaning of its number.
     std::map<unsigned int, std::vector<unsigned int>> parts;
 
     /// The ids that @p name means; none if nothing has this name.
@@ -44,33 +45,33 @@ namespace corotet
     ids(const std::string &name) const;
 
     /**
-     * Makes @p name mean the members whose places in @p id_of_member, which has
-     * the ids of all cells or faces, are @p members: an id that others have,
-     * too, is split. What names and numbers meant before they mean still. A
-     * name that there is gets the members in addition.
+     * Makes @p name mean the members with the indices @p members in @p
+     * id_of_member, which has pointers to the ids of all cells or faces. An id
+     * that other members also have is split. All names and numbers keep their
+     * meaning. If @p name exists already, the members are added to it.
      */
     void
     add(const std::string                 &name,
         const std::vector<std::size_t>    &members,
         const std::vector<unsigned int *> &id_of_member);
 
-    /// How many members have an id, and how many of them are in a set.
+    /// The number of members with an id, and how many of these are in a set.
     struct IdCount
     {
       unsigned int  id;
       std::uint64_t n_members, n_in_set;
     };
 
-    /// The same of members that are counted: @p counts has the ids of the set,
-    /// ascending, @p first_free is above the ids of all members. Returns, by
-    /// their ids, the new ones of members of the set whose ids are split.
+    /// Like add() above, for members that were counted: @p counts has the ids
+    /// in the set, ascending; @p first_free is above the ids of all members.
+    /// Returns the new id of the members in the set for each id that is split.
     std::map<unsigned int, unsigned int>
     add(const std::string          &name,
         const std::vector<IdCount> &counts,
         const unsigned int          first_free);
 
-    /// Forgets ids that are not in @p used, and sets that are empty then;
-    /// used ids without a name are known by their number.
+    /// Removes ids that are not in @p used, and sets that become empty; used
+    /// ids without a name get their number as name.
     void
     restrict_to(const std::vector<unsigned int> &used);
   };
@@ -82,55 +83,55 @@ namespace corotet
   class MeshNames
   {
   public:
-    /// @p kind is "region", "boundary", "edge" or "corner"; @p named holds
-    /// every id that the mesh has (an empty name: known by its id).
+    /// @p kind is "region", "boundary", "edge" or "corner"; @p named has every
+    /// id of the mesh (an id with an empty name is known by its number).
     MeshNames(const std::string &kind, const NamedSets &named);
 
     /**
      * The ids that @p name_or_id means, ascending. Throws InputError blamed on
-     * the parameter @p entry ("Section/Entry"), with the names that there are
-     * and the nearest one.
+     * the parameter @p entry ("Section/Entry"), with the existing names and the
+     * nearest one.
      */
     std::vector<unsigned int>
     ids(const std::string &name_or_id, const std::string &entry) const;
 
-    /// Those that a name means, or the one with this number; none if there is
-    /// no such thing.
+    /// The ids that a name means, or the id with this number; none if there is
+    /// neither.
     std::vector<unsigned int>
     find(const std::string &name_or_id) const;
 
-    /// Only those that a name means.
+    /// The ids that a name means, without numbers.
     std::vector<unsigned int>
     find_name(const std::string &name) const
     {
       return named.ids(name);
     }
 
-    /// "the boundaries: a, b, c", or "no boundaries".
+    /// The text "the boundaries: a, b, c", or "no boundaries".
     std::string
     listed() const;
 
-    /// Throws the InputError about a name that none of @p all knows.
+    /// Throws the InputError about a name that none of @p all has.
     [[noreturn]] static void
     refuse(const std::string                    &name_or_id,
            const std::string                    &entry,
            const std::vector<const MeshNames *> &all);
 
-    /// The name of @p id; "a & b" for what several have in common; or the id
-    /// itself as text if it is in none.
+    /// The name of @p id; "a & b" for an id that several names have in common;
+    /// or the id itself as text if no name has it.
     std::string
     name(const unsigned int id) const;
 
-    /// Of what ids() has given.
+    /// The name of ids that ids() has returned.
     std::string
     name(const std::vector<unsigned int> &ids) const;
 
-    /// All names, and ids without one: what ids() takes.
+    /// All names, and the numbers of ids without a name: the valid arguments of
+    /// ids().
     std::vector<std::string>
     known() const;
 
-    /// The same, with the ids that they mean: many of them take no longer for
-    /// each.
+    /// All known() with their ids, in less time than by calling ids() for each.
     std::vector<std::pair<std::string, std::vector<unsigned int>>>
     known_with_ids() const;
 
@@ -142,7 +143,7 @@ namespace corotet
     }
 
   private:
-    /// What the number @p id means.
+    /// The ids that the number @p id means.
     std::vector<unsigned int>
     of_number(const unsigned int id) const;
 
@@ -151,7 +152,7 @@ namespace corotet
   };
 
   /**
-   * What one name means: ids of boundaries, of edges and of corners, each
+   * The meaning of one name: ids of boundaries, of edges and of corners, each
    * ascending. A name may mean some of each kind.
    */
   struct Place
@@ -165,7 +166,8 @@ namespace corotet
   };
 
   /**
-   * Names of what a body can be held at: its boundaries, edges and corners.
+   * The names of places where a body can be held: boundaries, edges and
+   * corners.
    */
   struct PlaceNames
   {
@@ -177,14 +179,15 @@ namespace corotet
     MeshNames edges;
     MeshNames corners;
 
-    /// All that has this name; else what has this number, a boundary rather
-    /// than an edge, and an edge rather than a corner. Throws InputError that
-    /// blames the parameter @p entry.
+    /// All places with this name; otherwise the place with this number, a
+    /// boundary rather than an edge, and an edge rather than a corner. Throws
+    /// InputError that blames the parameter @p entry.
     Place
     find(const std::string &name_or_id, const std::string &entry) const;
 
-    /// Boundaries only, for what acts on an area, as @p what does ("a
-    /// traction"): an InputError says so of names of edges and corners.
+    /// The ids of boundaries only, for a condition @p what that acts on an area
+    /// ("a traction"). Throws an InputError that says so for names of edges and
+    /// corners.
     std::vector<unsigned int>
     boundary_ids(const std::string &name_or_id,
                  const std::string &entry,
@@ -193,7 +196,8 @@ namespace corotet
     std::string
     name(const Place &place) const;
 
-    /// "boundary", "edge" or "corner"; "place" if it is of several kinds.
+    /// The word "boundary", "edge" or "corner"; "place" if it is of several
+    /// kinds.
     static std::string
     kind(const Place &place);
   };

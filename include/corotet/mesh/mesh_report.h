@@ -11,11 +11,10 @@
 namespace corotet
 {
   /**
-   * What a user wants to know of a checked mesh before computing on it, as
-   * lines of text: its size and remarks, how well its cells are shaped (of the
-   * straight cells with the same vertices), and the names that there are, with
-   * volumes, areas and lengths and where they are. Lengths as the file has
-   * them.
+   * A report on a checked mesh as lines of text: its size and remarks, the
+   * quality of its cells (of the straight cells with the same vertices), and
+   * all names with volumes, areas, lengths and positions. Lengths are in the
+   * unit of the file.
    */
   std::string
   mesh_report(const SerialMesh &mesh);

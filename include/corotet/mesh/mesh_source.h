@@ -17,7 +17,7 @@ namespace corotet
   struct SpreadMesh;
 
   /**
-   * Where a mesh comes from: a generator or a file reader with its parameters.
+   * The source of a mesh: a generator or a file reader with its parameters.
    */
   class MeshSource
   {
@@ -30,17 +30,17 @@ namespace corotet
     /**
      * The mesh, with coordinates as the source has them. Called on one rank
      * only, so it must not communicate. Relative file names are relative to @p
-     * folder, that of the parameter file. A source that knows the geometry
-     * makes the uniform refinements by itself, with new vertices on it, and
-     * says so in SerialMesh::n_refinements; others make none. Throws
-     * InputError.
+     * folder, the folder of the parameter file. A source that knows the
+     * geometry makes the uniform refinements by itself, with new vertices on
+     * the geometry, and says so in SerialMesh::n_refinements; others make none.
+     * Throws InputError.
      */
     virtual SerialMesh
     create(const std::string &folder,
            const unsigned int n_refinements = 0) const = 0;
 
     /**
-     * The same, unrefined, by all ranks together, each a part of it; a null
+     * The unrefined mesh, made by all ranks together, each a part of it; a null
      * pointer if only one rank can make the mesh. Throws InputError.
      * Collective.
      */

@@ -11,16 +11,16 @@
 namespace corotet
 {
   /**
-   * The text of a file of gmsh (version 4.1, ASCII) with a mesh: with its
-   * curved cells, and a physical group for each name. FileMesh makes the same
-   * mesh of it, to the last digit. Each id of a region is an entity of its own,
-   * and so is each id of a boundary and of edges, and each corner.
+   * The text of a gmsh file (version 4.1, ASCII) with a mesh, including its
+   * curved cells, and a physical group for each name. FileMesh reads the same
+   * mesh from it, to the last digit. Each id of a region, a boundary and an
+   * edge is an entity of its own, and so is each corner.
    */
   std::string
   msh_text(const SerialMesh &mesh);
 
-  /// Writes it to a file that is complete or absent. Throws MachineError if it
-  /// cannot be written.
+  /// Writes msh_text() to a file that is complete or absent. Throws
+  /// MachineError if it cannot be written.
   void
   write_msh_file(const std::string &path, const SerialMesh &mesh);
 } // namespace corotet

@@ -10,10 +10,10 @@ namespace corotet
 {
   /**
    * Cuts every cell of all ranks into eight, @p n_refinements times, as deal.II
-   * does: the octahedron in the middle along its shortest diagonal. The parts
-   * of cell c have the numbers 8 c to 8 c + 7. Parts of curved cells are curved
-   * as these are, and new vertices lie on the curves; parts of faces and edges
-   * have their names. Collective.
+   * does: the octahedron in the middle is cut along its shortest diagonal. The
+   * children of cell c have the numbers 8 c to 8 c + 7. Children of curved
+   * cells are curved like their parents, and new vertices lie on the curves;
+   * parts of faces and edges inherit their names. Collective.
    */
   void
   refine_uniformly(MeshPart          &part,

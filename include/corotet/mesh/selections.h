@@ -29,12 +29,13 @@ namespace corotet
    *   point, up to edges where normals differ by more than an angle [degree],
    * - sharp [angle]: edges between faces whose normals differ by more than an
    *   angle [degree],
-   * - a name that the mesh has.
+   * - a name of the mesh.
    *
    * A face or an edge of the surface is inside of a shape if all its corners
    * are, a cell if its centre is, all within a millionth of the body's
    * diagonal. Edges and vertices have the normals, patches and boundaries of
-   * the faces that they belong to; vertices inside of the body have none.
+   * the faces that they belong to; vertices inside of the body have none of
+   * these.
    */
   struct SelectionParameters
   {
@@ -55,10 +56,10 @@ namespace corotet
   };
 
   /**
-   * Gives names to what is selected in a mesh, in addition to those that there
-   * are, and logs how much it is. Throws InputError if a text is no selection,
-   * and if nothing is selected, with the distance of what is nearest.
-   * Collective.
+   * Gives names to the selected parts of a mesh, in addition to existing names,
+   * and logs the size of these parts. Throws InputError if a text is not a
+   * selection, or if nothing is selected, then with the distance of the nearest
+   * part. Collective.
    */
   void
   select(LocalMesh                 &mesh,

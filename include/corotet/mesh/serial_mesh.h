@@ -21,31 +21,31 @@ namespace corotet
    */
   struct MeshCells
   {
-    /// Of a cell that is not curved.
+    /// The value of Cell::curve for a straight cell.
     static constexpr unsigned int straight =
       std::numeric_limits<unsigned int>::max();
 
-    /// A tetrahedron: p3 sees the triangle p0 p1 p2 counter-clockwise
-    /// [seed, 2.1.2.1], and the region it belongs to.
+    /// A tetrahedron and its region: p3 sees the triangle p0 p1 p2
+    /// counter-clockwise [seed, 2.1.2.1].
     struct Cell
     {
       std::array<unsigned int, 4> vertices;
       unsigned int                region;
-      /// Number among the curved cells, or straight.
+      /// The number among the curved cells, or straight.
       unsigned int curve = straight;
     };
 
     std::vector<dealii::Point<3>> vertices;
     std::vector<Cell>             cells;
 
-    /// Degree q of the maps that make curved cells of the reference
-    /// tetrahedron: 2 or 3, or 1 if there are none.
+    /// The degree q of the maps from the reference tetrahedron to curved cells:
+    /// 2 or 3, or 1 if there are none.
     unsigned int geometry_degree = 1;
-    /// Images of the support points of FE_SimplexP(q), of one curved cell after
-    /// another. The first four are the cell's vertices.
+    /// The images of the support points of FE_SimplexP(q), one curved cell
+    /// after another. The first four are the cell's vertices.
     std::vector<dealii::Point<3>> curved_nodes;
 
-    /// Nodes of the map of a curved cell.
+    /// The number of nodes of the map of a curved cell.
     unsigned int
     n_map_nodes() const
     {
@@ -68,7 +68,7 @@ namespace corotet
       unsigned int                boundary;
     };
 
-    /// An edge of a cell, and the id of a name. One that has several names is
+    /// An edge of a cell, and the id of a name. An edge with several names is
     /// listed with each of their ids.
     struct Edge
     {
@@ -76,45 +76,46 @@ namespace corotet
       unsigned int                id;
     };
 
-    /// A vertex of a cell, and the id of a name, in the same way.
+    /// A vertex of a cell, and the id of a name. A vertex with several names is
+    /// listed with each of their ids.
     struct Corner
     {
       unsigned int vertex;
       unsigned int id;
     };
 
-    /// Faces on the surface that belong to a named boundary. Others need not be
-    /// listed.
+    /// The faces on the surface that belong to a named boundary. Other faces
+    /// need not be listed.
     std::vector<Face> faces;
-    /// Those that have names, on the surface or inside of the body.
+    /// The named edges and vertices, on the surface or inside of the body.
     std::vector<Edge>   edges;
     std::vector<Corner> corners;
 
-    /// How often the source has refined the mesh by itself.
+    /// The number of refinements that the source has made by itself.
     unsigned int n_refinements = 0;
 
-    /// What regions and boundaries are called. Those that the source gives no
-    /// name are known by their ids only.
+    /// The names of regions, boundaries, edges and corners. An id without a
+    /// name is known by its number only.
     NamedSets regions;
     NamedSets boundaries;
     NamedSets edge_names;
     NamedSets corner_names;
 
-    /// What an error in the mesh is blamed on: a file name, or empty for a
-    /// generated mesh.
+    /// The file that an error in the mesh is blamed on; empty for a generated
+    /// mesh.
     std::string origin;
 
-    /// Wall time [s] that reading or making it took.
+    /// The wall time of reading or making the mesh [s].
     double read_time = 0;
 
-    /// Whether the file says so, as those of CAD programs do.
+    /// Whether the file says that lengths are in millimetres, as those of CAD
+    /// programs do.
     bool is_in_millimetres = false;
 
-    /// What the user should know about how the mesh was made: lines for the
-    /// log.
+    /// Remarks for the user about how the mesh was made: lines for the log.
     std::vector<std::string> remarks;
-    /// What one of them is about, remark_facets(): ids of curved boundaries
-    /// with straight cells.
+    /// The ids of curved boundaries with straight cells, which one of the
+    /// remarks is about, see remark_facets().
     std::set<unsigned int> faceted;
   };
 } // namespace corotet

@@ -13,17 +13,17 @@
 
 namespace corotet
 {
-  /// A mesh that is spread over the ranks: the part of one of them, and what is
-  /// said of the whole.
+  /// A mesh that is spread over the ranks: one rank's part, and information
+  /// about the whole mesh.
   struct SpreadMesh
   {
     MeshPart  part;
     UsedNames names;
 
-    /// As in SerialMesh.
+    /// Like the members of SerialMesh with these names.
     std::string origin;
     double      read_time = 0;
-    /// Wall time [s] of sharing it out, if one rank had it before.
+    /// The wall time of distributing the mesh, if one rank had it before [s].
     double                   scatter_time = 0;
     std::vector<std::string> remarks;
     std::set<unsigned int>   faceted;

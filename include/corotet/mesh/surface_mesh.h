@@ -11,17 +11,18 @@
 namespace corotet
 {
   /**
-   * The mesh inside of the triangles of a file: STL, PLY, OBJ or OFF. The
-   * surface is mended and checked (mend_surface(), check_intersections()).
-   * Without GmshRequest::element_size its triangles are faces of the cells;
-   * with one, gmsh covers the shape that they describe with new triangles
-   * between its edges, those where normals differ by more than
+   * The mesh of the bodies inside of the triangles of a file: STL, PLY, OBJ or
+   * OFF. The surface is mended and checked (mend_surface(),
+   * check_intersections()). Without GmshRequest::element_size its triangles
+   * become faces of the cells; otherwise gmsh covers the shape with new
+   * triangles between its edges, where normals differ by more than
    * GmshRequest::feature_angle.
    *
    * Boundaries are the patches between these edges, "surface 1" and so on in
-   * the order of the file, and what the file has names for. Several bodies are
-   * regions: "solid 1" and so on, and the name of the file's for all triangles
-   * around it. Throws InputError.
+   * the order of the file, and the file's named sets of triangles. Several
+   * bodies become regions "solid 1" and so on, and a name of the file that all
+   * triangles around a body have is also a name of its region. Throws
+   * InputError.
    */
   SerialMesh
   mesh_of_surface(const GmshRequest &request, const MeshFormat format);

@@ -14,21 +14,20 @@
 
 namespace corotet
 {
-  /// Triangles as the file of a scanner or a CAD program has them: the surface
-  /// of one or several bodies, and of what is hollow in them.
+  /// The triangles in a file of a scanner or a CAD program: the surface of one
+  /// or several bodies, and of the hollows in them.
   struct TriangleSurface
   {
     using Triangle = std::array<unsigned int, 3>;
 
     std::vector<dealii::Point<3>> vertices;
     std::vector<Triangle>         triangles;
-    /// Which of @p names each triangle has.
+    /// The index in @p names of each triangle's group.
     std::vector<unsigned int> groups;
-    /// What the file calls the triangles of each group: no, one or several
-    /// names.
+    /// The names of each group in the file: none, one or several.
     std::vector<std::vector<std::string>> names;
 
-    /// The file, and what the user should know about how it was mended.
+    /// The file, and remarks for the user about how the surface was mended.
     std::string              origin;
     std::vector<std::string> remarks;
   };
@@ -43,16 +42,16 @@ namespace corotet
   read_triangle_file(const std::string &path, const MeshFormat format);
 
   /**
-   * Mends what can be mended without changing the shape, each with a remark:
-   * vertices at one place become one (within what numbers of seven digits tell
-   * apart), triangles that have become lines and further copies of a triangle
-   * go, a triangle whose corners lie on a line goes by turning the edge that
-   * it shares with its neighbour, and triangles are turned over so that all of
-   * a closed surface face the same way.
+   * Mends defects without changing the shape, each kind with a remark. Vertices
+   * at the same place are united (within the accuracy of numbers of seven
+   * digits). Triangles that have become lines, and copies of triangles, are
+   * removed. A triangle whose corners lie on a line is removed by turning the
+   * edge that it shares with its neighbour. Triangles are turned over so that
+   * all of a closed surface face the same way.
    *
-   * Throws an InputError with their number and the first place if edges have
-   * one triangle (a hole) or more than two, if a surface has one side only, or
-   * if triangles cross or touch each other.
+   * Throws an InputError, with the number of places and the first of them, if
+   * edges have one triangle (a hole) or more than two, if a surface has one
+   * side only, or if triangles cross or touch each other.
    */
   void
   mend_surface(TriangleSurface &surface);
@@ -62,8 +61,8 @@ namespace corotet
   void
   check_intersections(const TriangleSurface &surface);
 
-  /// The edge of two triangles between the vertices @p from and @p to; edge i
-  /// of a triangle is that from its corner i to the next one.
+  /// The common edge of two triangles, from vertex @p from to vertex @p to;
+  /// edge i of a triangle goes from its corner i to the next one.
   struct SurfaceEdge
   {
     unsigned int                from, to;
@@ -74,31 +73,32 @@ namespace corotet
   std::vector<SurfaceEdge>
   surface_edges(const TriangleSurface &surface);
 
-  /// A body: its outer closed surface, and those of the hollows in it, by their
-  /// numbers.
+  /// A body: the numbers of its outer closed surface, and of those of the
+  /// hollows in it.
   struct SurfaceBody
   {
     std::vector<unsigned int> shells;
   };
 
-  /// Which triangles are connected, and what they are the surface of.
+  /// The closed surfaces of connected triangles, and the bodies that they
+  /// enclose.
   struct SurfaceShells
   {
-    /// Of each triangle, the number of the closed surface that it belongs to.
+    /// The number of the closed surface that each triangle belongs to.
     std::vector<unsigned int> of_triangle;
     std::vector<SurfaceBody>  bodies;
   };
 
-  /// The closed surfaces that a mended surface consists of. One that is inside
-  /// of another is a hollow, and one inside of a hollow is a body again.
+  /// Finds the closed surfaces of a mended surface. A surface inside of another
+  /// one is a hollow, and one inside of a hollow is a body again.
   SurfaceShells
   surface_shells(const TriangleSurface          &surface,
                  const std::vector<SurfaceEdge> &edges);
 
   /**
-   * Of each triangle the patch that it belongs to, from 0 in the order of the
-   * triangles: patches end at edges where neighbours' normals differ by more
-   * than @p feature_angle [degree], and where their groups differ.
+   * The patch that each triangle belongs to, numbered from 0 in the order of
+   * the triangles: patches end at edges where neighbours' normals differ by
+   * more than @p feature_angle [degree], and where their groups differ.
    */
   std::vector<unsigned int>
   surface_patches(const TriangleSurface          &surface,

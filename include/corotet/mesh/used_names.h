@@ -10,16 +10,16 @@
 
 namespace corotet
 {
-  /// What the parts of a mesh are called: every id that they have, and names of
-  /// these.
+  /// The names of the parts of a mesh: all ids that they have, and the names of
+  /// these ids.
   struct UsedNames
   {
     UsedNames() = default;
 
-    /// Without names that nothing has.
+    /// The names of @p mesh, without those that no part has.
     explicit UsedNames(const SerialMesh &mesh);
 
-    /// Gives all ranks what rank 0 has. Collective.
+    /// Gives all ranks the names that rank 0 has. Collective.
     void
     broadcast(const MPI_Comm comm);
 

@@ -9,12 +9,12 @@
 namespace corotet
 {
   /**
-   * Lets VTK read the file @p path, in a process of its own (scripts/read_vtk,
-   * which says what is read), and writes its mesh to the file @p target for
-   * read_msh_2(), where zero is a group. Returns what the log should say of it,
-   * in one line. Throws InputError if that fails, ends by a signal, or takes
+   * Makes VTK read the file @p path, in a process of its own (scripts/read_vtk,
+   * which tells what is read), and write its mesh to the file @p target for
+   * read_msh_2() with zero_is_group. Returns a remark for the log, in one line.
+   * Throws InputError if the process fails, is ended by a signal, or takes
    * longer than @p time_limit [s], which the parameter @p time_limit_entry
-   * sets, and MachineError if Python or VTK are not there.
+   * sets, and MachineError if Python or VTK is missing.
    */
   std::string
   write_msh_of_vtk_file(const std::string &path,

@@ -16,9 +16,9 @@
  */
 namespace corotet::checkpoint_checksum
 {
-  /// Every bit of the result depends on every bit of x (the finalizer of
-  /// splitmix64; Steele, Lea, Flood, Fast splittable pseudorandom number
-  /// generators, 2014).
+  /// Mixes the bits of x: every bit of the result depends on every bit of x
+  /// (the finalizer of splitmix64; Steele, Lea, Flood, Fast splittable
+  /// pseudorandom number generators, 2014).
   inline std::uint64_t
   mixed(std::uint64_t x)
   {
@@ -28,15 +28,15 @@ namespace corotet::checkpoint_checksum
     return x ^ (x >> 31);
   }
 
-  /// Checksums are sums over words of eight bytes, each mixed with its place:
-  /// so parts may be summed by different ranks.
+  /// The checksum of a word. Checksums are sums over words of eight bytes, each
+  /// mixed with its place, so that different ranks may sum parts.
   inline std::uint64_t
   of_word(const std::uint64_t word, const std::uint64_t place)
   {
     return mixed(word ^ mixed(place));
   }
 
-  /// @p data are the bytes from word number @p first on.
+  /// The checksum of @p data, the bytes from word number @p first on.
   inline std::uint64_t
   of_bytes(const char *data, const std::size_t size, const std::uint64_t first)
   {
@@ -50,7 +50,7 @@ namespace corotet::checkpoint_checksum
     return sum;
   }
 
-  /// As text: JSON's numbers are not made for 64 bits.
+  /// The text of a checksum, as JSON's numbers are not made for 64 bits.
   inline std::string
   in_words(const std::uint64_t checksum)
   {

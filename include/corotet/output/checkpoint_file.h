@@ -17,15 +17,17 @@
 namespace corotet
 {
   /**
-   * A checkpoint is two files: PATH.h5 has the vectors, in an order that is
-   * the same on any number of ranks, and PATH.json all else: its version, the
-   * parameters and numbers of the run, the mesh, size and checksum of both
-   * files. PATH.json gets its name last: without it there is no checkpoint.
+   * Writes a checkpoint, which consists of two files: PATH.h5 has the vectors,
+   * in an order that is the same on any number of ranks, and PATH.json
+   * everything else: the version, the parameters and numbers of the run, the
+   * mesh, size and checksum of both files. PATH.json gets its name last:
+   * without it there is no checkpoint.
    */
   class CheckpointWriter : public Archive
   {
   public:
-    /// @p order, of the nodes of @p discretization, must outlive this object.
+    /// @p order is that of the nodes of @p discretization and must outlive this
+    /// object.
     CheckpointWriter(const std::string    &path,
                      const Discretization &discretization,
                      const FileOrder      &order);
@@ -42,8 +44,8 @@ namespace corotet
     void
     transfer(const std::string &name, Vector &vector) override;
 
-    /// Completes the checkpoint. @p parameters: the text of every entry.
-    /// @p durable: it survives a loss of power. Throws MachineError.
+    /// Completes the checkpoint. @p parameters has the text of every entry. @p
+    /// durable: the checkpoint survives a loss of power. Throws MachineError.
     void
     finish(const nlohmann::ordered_json &parameters, const bool durable);
 
@@ -61,10 +63,9 @@ namespace corotet
   class CheckpointReader : public Archive
   {
   public:
-    /// Throws InputError that says what is wrong with the checkpoint if it is
-    /// not just as it was written, or of another version, and MachineError if
-    /// it cannot be read. @p order, of the nodes of @p discretization, must
-    /// outlive this object. Collective.
+    /// Throws an InputError about the checkpoint if it is damaged or of another
+    /// version, and MachineError if it cannot be read. @p order is that of the
+    /// nodes of @p discretization and must outlive this object. Collective.
     CheckpointReader(const std::string    &path,
                      const Discretization &discretization,
                      const FileOrder      &order);
@@ -81,18 +82,18 @@ namespace corotet
     void
     transfer(const std::string &name, Vector &vector) override;
 
-    /// Throws InputError if the checkpoint is that of another mesh. Collective.
+    /// Throws InputError if the checkpoint belongs to another mesh. Collective.
     void
     check_mesh() const;
 
-    /// Of its files, without their endings.
+    /// The path of the checkpoint's files, without their endings.
     const std::string &
     base_path() const
     {
       return path;
     }
 
-    /// Of the run that wrote it.
+    /// The parameters of the run that wrote the checkpoint.
     const nlohmann::ordered_json &
     parameters() const
     {

@@ -30,12 +30,12 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    /// 0: none after a number of steps.
+    /// The number of steps between checkpoints; 0: no checkpoints by steps.
     unsigned int steps_between = 0;
-    /// Of wall time; 0: none after a time.
+    /// The wall time between checkpoints [min]; 0: no checkpoints by time.
     double       minutes_between = 10;
     unsigned int keep            = 2;
-    /// In s; 0: none.
+    /// The limit of wall time [s]; 0: no limit.
     double wall_time_limit = 0;
 
     bool
@@ -45,14 +45,14 @@ namespace corotet
     }
   };
 
-  /// Why a run is to end before its time: a signal that StopSignals has
-  /// received on any rank, or the limit of wall time. Empty if it is not.
-  /// Collective.
+  /// The reason why a run is to end before its time: a signal that StopSignals
+  /// has received on any rank, or the limit of wall time. Empty if there is
+  /// none. Collective.
   std::string
   reason_to_stop(const CheckpointParameters &parameters, const MPI_Comm comm);
 
   /**
-   * An entry that has another text than before.
+   * An entry whose text has changed.
    */
   struct ChangedEntry
   {
@@ -62,27 +62,27 @@ namespace corotet
     std::string before;
   };
 
-  /// The first entry that differs and with which a run that began with the
-  /// entries @p before cannot go on, if there is one; both are the text of
-  /// every entry. How numbers are written does not matter, nor do blanks around
-  /// the items of lists, and entries that only one of them has.
+  /// The first changed entry with which a run that began with the entries @p
+  /// before cannot continue, if there is one; both arguments have the text of
+  /// every entry. The way to write numbers does not matter, nor do blanks
+  /// around the items of lists, nor entries that only one of them has.
   std::optional<ChangedEntry>
   forbidden_change(const nlohmann::ordered_json &before,
                    const nlohmann::ordered_json &now);
 
   /**
    * The checkpoints of a run, in the folder checkpoint of its output directory:
-   * when they are due, which are kept, and from which a run goes on; and when
-   * it has to end before its time, because of a signal or the limit.
+   * when they are written, which are kept, and from which a run continues; also
+   * whether it has to end before its time, because of a signal or the limit.
    *
    * All members are collective.
    */
   class Checkpoints
   {
   public:
-    /// Of a run that writes into @p directory, with its log in @p log_file.
-    /// @p values: the text of every entry of the run. The arguments must
-    /// outlive this object.
+    /// The checkpoints of a run that writes into @p directory, with its log in
+    /// @p log_file. @p values has the text of every entry of the run. The
+    /// arguments must outlive this object.
     Checkpoints(const CheckpointParameters   &parameters,
                 const std::string            &directory,
                 const std::string            &log_file,
@@ -90,19 +90,19 @@ namespace corotet
                 const Body                   &body,
                 Log                          &log);
 
-    /// Whether there are any, good or not.
+    /// Whether there are any checkpoints, good or damaged.
     bool
     has_any() const;
 
-    /// The newest checkpoint that is good; the log names those that are
-    /// damaged. Null if there is none. Throws InputError if the run's entries,
-    /// its mesh or its tables are others, where they must not be, and
-    /// MachineError if a checkpoint cannot be read.
+    /// The newest good checkpoint; the log names those that are damaged. Null
+    /// if there is none. Throws InputError if entries of the run, its mesh or
+    /// its tables have changed where they must not, and MachineError if a
+    /// checkpoint cannot be read.
     std::unique_ptr<CheckpointReader>
     newest() const;
 
-    /// Lets @p simulation, which has not been started, and the log go on from
-    /// @p checkpoint. Checkpoints that are newer, which are damaged, go.
+    /// Makes @p simulation, which has not been started, and the log continue
+    /// from @p checkpoint. Newer checkpoints, which are damaged, are removed.
     void
     resume(Simulation                                   &simulation,
            const std::vector<std::unique_ptr<Observer>> &observers,
@@ -110,18 +110,18 @@ namespace corotet
            CheckpointReader                             &checkpoint);
 
     /// Makes all steps of a run that has been started, and finishes it.
-    /// Checkpoints are written when they are due, and at the end unless
-    /// @p saves_end is false. Throws Stopped after the run was saved, if it was
-    /// to end earlier.
+    /// Checkpoints are written when they are due, and at the end unless @p
+    /// saves_end is false. Throws Stopped after the run was saved, if it had to
+    /// end earlier.
     void
     run(Simulation &simulation, const bool saves_end = true);
 
   private:
-    /// A state of the run, and the name of its checkpoint's files.
+    /// A state of the run, which also gives the name of its checkpoint's files.
     struct Place
     {
-      /// The last step that has been begun, and the parts of it that are made,
-      /// if others are not; else 0.
+      /// The last step that was begun, and the number of its parts that are
+      /// done, or 0 if all of it is done.
       unsigned int step;
       unsigned int parts;
 
@@ -134,7 +134,7 @@ namespace corotet
       bool
       operator==(const Place &) const = default;
 
-      /// Whether it comes before @p other.
+      /// Whether this state comes before @p other.
       bool
       operator<(const Place &other) const
       {
@@ -154,38 +154,39 @@ namespace corotet
 
     static Place
     place_of(const Simulation &simulation);
-    /// 0 if none is.
+    /// The last whole step with a checkpoint; 0 if there is none.
     unsigned int
     last_whole_step_written() const
     {
       return written_place ? written_place->last_whole_step() : 0;
     }
-    /// As the log has it.
+    /// The text of a state in the log.
     static std::string
     in_words(const Place &place);
-    /// What the run is asked for, as bits, the same on all ranks.
+    /// The requests to the run, as bits, the same on all ranks.
     int
     requests();
-    /// Whether a step has to be given up, as the run was to stop a while ago,
-    /// as far as this rank knows.
+    /// Whether the present step has to be given up, because a request to stop
+    /// came some time ago. Known to this rank only.
     bool
     is_urgent() const;
     void
     write(Simulation &simulation, const bool durable);
-    /// Removes what is left of checkpoints that were never finished. On rank 0,
-    /// while none is being written.
+    /// Removes the rest of checkpoints that were never finished. Called on rank
+    /// 0 while none is being written.
     void
     remove_unfinished() const;
-    /// Removes checkpoints but for the newest ones. On rank 0.
+    /// Removes all checkpoints but the newest ones. Called on rank 0.
     void
     remove_old() const;
-    /// Those of all checkpoints in the folder, the newest first. On rank 0.
+    /// The states of all checkpoints in the folder, the newest first. Called on
+    /// rank 0.
     std::vector<Place>
     places() const;
     std::string
     path_of(const Place &place) const;
-    /// Of tables in files; found when the first one is read or written.
-    /// Collective.
+    /// The order of nodes in files, which is computed when the first checkpoint
+    /// is read or written. Collective.
     const FileOrder &
     order_of_nodes() const;
     void
@@ -207,7 +208,7 @@ namespace corotet
     mutable std::optional<FileOrder> order;
     Clock::time_point                written = Clock::now();
     std::optional<Place>             written_place;
-    /// Whether run() has got a step further, or a part of one.
+    /// Whether run() has made a step, or a part of one.
     bool has_advanced = false;
   };
 } // namespace corotet

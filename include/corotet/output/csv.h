@@ -13,7 +13,7 @@ namespace corotet
 {
   /**
    * The names of a row, or its values, as a line of a .csv file. Numbers have
-   * as many digits as it takes to read the same double back; not a number is
+   * enough digits to read the same double back; a value that is not a number is
    * written as nan.
    */
   std::string

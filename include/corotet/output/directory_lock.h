@@ -14,15 +14,15 @@ namespace corotet
 {
   /**
    * Marks an output directory as one of corotet by the file ".corotet", and
-   * keeps other runs out of it while it lives: rank 0 holds a lock on that
-   * file. The system ends the lock with the process: the file that a run
-   * leaves, killed or not, locks nothing.
+   * keeps other runs out of it during its lifetime: rank 0 holds a lock on that
+   * file. The system ends the lock with the process, so the file of a run that
+   * was killed locks nothing.
    */
   class DirectoryLock
   {
   public:
-    /// Makes the directory. Throws MachineError if another process has the
-    /// lock; where the file system has no locks, @p log gets a warning instead.
+    /// Makes the directory and locks it. Throws MachineError if another process
+    /// has the lock; where the file system has no locks, @p log gets a warning instead.
     /// Collective.
     DirectoryLock(const std::string &directory, const MPI_Comm comm, Log &log);
     ~DirectoryLock();
@@ -31,7 +31,7 @@ namespace corotet
     DirectoryLock &
     operator=(const DirectoryLock &) = delete;
 
-    /// Name of the file.
+    /// The name of the file.
     static const std::string file_name;
 
     /// Whether a directory has been marked. Not collective.
@@ -42,7 +42,7 @@ namespace corotet
     void
     take(const std::string &directory, Log &log);
 
-    /// The open file on rank 0; -1 elsewhere.
+    /// The descriptor of the file on rank 0; -1 elsewhere.
     int descriptor = -1;
   };
 } // namespace corotet

@@ -17,11 +17,11 @@
 namespace corotet
 {
   /**
-   * An order of cells or nodes that is the same on any number of ranks: that of
-   * tables in files. Each rank has a contiguous part of the rows of a table,
-   * other cells or nodes than those it owns.
+   * The order of cells or nodes in tables of files, which is the same on any
+   * number of ranks. Each rank has a contiguous part of the rows of a table, in
+   * general for other cells or nodes than those it owns.
    *
-   * Cells are in the order of the mesh. Nodes are in that in which cells meet
+   * Cells are in the order of the mesh, nodes in the order in which cells use
    * them.
    *
    * All members but rows() are collective.
@@ -32,7 +32,8 @@ namespace corotet
     static FileOrder
     of_cells(const Discretization &discretization);
 
-    /// @p nodes: those of @p discretization, or coarser ones on its cells.
+    /// The order of @p nodes: those of @p discretization, or coarser ones on
+    /// its cells.
     static FileOrder
     of_nodes(const Discretization &discretization, const Nodes &nodes);
 
@@ -47,7 +48,7 @@ namespace corotet
               n_columns};
     }
 
-    /// Writes such a table. @p values: those of owned cells or nodes.
+    /// Writes a table with the @p values of owned cells or nodes.
     template <typename Number>
     void
     write(Hdf5File          &file,
@@ -62,13 +63,13 @@ namespace corotet
         rows(n_columns, n_points));
     }
 
-    /// This rank's rows from @p values, those of owned cells or nodes,
+    /// This rank's rows of a table with the @p values of owned cells or nodes,
     /// @p n_columns numbers each.
     template <typename Number>
     std::vector<Number>
     to_file(const Number *values, const std::size_t n_columns = 1) const;
 
-    /// The way back: @p values from this rank's @p rows.
+    /// The reverse of to_file(): @p values from this rank's @p rows.
     template <typename Number>
     void
     from_file(const Number     *rows,
@@ -80,14 +81,14 @@ namespace corotet
     row_numbers() const;
 
   private:
-    /// @p keys of what the rank owns are in [0, n_keys), each of them once on
-    /// all ranks together; rows are in their order.
+    /// @p keys are the keys of the cells or nodes that the rank owns, in [0,
+    /// n_keys), different on all ranks together; rows are in the order of keys.
     FileOrder(const MPI_Comm                   comm,
               const std::vector<std::int64_t> &keys,
               const std::int64_t               n_keys);
 
-    /// Sends @p n_columns numbers for each element of @p source, which are in
-    /// the order of the ranks that they go to, to where they belong.
+    /// Sends @p n_columns numbers for each element of @p source, whose elements
+    /// are in the order of the ranks that they are sent to.
     template <typename Number>
     std::vector<Number>
     exchange(std::vector<Number>     source,
@@ -99,12 +100,12 @@ namespace corotet
     hsize_t  first         = 0;
     hsize_t  n_rows        = 0;
     hsize_t  n_global_rows = 0;
-    /// Owned cells or nodes by the rank that has their row, and how many each
-    /// has.
+    /// Owned cells or nodes sorted by the ranks that have their rows, and how
+    /// many belong to each rank.
     std::vector<unsigned int> by_rank;
     std::vector<int>          n_sent;
-    /// How many each rank sends here, and the row, counted from the first, of
-    /// each that comes.
+    /// The number of elements that each rank sends here, and the row of each
+    /// element, counted from this rank's first row.
     std::vector<int>          n_received;
     std::vector<unsigned int> row_of_received;
   };

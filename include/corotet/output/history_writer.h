@@ -22,7 +22,7 @@ namespace corotet
 {
   /**
    * A row of the history: its columns by name, in order. @p displacements are
-   * those of the probes called @p names [m].
+   * the displacements of the probes called @p names [m].
    */
   nlohmann::ordered_json
   history_row(const StepRecord                        &record,
@@ -37,21 +37,22 @@ namespace corotet
     const std::vector<dealii::SymmetricTensor<2, 3>> &stresses);
 
   /**
-   * What a row of the history has for each of these, beside its own columns.
+   * The objects with additional columns for a row of the history.
    */
   struct HistoryColumns
   {
-    /// Columns of probes alone.
+    /// Has only the columns of probes.
     HistoryColumns(const Probes &probes)
       : probes(probes)
     {}
 
-    /// All that @p parameters ask for. Throws InputError. Collective.
+    /// Has all columns that @p parameters ask for. Throws InputError.
+    /// Collective.
     HistoryColumns(const OutputParameters &parameters,
                    const Body             &body,
                    Log                    &log);
 
-    /// Collective.
+    /// The row of a state. Collective.
     nlohmann::ordered_json
     row(const Snapshot &state) const;
 
@@ -61,15 +62,15 @@ namespace corotet
   };
 
   /**
-   * A row that history.csv has with these @p parameters, of a body at rest.
+   * A row as history.csv has it with these @p parameters, for a body at rest.
    */
   nlohmann::ordered_json
   history_example(const OutputParameters &parameters);
 
   /**
    * Writes history.csv: a row per step, step 0 included, each complete in the
-   * file before the next step. Numbers have as many digits as it takes to read
-   * the same double back. Not a number is written as nan.
+   * file before the next step. Numbers have enough digits to read the same
+   * double back. A value that is not a number is written as nan.
    */
   class HistoryWriter : public Observer
   {
@@ -77,14 +78,15 @@ namespace corotet
     HistoryWriter(const std::string &directory, const HistoryColumns &columns);
     ~HistoryWriter() override;
 
-    /// Throws MachineError if the file cannot be written, as does step().
+    /// Opens the file. Throws MachineError if it cannot be written, as does
+    /// step().
     void
     start(const Snapshot &initial) override;
 
     void
     transfer(Archive &archive) override;
 
-    /// Removes the rows that came after the checkpoint.
+    /// Removes the rows that were written after the checkpoint.
     void
     resume(const Snapshot &state) override;
 
@@ -99,14 +101,14 @@ namespace corotet
     }
 
   private:
-    /// The row of @p state becomes the last one.
+    /// Writes the row of @p state, which becomes the last one.
     void
     write_row(const Snapshot &state, const bool with_names);
 
     std::string    path;
     HistoryColumns columns;
     std::ofstream  file;
-    /// Of the file at the checkpoint, in bytes; on rank 0.
+    /// The size of the file at the checkpoint [byte]; on rank 0.
     std::int64_t                            saved_size = 0;
     std::unique_ptr<nlohmann::ordered_json> row;
   };

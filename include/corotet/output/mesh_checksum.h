@@ -10,8 +10,8 @@
 
 namespace corotet
 {
-  /// Of all cells: their vertices, curved maps, and names, those of their
-  /// faces, edges and corners included; the same on any number of ranks.
+  /// The checksum of all cells: their vertices, curved maps, and names, with
+  /// those of their faces, edges and corners; the same on any number of ranks.
   /// Collective.
   std::string
   mesh_checksum(const Mesh &mesh);

@@ -17,7 +17,7 @@
 namespace corotet
 {
   /**
-   * A row that modes.csv has with these @p parameters, without numbers.
+   * A row as modes.csv has it with these @p parameters, without numbers.
    */
   nlohmann::ordered_json
   modes_example(const OutputParameters &parameters);
@@ -37,9 +37,9 @@ namespace corotet
                 const std::string      &directory,
                 ModalAnalysis          &analysis);
 
-    /// Writes what the analysis has computed; @p failure says why that is not
-    /// all, and is empty if it is. Throws MachineError if a file cannot be
-    /// written.
+    /// Writes the results of the analysis; @p failure is the reason why they
+    /// are incomplete, empty if they are complete. Throws MachineError if a
+    /// file cannot be written.
     void
     write(const std::string &failure);
 

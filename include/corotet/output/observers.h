@@ -16,10 +16,10 @@
 namespace corotet
 {
   /**
-   * All observers of a run, in the order in which they are to be called:
-   * time series, that of stress points, history, summary, progress. They write
-   * into @p directory, which must exist. @p start_time and
-   * @p end_time in s. @p log must outlive them. Collective.
+   * All observers of a run, in the order in which they must be called: time
+   * series, time series of stress points, history, summary, progress. They
+   * write into @p directory, which must exist. The run is from @p start_time to
+   * @p end_time [s]. @p log must outlive them. Collective.
    */
   std::vector<std::unique_ptr<Observer>>
   make_observers(const OutputParameters &parameters,

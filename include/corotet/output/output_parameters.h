@@ -42,7 +42,7 @@ namespace corotet
     return names;
   }
 
-  /// Where stress and strain are written.
+  /// The places where stress and strain are written.
   enum class StressOutput
   {
     none,
@@ -61,19 +61,19 @@ namespace corotet
     declare_parameters(dealii::ParameterHandler &prm);
 
     /**
-     * What entry Probes lists. Names are unique, consist of letters, digits and
-     * underscores (no digit first) and differ from the history's own columns.
-     * Throws InputError.
+     * The points of entry Probes. Names are unique, consist of letters, digits
+     * and underscores (no digit first) and differ from the history's own
+     * columns. Throws InputError.
      */
     std::vector<ProbePoint>
     probe_points() const;
 
-    /// What entry Stress probes lists, likewise; the history's own columns do
-    /// not matter.
+    /// The points of entry Stress probes, with the same rules, except that
+    /// names may be those of the history's own columns.
     std::vector<ProbePoint>
     stress_probe_points() const;
 
-    /// What entry Reactions lists, with names of the same kind. Throws
+    /// The supports of entry Reactions, with names of the same kind. Throws
     /// InputError.
     std::vector<NamedSupport>
     supports() const;
@@ -100,8 +100,8 @@ namespace corotet
     std::string
     directory_of_run(const std::string &parameter_file) const;
 
-    /// Simulated time between two states of a run of so many seconds [s]; 0:
-    /// every step.
+    /// The simulated time between two states of a run of so many seconds [s];
+    /// 0: every step has a state.
     double
     time_between_states(const double duration) const
     {
@@ -112,7 +112,7 @@ namespace corotet
 
     std::string directory;
     bool        overwrite = false;
-    /// In s; 0: by n_states.
+    /// The simulated time between results [s]; 0: it follows from n_states.
     double       time_between_results = 0;
     unsigned int n_states             = 200;
     unsigned int steps_between_rows   = 1;

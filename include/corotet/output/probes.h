@@ -16,8 +16,8 @@
 
 namespace corotet
 {
-  /// Where a probe is taken that no cell has: the point of the body nearest to
-  /// it, if it is near (nearest_point()) and there is a @p log, which says so.
+  /// The position of a probe that no cell contains: the nearest point of the
+  /// body if it is near (nearest_point()) and there is a @p log, which says so.
   /// Throws the InputError, blamed on @p entry, otherwise. Collective.
   dealii::Point<3>
   nearest_point_to_probe(const ProbePoint     &probe,
@@ -38,18 +38,18 @@ namespace corotet
    * Points of the undeformed body, anywhere in it, at which a displacement is
    * evaluated: u(x) = sum_i u_i N_i(x) in the cell that contains x.
    *
-   * A point on several cells is evaluated in one that it is least outside of,
-   * by round-off, on the lowest rank that has such a one. The cell's nodes and
-   * the values of N_i are found once. @p discretization must outlive this
-   * object.
+   * A point on several cells is evaluated in the cell that it is least outside
+   * of, by round-off, on the lowest rank that has such a cell. The cell's nodes
+   * and the values of N_i are computed once. @p discretization must outlive
+   * this object.
    */
   class Probes
   {
   public:
-    /// With a @p log, points that are a little outside of the cells
-    /// (PointSearch), as those on a curved surface are, are taken at the
+    /// With a @p log, points that are slightly outside of the cells
+    /// (PointSearch), such as those on a curved surface, are moved to the
     /// nearest point of the body. Throws InputError blamed on Output/Probes for
-    /// others. Collective.
+    /// other points. Collective.
     Probes(const std::vector<ProbePoint> &points,
            const Discretization          &discretization,
            Log *const                     log = nullptr);
@@ -60,7 +60,7 @@ namespace corotet
       return probe_names;
     }
 
-    /// Displacement of each probe [m], on all ranks. Ghost entries of @p
+    /// The displacement of each probe [m], on all ranks. Ghost entries of @p
     /// displacement must be up to date. Collective.
     std::vector<dealii::Tensor<1, 3>>
     displacements(const Vector &displacement) const;

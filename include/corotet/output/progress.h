@@ -13,9 +13,9 @@
 namespace corotet
 {
   /**
-   * What a Progress says of a step: step, time, share done of the run from
-   * @p start_time to @p end_time, rounded down, time left, Newton and linear
-   * iterations. @p seconds_left is left out if it is negative.
+   * The text of a Progress about a step: step, time, completed share of the run
+   * from @p start_time to @p end_time, rounded down, time left, Newton and
+   * linear iterations. @p seconds_left is left out if it is negative.
    */
   std::string
   progress_text(const StepRecord &record,
@@ -24,18 +24,19 @@ namespace corotet
                 const double      seconds_left);
 
   /**
-   * Shows how far a run is. Every step becomes the live line of a terminal.
+   * Shows the progress of a run. Every step replaces the progress line of a
+   * terminal.
    *
-   * Lines that stay (on the terminal, in a file or pipe, and in log.txt) come
-   * for the first and the last step, and between them at most every 2 seconds:
-   * when another per cent of the run is done or a minute has passed. So a
-   * long run leaves some hundred lines, however many steps it has.
+   * Permanent lines (on the terminal, in a file or pipe, and in log.txt) are
+   * written for the first and the last step, and between them at most every 2
+   * seconds, when another per cent of the run is done or a minute has passed.
+   * So a long run leaves some hundred lines, however many steps it has.
    */
   class Progress : public Observer
   {
   public:
-    /// @p log must outlive this object. Of a run from @p run_start to
-    /// @p end_time, in s.
+    /// Shows a run from @p run_start to @p end_time [s]. @p log must outlive
+    /// this object.
     Progress(const double run_start, const double end_time, Log &log);
 
     void
@@ -57,12 +58,13 @@ namespace corotet
     double end_time;
     Log   &log;
 
-    /// When this part of the run began, perhaps at a checkpoint, and the time
-    /// [s] there.
+    /// The start of this part of the run, perhaps at a checkpoint, and the
+    /// simulated time [s] there.
     Clock::time_point begin;
     double            start_time = 0;
 
-    /// When the last line that stays was written, and the time [s] it told.
+    /// The wall time when the last permanent line was written, and its
+    /// simulated time [s].
     Clock::time_point line_written;
     double            line_time  = 0;
     bool              first_step = true;

@@ -13,9 +13,9 @@
 namespace corotet
 {
   /**
-   * Warns if the results of a run of so many steps [-] and @p duration seconds,
-   * rows of the history and states of the time series, will be larger than the
-   * room on the disk of @p directory, or than 100 GB. Collective.
+   * Warns if the results of a run of so many steps [-] and @p duration seconds
+   * (rows of the history and states of the time series) will be larger than the
+   * free space on the disk of @p directory, or than 100 GB. Collective.
    */
   void
   warn_of_size(const OutputParameters &parameters,

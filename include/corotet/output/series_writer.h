@@ -10,9 +10,9 @@
 namespace corotet
 {
   /**
-   * An observer that writes a time series for ParaView: which states it has,
-   * the first and the last among them, and how it goes on after a restart.
-   * Members throw MachineError if a file cannot be written.
+   * An observer that writes a time series for ParaView. It decides which states
+   * are written, among them the first and the last, and continues the series
+   * after a restart. Members throw MachineError if a file cannot be written.
    */
   class SeriesWriter : public Observer
   {
@@ -23,7 +23,8 @@ namespace corotet
     void
     transfer(Archive &archive) override;
 
-    /// Also writes the mesh again: the ranks of its cells may be others.
+    /// Continues the series; writes the mesh again, as the ranks of its cells
+    /// may have changed.
     void
     resume(const Snapshot &state) override;
 
@@ -36,12 +37,11 @@ namespace corotet
   protected:
     explicit SeriesWriter(const VtkhdfSeries &series);
 
-    /// Writes the file of the mesh, as VtkhdfSeries says. Collective.
+    /// Writes the file of the mesh, described in VtkhdfSeries. Collective.
     virtual void
     write_mesh(const Snapshot &state) = 0;
 
-    /// Writes the tables of a result, in the groups that they belong to.
-    /// Collective.
+    /// Writes the tables of a result, each in its group. Collective.
     virtual void
     write_tables(Hdf5File &file, const Snapshot &state) = 0;
 

@@ -14,14 +14,14 @@ namespace corotet
 {
   /**
    * Writes stress as it was computed: stress_points.vtkhdf, a time series with
-   * a vertex (cell type 1) at each point of the stiffness rule of each cell, at
-   * its place at rest, with displacement, stress and strain there. Its states
-   * are those of the VtkhdfWriter with the same time between results.
+   * a vertex (cell type 1) at the position at rest of each point of each cell's
+   * stiffness rule, with displacement, stress and strain there. Its states are
+   * those of the VtkhdfWriter with the same time between results.
    */
   class StressPointsWriter : public SeriesWriter
   {
   public:
-    /// See VtkhdfSeries.
+    /// The arguments are those of VtkhdfSeries.
     StressPointsWriter(const std::string &directory,
                        const double       time_between_results,
                        const std::size_t  n_joined = 32);
@@ -32,7 +32,8 @@ namespace corotet
     void
     write_tables(Hdf5File &file, const Snapshot &state) override;
 
-    /// Of the cells, from start() on, and how many points each has.
+    /// The order of the cells, from start() on, and the number of points of a
+    /// cell.
     std::optional<FileOrder> cells;
     hsize_t                  n_points = 0;
   };

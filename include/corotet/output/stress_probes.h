@@ -14,19 +14,19 @@ namespace corotet
 {
   /**
    * Points of the undeformed body, anywhere in it, at which stress is
-   * evaluated: the recovered one or the raw one, that of the displacement.
-   * Where cells meet it is the mean of theirs, and where materials meet the
-   * mean of the materials', so that the distribution over ranks makes no
-   * difference.
+   * evaluated: the recovered stress or the raw one, that of the displacement.
+   * Where cells meet, the result is the mean over the cells of each material,
+   * and then the mean over the materials, so that the distribution over ranks
+   * makes no difference.
    *
    * @p discretization must outlive this object.
    */
   class StressProbes
   {
   public:
-    /// With a @p log, points that are a little outside are taken at the nearest
-    /// point of the body, as those of Probes are. Throws InputError blamed on
-    /// Output/Stress probes for others. Collective.
+    /// With a @p log, points that are slightly outside are moved to the nearest
+    /// point of the body, as in Probes. Throws InputError blamed on
+    /// Output/Stress probes for other points. Collective.
     StressProbes(const std::vector<ProbePoint> &points,
                  const Discretization          &discretization,
                  const bool                     raw = false,
@@ -38,8 +38,8 @@ namespace corotet
       return probe_names;
     }
 
-    /// Stress of each probe [Pa], on all ranks. Recovers it if that is wanted
-    /// and not done. Collective.
+    /// The stress of each probe [Pa], on all ranks. Recovers the stress if that
+    /// is needed and not done yet. Collective.
     std::vector<dealii::SymmetricTensor<2, 3>>
     stresses(StressField &field) const;
 
@@ -56,7 +56,7 @@ namespace corotet
     bool                           raw;
     std::vector<std::string>       probe_names;
     std::vector<StressProbeInCell> located;
-    /// Cells of these, each once.
+    /// The cells of these probes, each once.
     std::vector<unsigned int> cells;
   };
 } // namespace corotet

@@ -15,7 +15,7 @@
 
 namespace corotet
 {
-  /// Components of a symmetric tensor in VTK's order, by name.
+  /// The names of the components of a symmetric tensor in VTK's order.
   inline const std::array<std::string, 6> vtk_components{
     {"xx", "yy", "zz", "xy", "yz", "xz"}};
 
@@ -31,16 +31,16 @@ namespace corotet
   class StressTables
   {
   public:
-    /// Their names and columns.
+    /// The names and numbers of columns of the tables.
     static const std::vector<VtkhdfSeries::Table> &
     tables();
 
-    /// Of nodes, or of cells that have @p n_points points each. @p order
+    /// Tables of nodes, or of cells that have @p n_points points each. @p order
     /// must outlive this object.
     explicit StressTables(const FileOrder  &order,
                           const std::size_t n_points = 1);
 
-    /// Of the next owned node or point: stress [Pa] and strain [-].
+    /// Adds the next owned node or point: its stress [Pa] and strain [-].
     void
     add(const dealii::SymmetricTensor<2, 3> &sigma,
         const dealii::SymmetricTensor<2, 3> &epsilon);
@@ -52,7 +52,7 @@ namespace corotet
   private:
     const FileOrder  &order;
     const std::size_t n_points;
-    /// In the order of tables().
+    /// The values of each table, in the order of tables().
     std::array<std::vector<double>, 4> values;
   };
 } // namespace corotet

@@ -14,11 +14,11 @@ namespace corotet
 {
   /**
    * Writes summary.json when the run ends, also if it failed. The file is
-   * complete or absent. Not a number is written as null.
+   * complete or absent. A value that is not a number is written as null.
    *
-   * @p history, which must be called before this observer and must outlive it,
-   * gives the last row. With @p with_error_estimate the summary has that of the
-   * last state's stress.
+   * @p history gives the last row; it must be called before this observer and
+   * must outlive it. With @p with_error_estimate the summary has the estimated
+   * error of the last state's stress.
    */
   class SummaryWriter : public Observer
   {
@@ -46,7 +46,8 @@ namespace corotet
     const HistoryWriter &history;
     MPI_Comm             comm;
     bool                 with_error_estimate;
-    /// Of the last state: |sigma* - sigma|_E [sqrt(J)], and relative.
+    /// The estimated error of the last state's stress: |sigma* - sigma|_E
+    /// [sqrt(J)], and relative.
     struct ErrorEstimate
     {
       double energy_norm;
@@ -56,9 +57,9 @@ namespace corotet
   };
 
   /**
-   * Writes @p directory/summary.json: what all runs have in common, with the
-   * entries of @p results in the middle. Throws MachineError if the file cannot
-   * be written. Collective.
+   * Writes @p directory/summary.json: the entries that all runs have in common,
+   * with the entries of @p results in the middle. Throws MachineError if the
+   * file cannot be written. Collective.
    */
   void
   write_summary(const std::string            &directory,

@@ -13,7 +13,7 @@
 namespace corotet
 {
   /**
-   * Forces and moments that single supports exert on the body: the sums over
+   * The forces and moments that single supports exert on the body: sums over
    * the prescribed unknowns at their nodes.
    */
   class SupportReactions
@@ -21,16 +21,16 @@ namespace corotet
   public:
     struct Reaction
     {
-      /// In N.
+      /// The force [N].
       dealii::Tensor<1, 3> force;
-      /// About the origin, with current positions [N m].
+      /// The moment about the origin, with current positions [N m].
       dealii::Tensor<1, 3> moment;
     };
 
     SupportReactions() = default;
 
-    /// Throws InputError, blamed on Output/Reactions, for unknown names and
-    /// where nothing is prescribed. Collective.
+    /// Throws InputError, blamed on Output/Reactions, for unknown names and for
+    /// supports where nothing is prescribed. Collective.
     SupportReactions(const std::vector<NamedSupport> &supports,
                      const Body                      &body);
 
@@ -40,14 +40,14 @@ namespace corotet
       return support_names;
     }
 
-    /// Of each support, on all ranks, at the time for which the equation of
-    /// motion was solved. Collective.
+    /// The reactions of each support, on all ranks, at the time for which the
+    /// equation of motion was solved. Collective.
     std::vector<Reaction>
     reactions(const Snapshot &state) const;
 
   private:
-    /// A prescribed unknown of a support: its place among those of this rank,
-    /// and its component.
+    /// A prescribed unknown of a support: its index among the prescribed
+    /// unknowns of this rank, and its component.
     struct Entry
     {
       unsigned int support;

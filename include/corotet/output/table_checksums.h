@@ -13,14 +13,14 @@
 
 namespace corotet
 {
-  /// What tells whether tables are the same: by name, the number of rows and
-  /// their checksum.
+  /// The data to recognize changed tables: for each name, the number of rows
+  /// and their checksum.
   nlohmann::ordered_json
   table_checksums(const TableFunctions &tables);
 
-  /// Names of those @p tables whose rows were others when table_checksums() was
-  /// @p before; rows may have been added behind them. Throws
-  /// nlohmann::json::exception if @p before is of another form.
+  /// The names of those @p tables whose rows have changed since
+  /// table_checksums() was @p before; rows may have been added at the end.
+  /// Throws nlohmann::json::exception if @p before has another form.
   std::vector<std::string>
   changed_tables(const nlohmann::ordered_json &before,
                  const TableFunctions         &tables);

@@ -19,18 +19,18 @@ namespace corotet
    * A time series for ParaView: NAME.vtkhdf, a temporal UnstructuredGrid of
    * VTKHDF 2.0 with one mesh for all results.
    *
-   * Numbers are in files beside it, NAME/mesh.h5 (once) and
+   * The numbers are in files beside it, NAME/mesh.h5 (once) and
    * NAME/step_NNNNNN.h5 (one per result, NNNNNN is the step), which the caller
    * writes, by all ranks together. NAME.vtkhdf itself refers to them by
    * relative names only (external links and virtual datasets), so the folder
    * can be moved. It is replaced after each result, and each file is complete
-   * or absent: so a run that is killed leaves every finished result readable.
+   * or absent: a run that is killed leaves every finished result readable.
    *
-   * References cost time, to write and to read, so there must not be one to
+   * Writing and reading references takes time, so there must not be one for
    * each of thousands of results: NAME/block_NNNNNN.h5 refers to 32 results
    * from that of step NNNNNN on, NAME/block_2_NNNNNN.h5 to 32 of such blocks,
-   * and so on. These have the times of their results, too. So the size of
-   * NAME.vtkhdf grows with the logarithm of the number of results only.
+   * and so on. Blocks also have the times of their results. So the size of
+   * NAME.vtkhdf grows only with the logarithm of the number of results.
    */
   class VtkhdfSeries
   {
@@ -45,19 +45,19 @@ namespace corotet
     /**
      * Writes into @p directory. A result is due at the first step at or after
      * each multiple of @p time_between_results [s] (0: every step). @p n_joined
-     * blocks make a larger one.
+     * results or blocks are joined to a larger block.
      */
     VtkhdfSeries(const std::string &directory,
                  const std::string &name,
                  const double       time_between_results,
                  const std::size_t  n_joined);
 
-    /// What each result has: tables with a row per point and per cell.
+    /// The tables of each result, with a row per point and per cell.
     std::vector<Table> point_data;
     std::vector<Table> cell_data;
     /// Cell data in the mesh file: lists, the same for all results.
     std::vector<std::string> static_cell_data;
-    /// Over all ranks.
+    /// The numbers of points and cells on all ranks.
     hsize_t n_points = 0;
     hsize_t n_cells  = 0;
 
@@ -65,20 +65,20 @@ namespace corotet
     void
     make_folder(const MPI_Comm comm) const;
 
-    /// Of the file that the caller writes once: Points, Types, Connectivity,
-    /// Offsets, the static cell data, and what write_sizes() writes.
+    /// The path of the mesh file, which the caller writes once, with Points,
+    /// Types, Connectivity, Offsets, the static cell data, and write_sizes().
     std::string
     mesh_file() const
     {
       return directory + "/" + name + "/mesh.h5";
     }
 
-    /// The numbers of points, cells and connectivity ids. Collective.
+    /// Writes the numbers of points, cells and connectivity ids. Collective.
     void
     write_sizes(Hdf5File &file, const hsize_t n_connectivity_ids) const;
 
-    /// Offsets of a mesh whose cells have @p n_nodes points each: those of the
-    /// rank's own @p cells. Collective.
+    /// Writes the offsets of a mesh whose cells have @p n_nodes points each; @p
+    /// cells are the rows of this rank. Collective.
     static void
     write_offsets(Hdf5File       &file,
                   const Hdf5Rows &cells,
@@ -88,40 +88,41 @@ namespace corotet
     bool
     is_due(const double time) const;
 
-    /// Whether a state of @p time is later than the last result.
+    /// Whether @p time is later than the last result.
     bool
     is_new(const double time) const
     {
       return times.empty() || time > times.back();
     }
 
-    /// Of the file that the caller writes for the result of a step: the tables
-    /// of all points and cells, in groups PointData and CellData.
+    /// The path of the file that the caller writes for the result of a step,
+    /// with the tables of all points and cells in groups PointData and
+    /// CellData.
     std::string
     result_file(const unsigned int step) const;
 
-    /// Makes these groups. Collective.
+    /// Makes the groups PointData and CellData. Collective.
     static void
     create_groups(Hdf5File &file, const std::string &parent = "");
 
-    /// The results up to now.
+    /// Transfers the list of results up to now.
     void
     transfer(Archive &archive);
 
-    /// Makes the series what it was when transfer() wrote it, at step @p step:
-    /// results that came later go. Throws MachineError, also if files of
-    /// results are not what they were. Collective.
+    /// Restores the series as it was when transfer() wrote it, at step @p step;
+    /// later results are removed. Throws MachineError, also if files of results
+    /// have changed. Collective.
     void
     resume(const unsigned int step, const MPI_Comm comm);
 
-    /// Makes a result that is complete part of the series. Throws MachineError.
-    /// Collective.
+    /// Adds a complete result to the series. Throws MachineError. Collective.
     void
     add_result(const unsigned int step, const double time, const MPI_Comm comm);
 
   private:
-    /// A file in the folder that has or refers to the numbers of @p n_results
-    /// results in a row; @p step is the step of the first.
+    /// A file in the folder with the numbers of @p n_results consecutive
+    /// results, or with references to them; @p step is the step of the first
+    /// one.
     struct DataBlock
     {
       unsigned int level;
@@ -132,34 +133,36 @@ namespace corotet
       file_name() const;
     };
 
-    /// Throws MachineError if a file of a result or a block is missing, or one
-    /// of a result has another size. On rank 0.
+    /// Throws MachineError if a file of a result or a block is missing, or if
+    /// the file of a result has another size. Called on rank 0.
     void
     check_files() const;
-    /// Names of the files of all blocks, and of those that they refer to.
+    /// The names of the files of all blocks, and of the blocks that they refer
+    /// to.
     std::set<std::string>
     block_files() const;
-    /// Replaces the last blocks by one, as long as there are enough of the same
-    /// level. On rank 0.
+    /// Joins the last blocks, as long as there are enough of the same level.
+    /// Called on rank 0.
     void
     join_blocks();
-    /// Number of results in the blocks before number @p block.
+    /// The number of results in the blocks before number @p block.
     std::size_t
     n_results_before(const std::size_t block) const;
-    /// Writes times and first rows of results in a group Steps. On rank 0.
+    /// Writes times and first rows of results in a group Steps. Called on rank
+    /// 0.
     void
     write_steps(Hdf5File         &file,
                 const std::size_t first,
                 const std::size_t n_results) const;
-    /// Writes NAME.vtkhdf. On rank 0.
+    /// Writes NAME.vtkhdf. Called on rank 0.
     void
     write_index() const;
     void
     write_index_steps(Hdf5File &file) const;
-    /// Writes the tables that stand for those of all blocks from number @p
-    /// first_block on, into the groups in @p parent (with a slash at the end,
-    /// or empty), which it makes; @p folder is that of the blocks relative to
-    /// the file's.
+    /// Writes tables that refer to those of all blocks from number @p
+    /// first_block on. It makes their groups in @p parent, which ends with a
+    /// slash or is empty. @p folder is the folder of the blocks relative to the
+    /// file's.
     void
     write_references(Hdf5File          &file,
                      const std::size_t  first_block,
@@ -171,11 +174,11 @@ namespace corotet
     double      time_between_results;
     std::size_t n_joined;
 
-    /// Of all results so far.
+    /// The times of all results so far.
     std::vector<double>    times;
     std::vector<DataBlock> blocks;
-    /// Their steps, and the sizes of their files [byte], which only rank 0
-    /// knows.
+    /// The steps of all results, and the sizes of their files [byte], which
+    /// only rank 0 knows.
     std::vector<unsigned int> result_steps;
     std::vector<std::size_t>  result_sizes;
   };

@@ -16,8 +16,8 @@
 namespace corotet
 {
   /**
-   * Where VTK's Lagrange tetrahedron (cell type 71) has its nodes: element i is
-   * the number of VTK's node i in FE_SimplexP(@p degree). Degrees 1, 2, 3.
+   * The nodes of VTK's Lagrange tetrahedron (cell type 71): element i is the
+   * number in FE_SimplexP(@p degree) of VTK's node i. Degrees 1, 2, 3.
    *
    * VTK's order: vertices; edges 01, 12, 20, 03, 13, 23, each from its first
    * to its second vertex; faces 013, 123, 023, 012.
@@ -28,16 +28,16 @@ namespace corotet
   /**
    * Writes the time series for ParaView: solution.vtkhdf, a temporal
    * UnstructuredGrid of VTKHDF 2.0 with Lagrange tetrahedra of the run's own
-   * degree. Of an element with bubbles the nodes on vertices and edges are
-   * written: quadratic interpolation of what was computed.
+   * degree. For an element with bubbles only the nodes on vertices and edges
+   * are written: the quadratic interpolant of the solution.
    *
-   * How the series is stored tells VtkhdfSeries.
+   * VtkhdfSeries describes how the series is stored.
    */
   class VtkhdfWriter : public SeriesWriter
   {
   public:
-    /// See VtkhdfSeries. @p with_stress: with the recovered stress at nodes and
-    /// the estimate of its error.
+    /// The arguments are those of VtkhdfSeries; with @p with_stress the series
+    /// also has the recovered stress at nodes and the estimate of its error.
     VtkhdfWriter(const std::string &directory,
                  const double       time_between_results,
                  const std::size_t  n_joined    = 32,
@@ -50,7 +50,7 @@ namespace corotet
     write_tables(Hdf5File &file, const Snapshot &state) override;
     void
     write_connectivity(const Nodes &shown, Hdf5File &file);
-    /// Writes the values at the nodes that are shown. Collective.
+    /// Writes the values at the nodes that are written. Collective.
     void
     write_nodal(Hdf5File &file, const std::string &name, const Vector &values);
     void
@@ -58,9 +58,9 @@ namespace corotet
 
     bool with_stress;
 
-    /// The nodes that are shown if these are not all.
+    /// The nodes that are written, if these are not all nodes.
     std::unique_ptr<CoarserNodes> without_bubbles;
-    /// Of the nodes that are shown, and of the cells; from start() on.
+    /// The order of the written nodes, and of the cells; from start() on.
     std::optional<FileOrder> nodes;
     std::optional<FileOrder> cells;
   };

@@ -21,47 +21,48 @@ namespace corotet
   };
 
   /**
-   * Reads a .csv file with a line of names and lines of numbers, nan among
-   * them; texts in quotation marks count as that, too. Throws MachineError if
-   * it is none.
+   * Reads a .csv file with a line of names and lines of numbers, which may be
+   * nan; texts in quotation marks count as nan, too. Throws MachineError if the
+   * file has another form.
    */
   ResultTable
   read_result_table(const std::string &path);
 
   /**
-   * What a check found.
+   * The result of a check.
    */
   struct CheckResult
   {
     std::string name;
     double      computed  = 0;
     double      reference = 0;
-    /// Computed less reference. In percent of the reference if the tolerance
-    /// is.
+    /// The computed value minus the reference. In percent of the reference if
+    /// the tolerance is.
     double error = 0;
-    /// "0.1 %", "1e-09"; "below" or "above" if the reference is a bound.
+    /// The text of the tolerance, "0.1 %" or "1e-09"; "below" or "above" if the
+    /// reference is a bound.
     std::string tolerance;
     bool        relative = false;
     bool        passed   = false;
   };
 
   /**
-   * A number that a run has computed and what it is to be:
+   * A comparison of a computed number with its expected value:
    *
    *   NAME: STATISTIC FORMULA [where CONDITION] = REFERENCE +- TOLERANCE
    *
    * The statistic (first, last, min, max, mean; range: max - min) is that of
    * the formula's values in those rows of a table where the condition holds.
-   * Formula and condition are in the names of the columns, reference and
-   * tolerance are constants, all in the syntax of Expression. A tolerance
-   * that ends in % is relative to the reference. In place of `= REFERENCE +-
-   * TOLERANCE` there may be a bound, `< REFERENCE` or `> REFERENCE`. What is
-   * not a number passes nothing, nor does a check without any row.
+   * Formula and condition use the names of the columns, reference and tolerance
+   * are constants, all in the syntax of Expression. A tolerance that ends in %
+   * is relative to the reference. In place of `= REFERENCE +- TOLERANCE` there
+   * may be a bound, `< REFERENCE` or `> REFERENCE`. A value that is not a
+   * number fails every check, and so does a check without rows.
    */
   class Check
   {
   public:
-    /// Throws an InputError that blames Verification/Checks if @p text is no
+    /// Throws an InputError that blames Verification/Checks if @p text is not a
     /// check of a table with these @p columns.
     Check(const std::string &text, const std::vector<std::string> &columns);
     ~Check();
@@ -78,7 +79,8 @@ namespace corotet
       return label;
     }
 
-    /// @p table has the columns that the check was made for.
+    /// Checks @p table, which must have the columns that the check was made
+    /// for.
     CheckResult
     evaluate(const ResultTable &table) const;
 
@@ -96,12 +98,12 @@ namespace corotet
     std::string                 label;
     std::string                 statistic;
     std::unique_ptr<RowFormula> formula;
-    /// None: all rows.
+    /// The condition on rows; null if all rows count.
     std::unique_ptr<RowFormula> condition;
-    /// =, < or >.
+    /// The relation =, < or >.
     char   relation  = '=';
     double reference = 0;
-    /// As written; empty for a bound.
+    /// The tolerance as written by the user; empty for a bound.
     std::string tolerance_text;
     double      tolerance = 0;
     bool        relative  = false;

@@ -9,16 +9,16 @@
 namespace corotet
 {
   /**
-   * What a user can choose from, as lines of text: ready cases with what they
-   * are about, and the names of laws, forces, integrators, preconditioners,
-   * sources of meshes and formats of their files, those that programs have
-   * added among them.
+   * The choices of a user, as lines of text: ready cases with their
+   * descriptions, and the names of laws, forces, integrators, preconditioners,
+   * sources of meshes and formats of their files, including those that programs
+   * have added.
    */
   std::string
   list_choices();
 
-  /// The first sentence of the comment that a parameter file begins with, of
-  /// one line; a long one ends with "...".
+  /// The first sentence of the comment at the beginning of a parameter file, at
+  /// most one line long; a longer one is cut and ends with "...".
   std::string
   first_sentence(const std::string &parameter_file);
 } // namespace corotet

@@ -7,14 +7,14 @@
 namespace corotet
 {
   /**
-   * The whole program: what the command line asks for, from MPI_Init to
-   * MPI_Finalize. All of a main() that adds candidates to the program's lists
-   * (base/selectable.h) before it calls this.
+   * The whole program: executes the command line, from MPI_Init to
+   * MPI_Finalize. A main() that adds candidates to the program's lists
+   * (base/selectable.h) only has to call this afterwards.
    *
-   * Returns the exit status: 0 done; 1 the input is wrong; 2 the computation
-   * has failed, or a check of it; 3 the machine has failed. Errors are shown on
-   * stderr. To be called once, and where MPI has not been started: what else
-   * starts it uses run_program(comm, action) of base/mpi.h, and SteppedRun.
+   * Returns the exit status: 0 done; 1 the input is wrong; 2 the computation,
+   * or a check of it, has failed; 3 the machine has failed. Errors are shown on
+   * stderr. To be called once, and only if MPI has not been started: programs
+   * that start MPI use run_program(comm, action) of base/mpi.h, and SteppedRun.
    */
   int
   run_program(const int argc, char **argv);

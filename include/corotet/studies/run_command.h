@@ -14,25 +14,26 @@
 namespace corotet
 {
   /**
-   * What the command line asks for: a run of its parameter file with all
-   * results in the output directory, only the check of it, or the list of
-   * parameters. Declares the parameters in @p file and reads it.
+   * Executes the command line: runs its parameter file with all results in the
+   * output directory, only checks it, or lists the parameters. Declares the
+   * parameters in @p file and reads it.
    *
-   * Throws Error of every kind. An InputError with an entry is to be shown with
-   * the place that @p file knows. Collective.
+   * Throws Error of every kind. An InputError with an entry should be shown
+   * with the place that @p file knows. Collective.
    */
   void
   run_command(const CommandLine &command,
               ParameterFile     &file,
               const MPI_Comm     comm);
 
-  /// What has been printed has arrived, or MachineError is thrown. On rank 0.
+  /// Throws MachineError if printed text could not be written. Called on rank
+  /// 0.
   void
   check_standard_output();
 
   /**
-   * Runs @p action. An InputError that it throws with an entry is thrown with
-   * the place instead where @p file or an option of @p command sets that entry.
+   * Runs @p action. If it throws an InputError with an entry, throws one with
+   * the place where @p file or an option of @p command sets that entry.
    */
   void
   with_places(const CommandLine           &command,

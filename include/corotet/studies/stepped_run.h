@@ -17,18 +17,18 @@ namespace corotet
   class Discretization;
 
   /**
-   * A run of the program, step by step, for a program with a loop of its own:
-   * it looks at the state, changes what its own force terms depend on
-   * (operators/force_term.h), and goes on. Results go into the output directory
-   * as those of the program do.
+   * A run of the program, step by step, for a program with a loop of its own,
+   * which looks at the state, changes the input of its own force terms
+   * (operators/force_term.h), and continues. Results go into the output
+   * directory like those of the program.
    *
-   * A load that the caller changes says that it depends on time. What is
-   * changed between two steps holds from the end of the next one on: for the
-   * integrator the load goes there from its last value as if it were given as
-   * an expression that jumps inside of that step.
+   * A load that the caller changes must declare that it depends on time. A
+   * change between two steps is effective from the end of the next step on: for
+   * the integrator the load goes there from its last value, as if it were given
+   * by an expression that jumps inside of that step.
    *
-   * There are no checkpoints, and signals do not end it. Each run has an output
-   * directory of its own; several may go on at once.
+   * There are no checkpoints, and signals do not end the run. Each run has an
+   * output directory of its own; several runs may exist at once.
    *
    * All members are collective.
    */
@@ -37,45 +37,46 @@ namespace corotet
   public:
     /**
      * Reads the parameter file, makes the initial state and its results. Of @p
-     * command the file, the overrides, the output directory and quiet count,
-     * not the rest. Throws InputError, ComputationError and MachineError.
+     * command only the file, the overrides, the output directory and quiet are
+     * used. Throws InputError, ComputationError and MachineError.
      */
     explicit SteppedRun(const CommandLine &command,
                         const MPI_Comm     comm = MPI_COMM_WORLD);
     ~SteppedRun();
 
-    /// Whether the end time is reached, or the run is over: by finish(), or by
-    /// a step that has failed.
+    /// Whether the end time is reached, or the run has been ended by finish()
+    /// or by a step that has failed.
     bool
     is_done() const;
 
     /**
-     * Goes on to the next step that is recorded (every one, unless
+     * Advances to the next step that is recorded (every step, unless
      * Output/Steps between rows says otherwise). Throws ComputationError; then
-     * the run is over and its results are complete. To be called before
-     * is_done() only: throws std::logic_error after it.
+     * the run has ended and its results are complete. Must not be called once
+     * is_done(): throws std::logic_error then.
      */
     void
     step();
 
-    /// Completes the results. After the last step, which need not be that of
-    /// the end time; without effect if the run is over.
+    /// Completes the results. To be called after the last step, which may be
+    /// before the end time; without effect if the run has ended.
     void
     finish();
 
-    /// Of the state [s].
+    /// The time of the state [s].
     double
     time() const;
 
-    /// In m, ghost entries up to date: unknowns 3n, 3n+1, 3n+2 of local node n.
+    /// The displacement [m], with ghost entries up to date: unknowns 3n, 3n+1,
+    /// 3n+2 of local node n.
     const Vector &
     displacement() const;
 
-    /// In m/s, likewise.
+    /// The velocity [m/s], in the same form.
     const Vector &
     velocity() const;
 
-    /// The budget of the last step, equal on all ranks: energies, momenta,
+    /// The record of the last step, equal on all ranks: energies, momenta,
     /// reactions, iterations.
     const StepRecord &
     record() const;

@@ -15,8 +15,8 @@
 namespace corotet
 {
   /**
-   * What one run of a study has that the parameter file does not say. Values
-   * that are not varied are absent.
+   * The values of one run of a study that replace those of the parameter file.
+   * Values that are not varied are absent.
    */
   struct StudyCase
   {
@@ -29,16 +29,16 @@ namespace corotet
     bool
     operator==(const StudyCase &) const = default;
 
-    /// For a file: "degree_2_refinements_1".
+    /// The name of the run for files: "degree_2_refinements_1".
     std::string
     name() const;
 
-    /// As of the command line.
+    /// The values in the form of overrides on the command line.
     std::vector<std::string>
     overrides() const;
   };
 
-  /// What the fields of a study's runs are compared with.
+  /// The reference that the fields of a study's runs are compared with.
   enum class StudyReference
   {
     exact_solution,
@@ -56,7 +56,7 @@ namespace corotet
    */
   struct StudyParameters
   {
-    /// A number that a run results in, and the value that it should have.
+    /// A number among the results of a run, and its reference value.
     struct Quantity
     {
       std::string           name;
@@ -66,12 +66,12 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    /// All runs: for each mass, rotation, degree and time step, all
-    /// refinements one after another.
+    /// All runs: for each mass, rotation, degree and time step, all refinements
+    /// one after another.
     std::vector<StudyCase>
     cases() const;
 
-    /// Throws InputError.
+    /// The quantities of the list. Throws InputError.
     std::vector<Quantity>
     quantity_list() const;
 

@@ -21,50 +21,50 @@
 namespace corotet
 {
   /**
-   * What a study keeps of a run.
+   * The result of a run that a study keeps.
    */
   struct StudyResult
   {
     StudyCase study_case;
-    /// "done" or "failed", and why.
+    /// "done" or "failed", and the reason.
     std::string status = "done";
     std::string message;
 
     std::size_t cells    = 0;
     std::size_t nodes    = 0;
     std::size_t unknowns = 0;
-    /// Edge of the regular tetrahedron that has the mean volume of the cells
+    /// The edge of the regular tetrahedron with the mean volume of the cells
     /// [m].
     double h = 0;
-    /// Against the exact solution, or a finer run.
+    /// Errors relative to the exact solution, or to a finer run.
     std::optional<ErrorNorms> errors;
-    /// In the order of the study's quantities; not a number where the run has
-    /// failed.
+    /// The values of the study's quantities, in their order; not a number if
+    /// the run has failed.
     std::vector<double> quantities;
 
     unsigned int steps = 0;
-    /// The time that the run is long, over its steps [s]: not the one asked for
-    /// where that does not divide it.
+    /// The simulated time divided by the number of steps [s]: it differs from
+    /// the given time step if that does not divide the time.
     double       mean_time_step    = 0;
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
     WallTimes    wall_times;
     double       total_wall_time = 0;
-    /// Over all ranks.
+    /// The largest memory, summed over all ranks.
     std::size_t peak_memory_bytes = 0;
-    /// What its log counts: "2 warnings, 5 steps made in parts".
+    /// The counts of the run's log: "2 warnings, 5 steps made in parts".
     std::string worth_a_look;
   };
 
-  /// For the log: its size, what it took, and how it ended.
+  /// A text for the log: the size of a run, its cost, and its end.
   std::string
   describe(const StudyResult &result);
 
   nlohmann::ordered_json
   result_to_json(const StudyResult &result);
 
-  /// The result of @p study_case as result_to_json() gave it. Throws
-  /// nlohmann::json::exception if the object is none.
+  /// The result of @p study_case from the object that result_to_json() made.
+  /// Throws nlohmann::json::exception if the object has another form.
   StudyResult
   result_from_json(const StudyCase              &study_case,
                    const nlohmann::ordered_json &object);
@@ -77,7 +77,7 @@ namespace corotet
   {
   public:
     /// Reads @p path with @p overrides and those of @p study_case, and checks
-    /// everything. Lines of the run's log go nowhere until compute(). Throws
+    /// everything. The run's log is discarded before compute(). Throws
     /// InputError.
     StudyRun(const std::string              &path,
              const std::vector<std::string> &overrides,
@@ -85,28 +85,28 @@ namespace corotet
              const MPI_Comm                  comm);
     ~StudyRun();
 
-    /// All parameters but those of the study and of the output, and what tells
-    /// whether mesh and tables are the same: to recognize results of another
-    /// problem by. Collective.
+    /// The data to recognize results of another problem: all parameters but
+    /// those of the study and of the output, and checksums of mesh and tables.
+    /// Collective.
     nlohmann::ordered_json
     fingerprint() const;
 
-    /// Volumes of regions [m^3] and areas of boundaries [m^2] at rest that are
-    /// selected by place, by what they are called. Collective.
+    /// The volumes of regions [m^3] and areas of boundaries [m^2] at rest that
+    /// are selected by place, by their names. Collective.
     std::map<std::string, double>
     sizes_of_selected_parts() const;
 
     /**
-     * Runs it, with its log in @p path.log and its checkpoints in the folder
-     * @p path. @p goes_on: from the newest checkpoint that is good and of the
-     * same parameters, if there is one. @p saves_end: the end is a checkpoint,
-     * too. A failure is part of the result. Throws InputError if a quantity is
-     * unknown, and Stopped after a signal.
+     * Runs the case, with its log in @p path.log and its checkpoints in the
+     * folder @p path. @p goes_on: continues from the newest good checkpoint
+     * with the same parameters, if there is one. @p saves_end: writes a
+     * checkpoint at the end. A failure is part of the result. Throws InputError
+     * if a quantity is unknown, and Stopped after a signal.
      */
     StudyResult
     compute(const std::string &path, const bool goes_on, const bool saves_end);
 
-    /// Null if the run is one of modes.
+    /// The simulation; null if modes are computed.
     const Simulation *
     simulation() const
     {
@@ -121,10 +121,10 @@ namespace corotet
              const bool         saves_end);
     void
     analyse_modes(StudyResult &result);
-    /// By name, of the modes that have been computed; others are not numbers.
+    /// The frequencies of the computed modes by name; others are not numbers.
     nlohmann::ordered_json
     frequencies() const;
-    /// The values of the quantities among those that the run has.
+    /// The study's quantities among the @p values of the run.
     std::vector<double>
     pick(const nlohmann::ordered_json &values) const;
 

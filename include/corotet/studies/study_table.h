@@ -12,32 +12,32 @@
 namespace corotet
 {
   /**
-   * The results of a study in rows, with the orders of convergence that two
-   * runs show which differ in nothing but the refinement, or the time step:
-   * log(e_1 / e_2) / log(h_1 / h_2), with mean time steps in place of h.
+   * The results of a study in rows, with orders of convergence from pairs of
+   * runs that differ in the refinement, or the time step, only: log(e_1 / e_2)
+   * / log(h_1 / h_2), with mean time steps in place of h.
    */
   class StudyTable
   {
   public:
-    /// Values that quantities are compared with stand in @p quantities.
+    /// @p quantities have the values that quantities are compared with.
     StudyTable(const std::vector<StudyResult>               &results,
                const std::vector<StudyParameters::Quantity> &quantities);
 
-    /// All that is known, with the names of the columns.
+    /// The whole table, with the names of the columns.
     std::string
     csv() const;
 
-    /// What matters most, in columns.
+    /// The most important columns, as text.
     std::vector<std::string>
     lines() const;
 
-    /// The same for LaTeX (a tabular for package booktabs).
+    /// The most important columns for LaTeX (a tabular for package booktabs).
     std::string
     latex() const;
 
-    /// A line of text for each error that does not shrink with finer cells: by
-    /// less than the power 1/2 of their size, from the finest but one to the
-    /// finest of a series.
+    /// A line of text for each error that does not converge with finer cells:
+    /// from the second finest to the finest mesh of a series it shrinks by less
+    /// than the power 1/2 of the cell size.
     std::vector<std::string>
     not_converging() const;
 
@@ -45,9 +45,9 @@ namespace corotet
     struct Error
     {
       std::string name;
-      /// Of what it is an error, in each row.
+      /// The reference value in each row.
       std::vector<double> references;
-      /// Of each result; not a number if it is not known.
+      /// The error of each result; not a number if it is not known.
       std::vector<double> values;
       std::vector<double> orders;
       std::vector<double> orders_in_time;
@@ -58,7 +58,7 @@ namespace corotet
               const std::vector<double> &references,
               const std::vector<double> &values);
 
-    /// Titles and rows of what matters most.
+    /// The titles and rows of the most important columns.
     std::vector<std::vector<std::string>>
     cells() const;
 

@@ -12,12 +12,13 @@
 
 namespace corotet
 {
-  /// Lines on entries that have been set and have no effect on the run. Throws
-  /// InputError as find_unused_entries() does.
+  /// Lines of text about entries that are set but have no effect on the run.
+  /// Throws InputError as find_unused_entries() does.
   std::vector<std::string>
   unused_parameters(const ParameterFile &file, const RunParameters &parameters);
 
-  /// Whether the density has been set, for statics without gravity.
+  /// Whether the density is set although it has no effect, in statics without
+  /// gravity.
   bool
   has_unused_density(const ParameterFile        &file,
                      const SimulationParameters &parameters);

@@ -17,7 +17,7 @@
 namespace corotet
 {
   /**
-   * Section Verification: numbers that the results of a run are compared with.
+   * Section Verification: checks of a run's results against given numbers.
    */
   class Verification
   {
@@ -31,10 +31,10 @@ namespace corotet
     initialize(const std::vector<std::string> &columns);
 
     /**
-     * Compares the table @p file in @p directory, shows what was found and
-     * writes it to verification.csv there. Does nothing if there are no
-     * checks. @p name is that of the run. Throws ComputationError if a check
-     * fails, and MachineError. Collective.
+     * Checks the table @p file in @p directory, shows the results and writes
+     * them to verification.csv there. Does nothing if there are no checks. @p
+     * name is the name of the run. Throws ComputationError if a check fails,
+     * and MachineError. Collective.
      */
     void
     compare(const std::string &name,
