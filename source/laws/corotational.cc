@@ -12,8 +12,8 @@ namespace corotet
   {
     /**
      * Corotational elasticity with the rotation of each point, P = R sigma(S -
-     * I) with F = R S [seed, 2.73 to 2.76]. Rotations are kept as quaternions:
-     * applications of the tangents wait for what was kept.
+     * I) with F = R S [seed, 2.73 to 2.76]. Rotations are kept as quaternions,
+     * as reading kept numbers limits the speed of the tangents.
      */
     struct CorotationalAtPoints
     {
@@ -40,7 +40,7 @@ namespace corotet
         return isotropic_energy(lame.lambda, lame.mu, e);
       }
 
-      /// R, and T of rotation_stiffness().
+      /// Stores R, and T of rotation_stiffness().
       COROTET_ALWAYS_INLINE unsigned int
       linearize(const LameLanes       &lame,
                 const Tensor2Lanes    &H,
@@ -128,7 +128,7 @@ namespace corotet
         return polar_decomposition(F, R);
       }
 
-      /// The first four numbers that are stored, of a rotation; and back.
+      /// These store a rotation as the first four numbers, and restore it.
       template <int n>
       static COROTET_ALWAYS_INLINE void
       keep(const Tensor2Lanes &R, Simd<double> (&stored)[n])

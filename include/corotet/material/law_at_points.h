@@ -68,7 +68,7 @@ namespace corotet
   } // namespace internal
 
   /**
-   * What MaterialLaw says of single points, for a Law.
+   * The members of MaterialLaw for single points, by a Law.
    */
   template <Law L>
   class LawAtPoints : public MaterialLaw

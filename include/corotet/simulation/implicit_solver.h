@@ -124,11 +124,11 @@ namespace corotet
     };
     RoundOffOfForces
     round_off();
-    /// Whether statics have taken the body to where supports cannot hold it.
+    /// Whether statics have moved the body so far that supports cannot hold it.
     /// Collective.
     bool
     is_out_of_reach() const;
-    /// Says once that round-off has ended Newton's iterations.
+    /// Logs, once, that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
     /// Logs what the linear solver has decided and, once, why solves are slow,

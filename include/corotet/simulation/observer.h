@@ -20,7 +20,7 @@
 namespace corotet
 {
   /**
-   * What an observer sees of a finished step. References are valid during the
+   * The data of a finished step for observers. References are valid during the
    * call only.
    */
   struct Snapshot
@@ -69,8 +69,8 @@ namespace corotet
     unsigned int preconditioner_builds = 0;
     /// Error norms of the last displacement, where the exact one is known.
     std::optional<ErrorNorms> errors;
-    /// Largest angle between rotations inside of cells and those of their
-    /// centres [rad], of the last displacement, where only the latter are used.
+    /// Largest angle [rad], for the last displacement, between rotations inside
+    /// of cells and those at their centres, where only the latter are used.
     std::optional<double> largest_rotation_difference;
 
     WallTimes wall_times;

@@ -52,9 +52,9 @@ namespace corotet
   };
 
   /**
-   * All parameters of a run but those of its output: values, which nothing
-   * changes once they are read, so that any number of bodies and systems may be
-   * made of them. Must not be moved after declare_parameters().
+   * All parameters of a run but those of its output. They do not change once
+   * they are read, so that any number of bodies and systems may be made from
+   * them. Must not be moved after declare_parameters().
    */
   struct SimulationParameters
   {

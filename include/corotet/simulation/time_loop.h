@@ -67,10 +67,10 @@ namespace corotet
     start(const OutputTimes &wanted);
 
     /**
-     * In place of start(): takes all that the steps to come depend on from @p
-     * archive. The end time and the time step may differ from those of the run
-     * that wrote it: equal steps begin anew then. @p record is that of the last
-     * recorded step. Throws InputError if the end time does not fit.
+     * In place of start(): takes all that the steps to come depend on from
+     * @p archive. The end time and the time step may differ from those of the
+     * run that wrote it: equal steps begin anew then. @p record is that of the
+     * last recorded step. Throws InputError if the end time does not fit.
      */
     void
     resume(const OutputTimes &wanted,
@@ -181,11 +181,11 @@ namespace corotet
     transfer(Archive &archive);
     void
     transfer_parts(Archive &archive);
-    /// Where equal steps begin and how many there are, from now on: step
-    /// @p step has been reached. Throws InputError.
+    /// Divides the rest of the run, from step @p step on, into equal steps.
+    /// Throws InputError.
     void
     begin_equal_steps(const unsigned int step);
-    /// Throw InputError.
+    /// These throw InputError.
     void
     check_parameters() const;
     void
@@ -232,7 +232,7 @@ namespace corotet
     /// @p record becomes that of a step of which no part is done.
     void
     begin_step(StepRecord &record);
-    /// What the log says after a step.
+    /// Logs what is to be said after a step.
     void
     report(const StepRecord &record) const;
     /// Makes the step of @p record, or what is left of it. Returns false if
@@ -349,7 +349,7 @@ namespace corotet
     unsigned int n_steps    = 0;
     unsigned int first_step = 0;
     double       first_done = 0;
-    /// Of the equal steps, or what stability allows [s].
+    /// Length of the equal steps, or the stable one [s].
     double step_length = 0;
     /// Null if the length of steps does not follow their error.
     std::unique_ptr<AdaptiveStep> adaptive;
