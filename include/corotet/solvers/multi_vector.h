@@ -106,7 +106,7 @@ namespace corotet
                const double       b,
                const MultiVector &B);
 
-    /// this = a A C + b this. A has no column of this.
+    /// this = a A C + b this. A and this must have no column in common.
     void
     add_product(const double                  a,
                 const MultiVector            &A,

@@ -140,8 +140,7 @@ namespace corotet
     /// Units of the stiffness and of the mass in single precision.
     double stiffness_unit = 1;
     double mass_unit      = 1;
-    /// Factor of the operator relative to its values in these units; vmult()
-    /// divides by it.
+    /// The scale of the operator, by which vmult() divides.
     double scale = 1;
 
     CellProportions              the_proportions;
