@@ -9,7 +9,7 @@
 
 namespace corotet
 {
-  /// Asks for the cache lines of an object that will be read soon.
+  /// Prefetches the cache lines of an object that will be read soon.
   template <typename Object>
   COROTET_ALWAYS_INLINE void
   fetch_object(const Object *object)
