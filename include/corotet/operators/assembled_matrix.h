@@ -122,7 +122,7 @@ namespace corotet
     add_others(const double                   c_M,
                const Vector                  *lumped_mass,
                const SurfaceOperator<double> *surface);
-    /// Adds block i, j of these cells and its transpose.
+    /// Adds block i, j of cells [first, first + n_cells) and its transpose.
     void
     add_lanes(const unsigned int first,
               const unsigned int n_cells,

@@ -151,7 +151,7 @@ namespace corotet
     double
     diagonal(const int row) const;
 
-    /// All of this rank.
+    /// The values of all rows of this rank.
     const double *
     values_begin() const
     {
@@ -164,7 +164,7 @@ namespace corotet
       return values.size();
     }
 
-    /// The largest absolute one of this rank; 0 if it has none.
+    /// The largest absolute value of this rank; 0 if it has none.
     double
     largest_value() const;
 
