@@ -236,8 +236,7 @@ namespace corotet
              vector_at(equation.displacement(), n);
     };
 
-    // Reactions and moments are those at the time where the equation of motion
-    // holds.
+    // Reactions and moments are those where the equation of motion holds.
     record.reaction = Tensor<1, 3>();
     for (std::size_t k = 0; k < support_force_list.size(); ++k)
       {

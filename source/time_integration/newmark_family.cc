@@ -40,8 +40,8 @@ namespace corotet
     constexpr double round_off = 1e-12;
     if (std::abs(c.gamma - (0.5 - c.alpha_m + c.alpha_f)) > round_off)
       return 0;
-    // With conditionally stable methods steps grow until their waves do, and
-    // near beta = 1/6 the estimate vanishes.
+    // With conditionally stable methods steps would grow until waves become
+    // unstable, and near beta = 1/6 the estimate vanishes.
     if (c.alpha_m == 0 && c.alpha_f == 0 && 2 * c.beta < c.gamma)
       return 0;
     return std::abs(1. / 6 - c.beta - 0.5 * (c.alpha_m - c.alpha_f));

@@ -199,7 +199,8 @@ namespace corotet
 
     std::shared_ptr<const BlockPattern> the_pattern;
     std::vector<double>                 values;
-    /// What is multiplied, with the entries of ghosts; without ghosts unused.
+    /// The vector that is multiplied, with the entries of ghosts; unused
+    /// without ghosts.
     mutable std::vector<double> source;
   };
 } // namespace corotet
