@@ -99,8 +99,8 @@ namespace corotet
         corotational_tangent(R, lame.lambda, lame.mu, dF, dP);
       }
 
-      /// R sigma R^T: the strain turned back into space, without the terms of
-      /// second order that make Cauchy's stress of it.
+      /// The stress R sigma R^T: sigma rotated back into space, which is
+      /// Cauchy's stress up to terms of the order of the strain.
       COROTET_ALWAYS_INLINE void
       spatial_stress(const LameLanes    &lame,
                      const Tensor2Lanes &H,
@@ -119,7 +119,7 @@ namespace corotet
       }
 
     private:
-      /// F = I + H and its rotation.
+      /// Computes F = I + H and its rotation.
       static COROTET_ALWAYS_INLINE PolarLanes
       rotation(const Tensor2Lanes &H, Tensor2Lanes &F, Tensor2Lanes &R)
       {

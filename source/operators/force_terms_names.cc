@@ -37,7 +37,7 @@ namespace corotet
             f = 0;
             terms[i]->add_force(f, motions[k]);
             f.compress(dealii::VectorOperation::add);
-            // A load that is not finite there has an effect.
+            // A formula that is not finite there counts as one with an effect.
             const double all = norm(f);
             if (!std::isfinite(all))
               {

@@ -68,7 +68,7 @@ namespace corotet
     began_unloaded          = true;
     is_unloaded             = true;
     initial_changing_energy = 0;
-    // The energy of the guess is there without any work.
+    // The balance begins with the guess's energy, for which no work was done.
     initial.energy_balance = initial.elastic_energy;
   }
 

@@ -129,7 +129,7 @@ namespace corotet
         std::min<std::size_t>(rigid_motions.size(), computed.size()),
       computed.end(),
       [](const Mode &a, const Mode &b) { return a.eigenvalue < b.eigenvalue; });
-    // The ghost entries of shapes have not been sorted with them.
+    // Sorting has not kept the ghost entries of shapes up to date.
     for (Mode &mode : computed)
       mode.shape.update_ghost_values();
     log_table();

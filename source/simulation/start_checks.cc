@@ -133,7 +133,7 @@ namespace corotet
     // Displacements of a linear law may be of any size.
     if (!equation.body.law->is_linear())
       check_inversions(equation.body.elasticity.state(equation.displacement()));
-    // Better now than after hours.
+    // A load that is not finite is better found now than after hours.
     check_loads(equation, initial, parameters.end_time);
   }
 

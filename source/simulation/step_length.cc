@@ -220,8 +220,7 @@ namespace corotet
     const double latest =
       std::max(std::abs(start), std::abs(parameters.end_time));
     // A time is decimal if it has at most this number of digits, up to the
-    // round-off of three operations. (Steps that are not decimal have more
-    // digits.)
+    // round-off of three operations.
     constexpr int    n_digits  = 12;
     constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
     // Powers of ten are exact up to this exponent.

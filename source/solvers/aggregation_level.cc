@@ -172,8 +172,7 @@ namespace corotet
           {
             inverse.invert();
           }
-        // Singular are the blocks of a body that is held nowhere and is a
-        // single aggregate.
+        // The block is singular if a body is held nowhere and is one aggregate.
         catch (const dealii::ExceptionBase &)
           {
             inverse = 0.;

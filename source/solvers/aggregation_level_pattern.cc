@@ -159,7 +159,6 @@ namespace corotet
       }
     // Lines of points make aggregates of three points, so hardly fewer points:
     // these are aggregated once more.
-    // three points: these are aggregated once more.
     constexpr int   few = 12, most_passes = 2;
     const NodeGraph joined =
       part_of(graph, [&](int, const int k) { return is_joined[k]; });

@@ -17,11 +17,12 @@ namespace corotet
 {
   namespace
   {
-    // Most full increments that may raise the residual before a line search.
+    // Limit of full increments that raise the residual, before a line search.
     constexpr unsigned int patience = 5;
-    // Most solves that begin with the definite tangent as the exact one fails.
+    // Limit of solves that begin with the definite tangent after failures.
     constexpr unsigned int longest_pause = 16;
-    // Most trials of a line search: the last are some 1e-4 of the increment.
+    // Limit of trials of a line search: the last are some 1e-4 of the
+    // increment.
     constexpr unsigned int max_trials = 10;
     // A residual may be round-off if a full increment leaves at least this part
     // of it, or after this many iterations.

@@ -29,7 +29,6 @@ namespace corotet
     constexpr double operations_of_cube = 12;
     // Thin bodies with more than this many times the unknowns that a cube may
     // have are not factorised.
-    // unknowns that a cube may have.
     constexpr double most_unknowns = 8;
 
     // Number of nodes of a rank that take more memory than pages of libraries

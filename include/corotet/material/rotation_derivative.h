@@ -65,7 +65,7 @@ namespace corotet
     }
   } // namespace internal
 
-  /// a(A).
+  /// Computes the axial vector a(A).
   COROTET_ALWAYS_INLINE void
   axial_vector(const Simd<double> (&A)[3][3], Simd<double> (&a)[3])
   {

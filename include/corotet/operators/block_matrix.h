@@ -83,7 +83,7 @@ namespace corotet
     /// Makes a matrix of zeros.
     explicit BlockMatrix(const std::shared_ptr<const BlockPattern> &pattern);
 
-    /// A copy would be costly, and is most likely a mistake.
+    /// Copies are forbidden, so that values do not have two owners by mistake.
     BlockMatrix(const BlockMatrix &) = delete;
     BlockMatrix &
     operator=(const BlockMatrix &) = delete;

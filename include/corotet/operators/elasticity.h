@@ -95,8 +95,8 @@ namespace corotet
     void
     internal_force(Vector &f, const Vector &u) const;
 
-    /// New rotations of the cells and the internal force of @p u, in one sweep
-    /// over the cells.
+    /// Computes new rotations of the cells and the internal force of @p u, in
+    /// one sweep over the cells.
     void
     update_rotations_and_force(Vector &f, const Vector &u);
 

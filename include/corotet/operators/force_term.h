@@ -19,8 +19,9 @@ namespace corotet
     /// Time [s].
     double time;
     /// Displacement [m] and velocity [m/s], with ghosts. The velocity belongs
-    /// to this time only if a term says that it depends on it; in statics it is
-    /// zero. If no term depends on displacement or velocity, they may be empty.
+    /// to this time only if a term says that it depends on it. It is zero in
+    /// statics, and may be empty if no term depends on displacement or
+    /// velocity.
     const Vector &u;
     const Vector &v;
   };

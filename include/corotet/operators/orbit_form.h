@@ -21,9 +21,9 @@ namespace corotet
    *
    * For the transposed operation, an object starts with zeros:
    *
-   *   add(orbit, factors, values): adds the contributions of values; the
-   * factors are the orbit's own or those with its weight; coefficients(c): c[i]
-   * becomes what has been added to polynomial i.
+   *   add(orbit, factors, values): adds what values contribute; the factors are
+   *     the orbit's own or those with its weight;
+   *   coefficients(c): c[i] becomes what has been added to polynomial i.
    */
   template <int n>
   class OrbitSums;

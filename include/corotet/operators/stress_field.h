@@ -87,9 +87,9 @@ namespace corotet
     raw(const unsigned int                   cell,
         const ReferenceElement::PointValues &point) const;
 
-    /// The recovered stress at point @p q of a rule (or for any values of shape
-    /// functions) in a local cell: sum_i N_i sigma*_i. To be called after
-    /// recover() for that cell. Not collective.
+    /// The recovered stress at a point of a local cell, given by values of the
+    /// shape functions: sum_i N_i sigma*_i. To be called after recover() for
+    /// that cell. Not collective.
     dealii::SymmetricTensor<2, 3>
     recovered(const unsigned int            cell,
               const std::span<const double> shape_values) const;

@@ -232,7 +232,7 @@ namespace corotet
     /// @p record becomes that of a step of which no part is done.
     void
     begin_step(StepRecord &record);
-    /// Logs what is to be said after a step.
+    /// Logs remarks on a finished step.
     void
     report(const StepRecord &record) const;
     /// Makes the step of @p record, or what is left of it. Returns false if

@@ -30,7 +30,7 @@ namespace corotet
     /// What kept the residual from reaching its tolerance.
     enum class RoundOff
     {
-      /// It has reached the tolerance.
+      /// Nothing: it has reached the tolerance.
       none,
       /// The residual is round-off.
       of_residual,

@@ -73,7 +73,7 @@ namespace corotet
     Factorization
     factorization(const EffectiveOperator &A) const;
 
-    /// Whether the factorisation has been made.
+    /// Whether a factorisation solves this level.
     bool
     has_factors() const
     {
