@@ -11,7 +11,6 @@ namespace corotet
 {
   /**
    * A stiffness [N/m^3] or damping [N s/m^3] per area at rest on a boundary, a
-   * A stiffness [N/m^3] or damping [N s/m^3] per area at rest on a boundary, a
    * symmetric tensor D(x, t), as the matrix int N_i N_j D of the surface. It is
    * integrated with the rule for faces, exactly on straight faces for D linear
    * in x.

@@ -55,11 +55,12 @@ namespace corotet
    * barycentric coordinates.
    *
    * At the surface and at interfaces a patch is one-sided: it determines terms
-   * of degree p badly, and their errors are largest at the vertex. There they
-   * are fitted to two layers of cells around the vertex, with larger weights
-   * for nearer ones; a polynomial of degree p - 1 is fitted to the remainder in
-   * the patch itself and added. For p = 1 the polynomial is that of the two
-   * layers, and vertices next to inner ones take the polynomials of these.
+   * of degree p badly, and their errors are largest at the vertex. There a
+   * polynomial of degree p is fitted to two layers of cells around the vertex,
+   * with larger weights for nearer ones; one of degree p - 1 is fitted to the
+   * remainder in the patch itself and added. For p = 1 the polynomial is that
+   * of the two layers, and vertices next to inner ones take the polynomials of
+   * these.
    *
    * Where a fit of degree p is badly determined all the same, it is replaced by
    * one of degree p - 1, which is used last. Stress that is a polynomial of

@@ -48,7 +48,6 @@ namespace corotet
    * the body displaced by @p u (ghosts up to date), or at rest if @p u is null.
    * The area vectors of a displaced face are exact polynomials, and those of a
    * closed surface sum up to zero.
-   * closed surface sum to zero.
    */
   template <typename Function>
   void

@@ -31,10 +31,10 @@ namespace corotet
    * when it has cost as much as these.
    *
    * Exact tangents are factorised only where many cells are flat or stretched,
-   * or a material is nearly incompressible. Other tangents only make solves
-   * slow where they are indefinite, far from the solution: then the frozen
-   * matrix is factorised, and with well-shaped cells not in the middle of a
-   * solve, which may fail with these factors as well.
+   * or a material is nearly incompressible. Solves with other exact tangents
+   * are slow only where these are indefinite, far from the solution: then the
+   * frozen matrix is factorised, and with well-shaped cells not in the middle
+   * of a solve, which may fail with its factors as well.
    *
    * Decisions depend on counts and not on measured times: runs repeat to the
    * last digit.

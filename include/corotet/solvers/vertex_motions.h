@@ -32,8 +32,9 @@ namespace corotet
    * stiff for thin cells by the square of their proportions. Rigid motions are
    * among these functions, on curved edges, too.
    *
-   * The middle of an edge does not depend on the mean rotation of both ends. A
-   * weak spring ties the rotation of a vertex to that of the cells around it.
+   * The middle of a straight edge does not depend on rotations that are equal
+   * at both ends. A weak spring ties the rotation of a vertex to that of the
+   * cells around it.
    *
    * A vertex has six unknowns, its displacement and its rotation times a
    * length, as an aggregate in AggregationLevel: two nodes of a BlockMatrix.
