@@ -30,7 +30,7 @@ namespace corotet
   BodyForce::integrate(Vector &f, const Field &force) const
   {
     const auto &rule = reference.load_rule;
-    // Of a cell.
+    // The nodal forces of one cell.
     std::vector<Tensor<1, 3>> nodal_forces(reference.n_nodes);
     for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
       {

@@ -87,7 +87,7 @@ namespace corotet
         }
       catch (const InputError &error)
         {
-          // Numbers of no time.
+          // The stored coefficients belong to no time.
           this->time = std::numeric_limits<double>::quiet_NaN();
           throw WrongValueError(error);
         }

@@ -77,7 +77,8 @@ namespace corotet
 
   namespace
   {
-    // Two kinds must not have the same entry: each would take it for its own.
+    // Two kinds must not have the same entry, which each of them would take for
+    // its own.
     void
     check_entries(const std::vector<Candidate<ForceKind>> &kinds)
     {
@@ -87,7 +88,7 @@ namespace corotet
           const std::unique_ptr<ForceKind> kind = candidate.make();
           ParameterFile                    file;
           kind->declare_parameters(file.handler());
-          // "/Section/Entry" of each.
+          // The names "/Section/Entry" of all entries.
           const auto entries = file.values().flatten();
           for (const auto &[entry, value] : entries.items())
             if (const auto [known, is_new] =
@@ -108,7 +109,7 @@ namespace corotet
     const std::vector<Candidate<ForceKind>> candidates = force_kinds();
     for (const Candidate<ForceKind> &kind : candidates)
       kinds.push_back(kind.make());
-    // Those of the library have none.
+    // The kinds of the library share no entry.
     if (!added_candidates<ForceKind>().empty())
       check_entries(candidates);
   }

@@ -29,9 +29,10 @@ namespace corotet
   {
     const std::string point_forces_entry = "Loads/Point forces";
 
-    // Of the nodes at that distance, but for round-off, the one with the lowest
-    // coordinates, which is the same on any number of ranks: an owned one, or
-    // an invalid number on other ranks; and how many there are. Collective.
+    // The node at this distance, up to round-off. If there are several, it is
+    // the one with the lowest coordinates, which is the same on any number of
+    // ranks. Returns its number on the rank that owns it, an invalid one on
+    // other ranks, and how many such nodes there are. Collective.
     std::pair<unsigned int, unsigned int>
     nearest_node(const Discretization &discretization,
                  const NearbyCells    &nearby,

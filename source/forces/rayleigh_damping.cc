@@ -17,7 +17,7 @@ namespace corotet
 {
   namespace
   {
-    // a - b, and zero if that is round-off of decimal numbers.
+    // a - b, or zero if that is only the round-off of decimal numbers.
     double
     difference(const double a, const double b)
     {

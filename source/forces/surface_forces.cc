@@ -18,7 +18,7 @@ namespace corotet
   {
     const std::string surface_forces_entry = "Loads/Surface forces";
 
-    // At rest [m^2]. Collective.
+    // The area of boundaries at rest [m^2]. Collective.
     double
     area_of(const std::vector<unsigned int> &boundaries,
             const ForceContext              &context)

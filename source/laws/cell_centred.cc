@@ -14,7 +14,7 @@ namespace corotet
   {
     using V = Simd<double>;
 
-    // The energy with the rotations of cells that there are.
+    // Computes the elastic state with the present rotations of the cells.
     struct CellState
     {
       template <typename Points>
@@ -32,11 +32,12 @@ namespace corotet
       }
     };
 
-    // Gradient of the energy with one rotation per cell. With A_q = R^T F_q,
-    // dA_q = R^T dF_q - W(w) A_q, so to the force of frozen rotations comes
-    // w . m with the moment m, the axial vector of sum_q w_q sigma_q A_q^T, and
-    // G w = a(R^T dF) at the centre: a stress P = R W(G^{-1} m) there. It
-    // neither reads nor changes the rotations of the cells.
+    // The force that is the gradient of the energy with one rotation per cell.
+    // With A_q = R^T F_q, dA_q = R^T dF_q - W(w) A_q, so the variation of the
+    // energy has, beside the force of frozen rotations, a term w . m with the
+    // moment m, the axial vector of sum_q w_q sigma_q A_q^T, and G w = a(R^T
+    // dF) at the centre: a stress P = R W(G^{-1} m) there. It neither reads nor
+    // changes the rotations of the cells.
     struct VariationalForce
     {
       template <typename Points>
@@ -72,7 +73,8 @@ namespace corotet
       }
     };
 
-    // Where all points are alike, the law is that at points.
+    // The law with one rotation per cell; at degree 1, where all points of a
+    // cell are alike, the law at points does its work.
     template <bool variational>
     class CellCentred : public MaterialLaw
     {

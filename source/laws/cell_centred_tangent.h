@@ -9,7 +9,7 @@
 #include <corotet/operators/rotated_frame.h>
 
 /**
- * The exact tangent of the force of one rotation per cell; if variational, of
+ * The exact tangent of the force with one rotation per cell; if variational, of
  * the force that is the gradient of the energy.
  */
 namespace corotet
@@ -18,14 +18,14 @@ namespace corotet
   {
     using V = Simd<double>;
 
-    // Whether straight cells need no points: see FactoredTangent.
+    // Whether straight cells need no quadrature points: see FactoredTangent.
     template <typename CellKernel, bool variational>
     constexpr bool is_factored =
       !variational && degree_of_factored_kernel<CellKernel> > 0;
 
-    // G^{-1} and, of straight cells without points, FactoredTangent's B, both
-    // in its units. Otherwise G^{-1}, S if variational, B of each point, n
-    // if variational.
+    // The numbers kept. Straight cells without points: G^{-1} and
+    // FactoredTangent's B, both in its units. Other cells: G^{-1}, S and n if
+    // variational, and B of each point.
     template <typename CellKernel, bool variational>
     constexpr LinearizationSize linearization_size{
       is_factored<CellKernel, variational> || variational ? 15u : 6u,
@@ -35,7 +35,7 @@ namespace corotet
     template <typename CellKernel>
     using Factored = FactoredTangent<degree_of_factored_kernel<CellKernel>>;
 
-    // sqrt(mu volume) times gradient_scale.
+    // The size of a cell: sqrt(mu volume) times gradient_scale.
     template <typename CellKernel>
     COROTET_ALWAYS_INLINE V
     size_of(const CellConstants &constants)
@@ -124,9 +124,9 @@ namespace corotet
       }
     };
 
-    // By points. With H = dF R^T and the
-    // change w of the rotation, G w = a(H) at the centre, the strain changes by
-    // sym(H - W(w) B) and P R^T by sigma(H - W(w) B) + W(w) sigma.
+    // The tangent by quadrature points. With H = dF R^T and the change w of the
+    // rotation, G w = a(H) at the centre, the strain changes by sym(H - W(w) B)
+    // and P R^T by sigma(H - W(w) B) + W(w) sigma.
     template <bool variational>
     struct PointTangent
     {
@@ -156,7 +156,7 @@ namespace corotet
             stress_of_stretch(lambda, mu, B, sigma);
             skew_times(w, sigma, W_sigma);
             skew_times(w, B, WB);
-            // Of the part with frozen rotations a multiple is wanted.
+            // The part with frozen rotations is multiplied by frozen_factor.
             static_for<9>([&](auto ab) {
               constexpr int a = ab / 3, b = ab % 3;
               e[a][b]  = H[a][b] - WB[a][b];
@@ -185,7 +185,7 @@ namespace corotet
       }
 
     private:
-      // In the variational force, the stress W(n) at the centre, G n = m,
+      // In the variational force the stress W(n) at the centre, G n = m,
       // changes by W(w) W(n) + W(dn), where G dn = dm - dG n.
       template <typename Points>
       static COROTET_ALWAYS_INLINE void
@@ -222,7 +222,8 @@ namespace corotet
       }
     };
 
-    // Straight cells without points, curved ones with.
+    // The tangent of straight cells works without quadrature points, that of
+    // curved cells with them.
     template <typename CellKernel>
     struct MixedTangent : PointOperation<PointTangent<false>, CellKernel>
     {

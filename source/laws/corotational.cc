@@ -12,8 +12,8 @@ namespace corotet
   {
     /**
      * Corotational elasticity with the rotation of each point, P = R sigma(S -
-     * I) with F = R S [seed, 2.73 to 2.76]. Rotations are kept as quaternions:
-     * applications of the tangents wait for what was kept.
+     * I) with F = R S [seed, 2.73 to 2.76]. Rotations are kept as quaternions,
+     * as reading kept numbers limits the speed of the tangents.
      */
     struct CorotationalAtPoints
     {
@@ -40,7 +40,7 @@ namespace corotet
         return isotropic_energy(lame.lambda, lame.mu, e);
       }
 
-      /// R, and T of rotation_stiffness().
+      /// Stores R, and T of rotation_stiffness().
       COROTET_ALWAYS_INLINE unsigned int
       linearize(const LameLanes       &lame,
                 const Tensor2Lanes    &H,
@@ -99,8 +99,8 @@ namespace corotet
         corotational_tangent(R, lame.lambda, lame.mu, dF, dP);
       }
 
-      /// R sigma R^T: the strain turned back into space, without the terms of
-      /// second order that make Cauchy's stress of it.
+      /// The stress R sigma R^T: sigma rotated back into space, which is
+      /// Cauchy's stress up to terms of the order of the strain.
       COROTET_ALWAYS_INLINE void
       spatial_stress(const LameLanes    &lame,
                      const Tensor2Lanes &H,
@@ -119,7 +119,7 @@ namespace corotet
       }
 
     private:
-      /// F = I + H and its rotation.
+      /// Computes F = I + H and its rotation.
       static COROTET_ALWAYS_INLINE PolarLanes
       rotation(const Tensor2Lanes &H, Tensor2Lanes &F, Tensor2Lanes &R)
       {
@@ -128,7 +128,7 @@ namespace corotet
         return polar_decomposition(F, R);
       }
 
-      /// The first four numbers that are stored, of a rotation; and back.
+      /// These store a rotation as the first four numbers, and restore it.
       template <int n>
       static COROTET_ALWAYS_INLINE void
       keep(const Tensor2Lanes &R, Simd<double> (&stored)[n])

@@ -161,7 +161,8 @@ namespace corotet
       regions,
       nu_entry,
       // Pressures are lambda / mu times displacements, which have eight digits
-      // by the tolerances: of a pressure two are left at the bound.
+      // with the default tolerances: at this bound two digits of a pressure are
+      // left.
       [](const double v) { return v > -1 && v <= 0.499999; },
       "-1 < nu <= 0.499999 (at 0.5 the material is incompressible; 0.499 is in "
       "general close enough)");

@@ -11,13 +11,14 @@ namespace corotet
 {
   namespace
   {
-    // F and what depends on it. All that is small at small strains, however the
-    // body is turned, is made of C - I = H + H^T + H^T H:
+    // F and the quantities that depend on it. Those that are small at small
+    // strains, however the body is turned, are computed from C - I = H + H^T +
+    // H^T H:
     //
     //   J^2 - 1 = I_1 + I_2 + I_3,
     //
-    // its invariants, and so W = mu / 2 (x - ln(1 + x) - I_2 - I_3) + lambda /
-    // 8 ln(1 + x)^2 with x = J^2 - 1.
+    // the sum of its invariants, and so W = mu / 2 (x - ln(1 + x) - I_2 - I_3)
+    // + lambda / 8 ln(1 + x)^2 with x = J^2 - 1.
     struct Kinematics
     {
       COROTET_ALWAYS_INLINE
@@ -68,9 +69,9 @@ namespace corotet
                A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]);
       }
 
-      // Small x by ln(1 + x) = 2 artanh(y) with y = x / (2 + x): below 0.1 the
-      // first term left out is 1e-15 of the sum. Where cells are nearly flat J
-      // has more digits than 1 + x.
+      // For small x, ln(1 + x) = 2 artanh(y) with y = x / (2 + x): below 0.1
+      // the first term left out is 1e-15 of the sum. For other x it is taken
+      // from J, which in nearly flat cells has more digits than 1 + x.
       COROTET_ALWAYS_INLINE void
       take_logarithm(const int lane)
       {
@@ -96,7 +97,7 @@ namespace corotet
 
     struct NeoHookean
     {
-      // F^-T and mu - lambda ln J.
+      // The numbers stored are F^-T and mu - lambda ln J.
       static constexpr int n_stored = 10;
 
       // P = F^-T (mu (C - I) + lambda ln J I).

@@ -16,10 +16,10 @@ namespace corotet
       return {lame.lambda[lane], lame.mu[lane], 0.};
     }
 
-    // Lane by lane.
+    // Calls a PointLaw lane by lane.
     struct LawByLane
     {
-      // H.
+      // The numbers stored are H.
       static constexpr int n_stored = 9;
 
       void

@@ -10,7 +10,7 @@ namespace corotet
   {
     struct SaintVenantKirchhoff
     {
-      // H.
+      // The numbers stored are H.
       static constexpr int n_stored = 9;
 
       COROTET_ALWAYS_INLINE void
@@ -79,7 +79,7 @@ namespace corotet
         isotropic_stress(lame.lambda, lame.mu, E, S);
       }
 
-      // F X.
+      // FX = F X.
       static COROTET_ALWAYS_INLINE void
       times_F(const Tensor2Lanes &H, const Tensor2Lanes &X, Tensor2Lanes &FX)
       {

@@ -15,12 +15,12 @@ namespace corotet
   void
   check_at_rest(const PointLaw &law, const IsotropicMaterial &material)
   {
-    // Of derivatives by finite differences, too.
+    // The tolerance allows for derivatives by finite differences.
     constexpr double   tolerance = 1e-6;
     const double       size      = material.lambda + 2 * material.mu;
     const Tensor<2, 3> rest;
     const double       stress = law.stress(material, rest).norm();
-    // Not less than that, rather than more: it may not be finite.
+    // The negated comparison also finds stresses that are not finite.
     if (!(stress <= tolerance * size))
       throw InputError("Material/Type",
                        fmt::format("the law has a stress of {:.3g} Pa at rest; "
@@ -53,10 +53,11 @@ namespace corotet
              const IsotropicMaterial &material,
              const Tensor<2, 3>      &H)
   {
-    // Between the errors of the differences, of the order of its square, and
-    // round-off over it.
+    // The step balances the error of central differences, which grows with its
+    // square, and round-off, which is divided by it.
     constexpr double step = 1e-5;
-    // Norms of what the law gives, and of its differences to what it should.
+    // Squared norms of the error of the stress, of its derivative by
+    // differences, and of the error of the law's derivative.
     const Tensor<2, 3> P       = law.stress(material, H);
     double             stress  = 0;
     double             squares = 0, derivative = 0;

@@ -104,7 +104,7 @@ namespace corotet
       b = material.density * acceleration.vector_value(x, t);
 
     const Tensor<2, 3> H = gradient(x, t);
-    // Of the pair of directions (c, d), c <= d or not.
+    // The index of the pair of directions (c, d), which may be in any order.
     const auto pair = [](const unsigned int c, const unsigned int d) {
       return c == d ? c : 6 - c - d;
     };

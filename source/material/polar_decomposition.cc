@@ -58,9 +58,9 @@ namespace corotet
       // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
       const Eigen::Vector3d sigma = svd.singularValues();
 
-      // U and V are orthonormal whatever the rank: a collapsed direction is
-      // completed there already. The column of the smallest singular value
-      // takes the sign that makes a rotation of U V^T.
+      // U and V are orthonormal whatever the rank, as the SVD completes
+      // collapsed directions. The column of the smallest singular value takes
+      // the sign that makes U V^T a rotation.
       Eigen::Matrix3d U = svd.matrixU();
       const double    handedness =
         (U.determinant() < 0) == (svd.matrixV().determinant() < 0) ? 1. : -1.;

@@ -19,8 +19,8 @@ namespace corotet
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int b = 0; b < 3; ++b)
         matrix(a, b) = tensor[a][b];
-    // By iteration: the closed formula loses half of the digits where two
-    // values are equal, as they are in uniaxial stress.
+    // The solver iterates, as the closed formula loses half of the digits where
+    // two values are equal, which they are in uniaxial stress.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       matrix, Eigen::EigenvaluesOnly);
     const Eigen::Vector3d &values = solver.eigenvalues();

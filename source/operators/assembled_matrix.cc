@@ -36,7 +36,7 @@ namespace corotet
   {
     using V = Simd<double>;
 
-    // Numbers of nodes and of blocks.
+    // Limit of the numbers of nodes and of blocks.
     constexpr std::size_t largest_int = std::numeric_limits<int>::max();
   } // namespace
 
@@ -44,7 +44,7 @@ namespace corotet
   block_pattern(const Nodes &nodes)
   {
     const unsigned int n_owned = nodes.n_owned_nodes();
-    // The cells of each owned node.
+    // The cells around each owned node.
     std::vector<unsigned int> starts(n_owned + 1), cells;
     const auto                for_owned_nodes = [&](const auto &action) {
       for (unsigned int c = 0; c < nodes.n_local_cells(); ++c)

@@ -31,8 +31,8 @@ namespace corotet
   {
     const int *begin = &local_graph.columns[local_graph.starts[node]];
     const int  n     = local_graph.starts[node + 1] - local_graph.starts[node];
-    // In short rows, counting takes less time than the wrong guesses of the
-    // processor in a search.
+    // In short rows, counting takes less time than a search, in which the
+    // processor predicts branches wrongly.
     constexpr int longest_to_count = 64;
     int           place            = 0;
     if (n <= longest_to_count)
@@ -93,7 +93,7 @@ namespace corotet
     const BlockPattern &pattern = *the_pattern;
     const NodeGraph    &graph   = pattern.graph();
     const int           n       = pattern.n_owned();
-    // Also a rank without ghosts may have to send.
+    // A rank without ghosts may have to send, too.
     if (dealii::Utilities::MPI::n_mpi_processes(pattern.communicator()) > 1)
       {
         source.resize(3 *

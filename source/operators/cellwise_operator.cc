@@ -87,7 +87,7 @@ namespace corotet
     };
     if (surface != nullptr)
       {
-        // Before the sweep, which may change the source.
+        // This comes before the sweep, which may change the source.
         const bool fetch = !src.has_ghost_elements();
         if (fetch)
           src.update_ghost_values();
@@ -123,7 +123,7 @@ namespace corotet
   void
   CellwiseOperator<T>::vmult(VectorType &dst, const VectorType &src) const
   {
-    // Prescribed entries of the source are out of the way for a moment.
+    // Prescribed entries of the source are set aside for the product.
     T *const source = const_cast<VectorType &>(src).begin();
     T *const result = dst.begin();
     for (unsigned int k = 0; k < prescribed.size(); ++k)

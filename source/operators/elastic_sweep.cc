@@ -7,7 +7,7 @@ namespace corotet
 {
   namespace
   {
-    // F = I + grad u at the centres of the cells.
+    // Computes F = I + grad u at the centres of the cells.
     template <typename Kernel>
     COROTET_ALWAYS_INLINE void
     deformation_gradient(const CellGeometryAtRest           &at_rest,
@@ -27,7 +27,7 @@ namespace corotet
       });
     }
 
-    // Rotates the gradients of the cells.
+    // Stores the gradients of the cells, rotated.
     COROTET_ALWAYS_INLINE void
     store_rotated(const Simd<double> (&R)[3][3],
                   const ElasticData &data,
@@ -48,7 +48,7 @@ namespace corotet
       });
     }
 
-    // Strain of the body at rest as the rotations see it, sym(R) - I, in the
+    // The strain of the body at rest in the rotated frame, sym(R) - I, in the
     // kernel's units.
     template <typename Kernel>
     COROTET_ALWAYS_INLINE void
@@ -98,7 +98,7 @@ namespace corotet
                             });
     }
 
-    // New rotations of the cells, the internal force, or both.
+    // Computes new rotations of the cells, the internal force, or both.
     template <typename CellKernel, bool rotate>
     struct Rotations
     {
@@ -116,7 +116,8 @@ namespace corotet
           fetch_object(data.at_rest + batch);
       }
 
-      /// The rotations of a batch, from the displacement or as they are.
+      /// The rotations of a batch, new ones from the displacement or the
+      /// present ones.
       static COROTET_ALWAYS_INLINE void
       get(ElasticData                            &data,
           const unsigned int                      batch,
@@ -136,7 +137,8 @@ namespace corotet
       }
     };
 
-    // Rotations are those of the centres, where a curved cell is like others.
+    // Computes rotations only; they are those at the centres, where curved
+    // cells need no other treatment.
     template <typename CellKernel>
     struct RotationOnly : Rotations<CellKernel, true>
     {

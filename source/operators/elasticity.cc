@@ -94,7 +94,7 @@ namespace corotet
     if (material_law->is_linear())
       return Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
     const auto [batch, lane] = discretization.batches().place(cell);
-    // Rows: R grad xi_k.
+    // The rows are R grad xi_k.
     Tensor<2, 3> rotated;
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int a = 0; a < 3; ++a)
@@ -113,7 +113,8 @@ namespace corotet
     const ElasticSweep rotate  = rotation_sweep(discretization.element());
     ElasticData        data    = rotating_data();
     read_cells(rotate, batches.chunks(), data, u);
-    // Those of other laws are of their own points, with the force.
+    // Counts of other laws belong to rotations at their points, and come with
+    // the force.
     if (material_law->has_cell_rotation())
       counts = data.counts;
     read_cells(rotate, batches.chunks_of_ghosts(), data, u);
@@ -170,8 +171,8 @@ namespace corotet
     counts = data.counts;
     if (!material_law->is_linear())
       {
-        // Where rotations are not unique, round-off chooses: those of owned and
-        // of ghost cells must come from one function.
+        // Where rotations are not unique, they depend on round-off: those of
+        // owned and of ghost cells must come from the same function.
         const CellBatches &batches = discretization.batches();
         const ElasticSweep rotate  = rotation_sweep(discretization.element());
         if (!sweeps.force_rotates)
@@ -196,7 +197,7 @@ namespace corotet
       [&](const auto &chunk, const double *source, double *sums) {
         sweeps.force(data, chunk.first, chunk.end, source, sums);
       },
-      // No cell of this rank will need these nodes again in this sweep.
+      // No cell of this rank needs these nodes again in this sweep.
       [&](const unsigned int i, const auto y) {
         using V = decltype(y + y);
         const V velocity =
@@ -283,8 +284,7 @@ namespace corotet
         const Tensor<2, 3> F =
           grad_u + Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
         const Tensor<2, 3> R = rotation(c);
-        // Also linear elasticity shows how far its cells rotate: that is what
-        // it neglects.
+        // With linear elasticity the angle shows the rotation that it neglects.
         result.rotation_angle[c] = rotation_angle(
           material_law->is_linear() ? polar_decomposition(F).rotation : R);
         result.det_F[c] = determinant(F);

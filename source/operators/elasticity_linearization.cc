@@ -102,8 +102,8 @@ namespace corotet
     ghosts.new_linearization     = linearization.data();
     read_cells(work.linearize, batches.chunks_of_ghosts(), ghosts, u);
 
-    // Unit vectors in all cells of a batch at once, as if these had no common
-    // nodes.
+    // Unit vectors are set in all cells of a batch at once, as if these had no
+    // common nodes.
     const CellBatches apart = batches.apart();
     const auto        own   = elastic_data();
     ElasticData       data{apart,

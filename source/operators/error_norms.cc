@@ -17,7 +17,8 @@ namespace corotet
 
   namespace
   {
-    // Squares of the norms. @p pressure comes to that of the gradient.
+    // Adds the squares of the norms. @p pressure is added to the pressure of
+    // the gradient.
     void
     add(FieldNorms              &sums,
         const IsotropicMaterial &material,
@@ -30,7 +31,7 @@ namespace corotet
       sums.H1 += weight * gradient.norm_square();
       sums.energy +=
         weight * 2 * energy_density(material, symmetrize(gradient));
-      // lambda (theta + change)^2 in place of lambda theta^2.
+      // The energy has lambda (theta + change)^2 in place of lambda theta^2.
       if (pressure != 0)
         sums.energy += weight * pressure *
                        (2 * trace(gradient) + pressure / material.lambda);

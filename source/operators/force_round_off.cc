@@ -14,11 +14,11 @@ namespace corotet
 
   namespace
   {
-    // Of corotational strain, in machine precisions: F, R and their product
-    // are each rounded.
+    // Error of corotational strain, in machine precisions: F, R and their
+    // product are each rounded.
     constexpr double corotational_noise = 4;
-    // Of displacements, in machine precisions: their own rounding, and those
-    // of the sums that make a gradient of them.
+    // Error of displacements, in machine precisions: from their own rounding,
+    // and from the sums of which the gradient consists.
     constexpr double displacement_noise = 1;
     constexpr double precision = std::numeric_limits<double>::epsilon();
   } // namespace
@@ -28,7 +28,7 @@ namespace corotet
     : by_displacement(discretization.n_owned_nodes())
   {
     const ReferenceElement &reference = elasticity.reference_element();
-    // One component of each node is the first of the two, another the second.
+    // Two sums for each node are its first two components here.
     Vector sums;
     discretization.initialize_vector(sums);
     std::vector<double> slopes(reference.n_nodes);
@@ -40,7 +40,7 @@ namespace corotet
         double square = 0;
         for (unsigned int i = 0; i < reference.n_nodes; ++i)
           {
-            // Root mean square of |grad N_i| over the cell.
+            // The root mean square of |grad N_i| over the cell.
             double sum = 0;
             for (unsigned int k = 0; k < 3; ++k)
               for (unsigned int l = 0; l < 3; ++l)

@@ -27,14 +27,15 @@ namespace corotet
              !depends_on_motion(term);
     }
 
-    // What changes in time is done from outside, and so is the work of it.
+    // A term that changes in time is changed from outside, so its work is
+    // external.
     bool
     is_elastic(const ForceTerm &term)
     {
       return term.role() == Role::elastic && !term.depends_on_time();
     }
 
-    // Not scaled by load steps.
+    // Load steps do not scale these terms.
     bool
     is_support(const ForceTerm &term)
     {
@@ -42,7 +43,7 @@ namespace corotet
              (term.role() == Role::elastic && term.depends_on_time());
     }
 
-    // Derivatives that are not symmetric are left to the exact tangent.
+    // Derivatives that are not symmetric belong to the exact tangent only.
     bool
     belongs_to(const Tangent tangent, const ForceTerm &term)
     {
@@ -81,7 +82,7 @@ namespace corotet
   {
     if (is_constant_load(*term))
       {
-        // It looks at no motion: any vector will do.
+        // A constant load does not read the motion: any vector will do.
         term->add_force(constant_load, {0., constant_load, constant_load});
         constant_load.compress(dealii::VectorOperation::add);
       }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What users are told about the terms, by their names.
+// Names of terms, for messages to users.
 
 #include <corotet/base/vector.h>
 #include <corotet/discretization/prescribed_motion.h>
@@ -25,7 +25,7 @@ namespace corotet
           continue;
         double     on_all = 0, on_free = 0;
         const auto has_effect = [&] {
-          // Squares of what round-off leaves beside a face.
+          // Round-off on nodes beside a face is ignored; the sums are squares.
           return on_free > 1e-24 * on_all;
         };
         const bool changes = terms[i]->role() == ForceTerm::Role::load &&
@@ -37,7 +37,7 @@ namespace corotet
             f = 0;
             terms[i]->add_force(f, motions[k]);
             f.compress(dealii::VectorOperation::add);
-            // A formula that is not finite there is none that does nothing.
+            // A formula that is not finite there counts as one with an effect.
             const double all = norm(f);
             if (!std::isfinite(all))
               {

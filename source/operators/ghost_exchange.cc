@@ -18,7 +18,7 @@ namespace corotet
     , n_ghosts(numbers.ghosts().size())
   {
     const int n_ranks = numbers.n_ranks();
-    // The numbers of ghosts at their owners.
+    // The numbers of ghosts among the nodes of their owners.
     std::vector<int> nodes(n_ghosts);
     std::vector<int> n_got(n_ranks), n_sent(n_ranks);
     std::vector<int> ghost_begin(n_ranks), send_begin(n_ranks);
@@ -115,7 +115,7 @@ namespace corotet
     constexpr int tag = 7316;
     requests.resize(2 * neighbours.size());
     MPI_Request *request = requests.data();
-    // MPI counts in int.
+    // MPI counts bytes in int.
     constexpr std::size_t most  = std::numeric_limits<int>::max();
     const auto            start = [&](const auto  &call,
                            auto *const  data,

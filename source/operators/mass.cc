@@ -21,7 +21,7 @@ namespace corotet
         if (type == MassType::diagonal_scaling)
           shares[i] = reference.mass[i][i];
         else
-          // The mean of N_i.
+          // The share is the mean of N_i.
           for (unsigned int j = 0; j < reference.n_nodes; ++j)
             shares[i] += reference.mass[i][j];
         sum += shares[i];
@@ -30,7 +30,7 @@ namespace corotet
       {
         share /= sum;
         // Exact row sums are 1/4; -1/20, 1/5; 1/40, 0, 9/40; with bubbles
-        // 17/840 and more: no close call.
+        // 17/840 and more: no positive one is close to the limit.
         if (share < 1e-6)
           throw InputError(
             "Discretization/Mass",
@@ -47,7 +47,7 @@ namespace corotet
 
   namespace
   {
-    // The same for a curved cell: the consistent diagonal and row sums by the
+    // The shares of a curved cell: the consistent diagonal and row sums by the
     // rule of curved cells, or quadrature at the nodes.
     std::vector<double>
     curved_shares(const Discretization                &discretization,

@@ -20,14 +20,14 @@ namespace corotet
 
   namespace
   {
-    // All nodes of local cells with their materials, in order.
+    // All nodes of local cells with their materials, sorted.
     std::vector<MaterialNodes::Copy>
     copies_in(
       const Discretization                                  &discretization,
       const unsigned int                                     n_materials,
       const std::function<unsigned int(const unsigned int)> &material_of_cell)
     {
-      // Nearly all nodes have one material only.
+      // Nearly all nodes have one material only, which is stored here.
       std::vector<unsigned int>        first(discretization.n_local_nodes(),
                                       n_materials);
       std::vector<MaterialNodes::Copy> result;
@@ -119,7 +119,7 @@ namespace corotet
                                                                   ghosts,
                                                                   comm);
 
-    // Ghosts are numbered by the partitioner.
+    // The partitioner determines the numbers of ghosts.
     copies.resize(found.size());
     std::vector<unsigned int> number(found.size());
     for (unsigned int i = 0; i < found.size(); ++i)

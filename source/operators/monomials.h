@@ -25,10 +25,10 @@ namespace corotet::monomials
   using Values = std::array<double, n_coefficients(degree)>;
 
   /**
-   * Monomials of a degree and all lower ones at @p x, each times the square
-   * root of the number of orders that its factors have. So a rotation of x is
-   * one of the monomials of each degree, and what eigenvalues of their products
-   * tell does not depend on the coordinates.
+   * Monomials of a degree and all lower ones at a point, each times the square
+   * root of the number of orders of its factors. So a rotation of the point is
+   * a rotation of the monomials of each degree, and eigenvalues of their
+   * products do not depend on the coordinates.
    */
   template <int degree>
   Values<degree>

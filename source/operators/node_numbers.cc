@@ -41,7 +41,8 @@ namespace corotet
   std::pair<int, int>
   NodeNumbers::owner(const int global) const
   {
-    // Of ranks that begin with the same node, the last one has nodes.
+    // If several ranks begin with the same node, only the last of them has
+    // nodes.
     const int rank =
       std::upper_bound(first_nodes.begin(), first_nodes.end(), global) -
       first_nodes.begin() - 1;

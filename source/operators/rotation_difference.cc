@@ -17,7 +17,7 @@ namespace corotet
 
   namespace
   {
-    // Of the deformation gradient at point @p q of @p rule.
+    // The rotation of the deformation gradient at point @p q of @p rule.
     Tensor<2, 3>
     rotation(const Discretization                &discretization,
              const Vector                        &u,

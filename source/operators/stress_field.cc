@@ -201,7 +201,7 @@ namespace corotet
            StressPatches::AtSurface::one_sided);
     at_points();
     patches_of_estimate->recover(points, stress_of_estimate);
-    // Exact for the square of the recovered stress, of degree 2p.
+    // The rule is exact for the square of the recovered stress, of degree 2p.
     const auto                        &rule = reference.load_rule;
     std::vector<SymmetricTensor<2, 3>> stresses(rule.weights.size());
     double                             sums[2] = {0, 0};

@@ -12,7 +12,7 @@
 
 namespace corotet
 {
-  /// Six polynomials, those of the components of a stress: the coefficients of
+  /// Six polynomials, one for each component of a stress: the coefficients of
   /// each monomial.
   template <int degree>
   using StressPolynomials =
@@ -26,13 +26,13 @@ namespace corotet
     return monomials::at<degree>(fit.scale * (x - fit.centre));
   }
 
-  /// The most samples of a cell.
+  /// The largest number of samples in a cell.
   inline constexpr unsigned int max_samples =
     ReferenceElement::max_stiffness_points(20);
 
   /**
-   * Calls action(number of the first sample, their positions, monomials and
-   * weights) for the samples of each cell of a fit.
+   * Calls action(number of the first sample, positions, monomials, weights) for
+   * the samples of each cell of a fit.
    */
   template <int degree, typename Action>
   void

@@ -17,23 +17,23 @@ namespace corotet
 
   namespace
   {
-    // A fit whose coefficients the data determine badly would be worse than one
-    // of a lower degree. Smallest eigenvalue of the normal equations over the
-    // largest, by degree: a tenth of what is usual at least in patches of inner
-    // vertices and, with its decay, in two layers around the others. Patches
-    // with too few cells have round-off.
+    // A fit whose coefficients the data determine badly is worse than one of a
+    // lower degree. These are limits of the smallest eigenvalue of the normal
+    // equations over the largest, by degree: a tenth of the usual minimum in
+    // patches of inner vertices and, with its decay, in two layers around the
+    // others. Patches with too few cells only have round-off.
     constexpr std::array<double, 4> least_of_patches{{0, 2e-2, 3e-3, 3e-4}},
       least_of_layers{{0, 2e-2, 5e-4, 5e-5}};
 
-    // How weights fall with the distance: what was best of 0 to 16 in two
-    // layers and of 0 to 8 for what these leave over, see the page on stress.
+    // Powers of the distance by which weights decay: the best of 0 to 16 in two
+    // layers, and of 0 to 8 for the remainder, see the page on stress.
     constexpr std::array<unsigned int, 4> decay_of_layers{{0, 0, 4, 4}};
     constexpr unsigned int                decay_of_rest = 2;
 
     using Matrix =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    // Sums over the samples of the first fit, as it weighs them, of its
+    // Sums over the samples of the first fit, with its weights, of its
     // monomials times those of the second.
     Matrix
     products(const StressFit     &first,
@@ -114,8 +114,8 @@ namespace corotet
             fit_one_sided(patch);
         return;
       }
-    // The second layer of cells around an owned vertex: around ghosts, other
-    // ranks have some of them.
+    // The second layer of cells around an owned vertex is needed; around
+    // ghosts, other ranks have some of its cells.
     std::vector<unsigned int> ghosts;
     for (const Patch &patch : patches)
       if (patch.fits.empty())
@@ -146,7 +146,7 @@ namespace corotet
                     samples.cells_around(vertex, material),
                     {},
                     {}};
-        // Empty if it is no vertex.
+        // There are no cells if the node is not a vertex.
         if (!wants_any(patch.cells))
           continue;
         const bool is_interface =
@@ -171,7 +171,8 @@ namespace corotet
     if (auto full =
           fit(patch.vertex, patch.cells, degree, 0, least_of_patches[degree]))
       {
-        // Cubic polynomials must not be taken far from where they were fitted.
+        // Cubic polynomials of inner vertices must not be evaluated far from
+        // their samples, so this one is preferred, too.
         patch.is_preferred = degree == 3;
         patch.fits.push_back(std::move(*full));
       }
@@ -203,7 +204,7 @@ namespace corotet
     patch.is_preferred = degree > 1 && !patch.fits.empty();
     if (degree == 1 && !patch.fits.empty())
       return;
-    // The points of one cell determine polynomials of degree p - 1.
+    // The points of one cell suffice for polynomials of degree p - 1.
     StressFit rest =
       *fit(patch.vertex, patch.cells, degree - 1, decay_of_rest, 0);
     if (!patch.fits.empty())
@@ -292,8 +293,8 @@ namespace corotet
   StressPatches::find_targets()
   {
     // Sums of weights by rank of the patches: preferred ones of vertices of the
-    // node's own edge, face or cell; those of other vertices; any of its own
-    // vertices. The best rank that a node has counts.
+    // node's own edge, face or cell; preferred ones of other vertices; all of
+    // its own vertices. A node uses the best rank that it has.
     const auto weights = [](const Patch &patch, const double barycentric) {
       const double own = barycentric > 1e-8 ? barycentric : 0;
       return std::array<double, 3>{
@@ -305,7 +306,7 @@ namespace corotet
     for (Patch &patch : patches)
       {
         patch.targets = nodes_of(patch, barycentric);
-        // Others may lack the patches that they need.
+        // Nodes where stress is not wanted may lack the patches that they need.
         std::erase_if(patch.targets,
                       [&](const auto &target) { return !wants(target.node); });
         for (const Target &target : patch.targets)

@@ -5,7 +5,7 @@
 
 #include "stress_fit.h"
 
-// What is done with each new stress.
+// The computations for each new stress.
 namespace corotet
 {
   using dealii::Point;
@@ -13,15 +13,16 @@ namespace corotet
 
   namespace
   {
-    // The most fits of a patch.
+    // The largest number of fits of a patch.
     constexpr unsigned int max_fits = 2;
 
-    // Of fits of any degree: the first numbers are those that there are.
+    // Polynomials of fits of any degree, which use the first entries.
     using AnyPolynomials = StressPolynomials<3>;
 
 
 
-    // Integrals of the stress times each monomial, as sums over samples.
+    // Integrals of the stress times each monomial, as weighted sums over
+    // samples.
     template <int degree>
     StressPolynomials<degree>
     moments(const StressFit                          &fit,
@@ -51,7 +52,8 @@ namespace corotet
 
 
 
-    // Adds @p factor times a matrix, row by row, times the numbers of @p from.
+    // Adds @p factor times a matrix, given row by row, times the rows of
+    // @p from.
     template <std::size_t n_rows>
     void
     add_product(std::array<std::array<double, 6>, n_rows> &to,
@@ -68,7 +70,7 @@ namespace corotet
 
 
 
-    // To the stress that the polynomials of the fits before leave over.
+    // Fits polynomials to the remainder of the stress after the first fit.
     void
     find_polynomials(const StressFit                          &fit,
                      const StressSamples                      &samples,

@@ -17,7 +17,7 @@ namespace corotet
 
   namespace
   {
-    // Ghost vertices by the rank that owns them, in global numbers. Ghosts are
+    // Global numbers of ghost vertices by the rank that owns them. Ghosts are
     // numbered in the order of their owners.
     std::map<unsigned int, std::vector<global_dof_index>>
     by_owner(const Discretization     &discretization,
@@ -119,7 +119,7 @@ namespace corotet
     const auto     requests =
       mpi::some_to_some(comm, by_owner(discretization, ghost_vertices));
 
-    // A cell is described by four vertices and the material, and by positions.
+    // A cell is described by its four vertices, its material, and positions.
     using Description =
       std::pair<std::vector<global_dof_index>, std::vector<double>>;
     std::map<unsigned int, Description> answers;
@@ -197,7 +197,7 @@ namespace corotet
         const double *next = numbers.data();
         for (const unsigned int c : received.at(rank))
           for (unsigned int q = 0; q < n_points; ++q, next += 6)
-            // Local cells keep what they have.
+            // Stress of local cells does not change.
             if (c >= discretization.n_local_cells())
               std::copy_n(next, 6, stresses[first_point(c) + q].begin_raw());
       }

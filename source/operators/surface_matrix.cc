@@ -47,7 +47,7 @@ namespace corotet
     const std::size_t n_points = points_per_face();
     for (const auto &[boundary, range] : other.ranges)
       {
-        // This may move the vector.
+        // This call may move the vector, so it comes before data().
         const unsigned int first = first_face(boundary);
         Tensor            *to    = all_tensors.data() + n_points * first;
         const Tensor *from = other.all_tensors.data() + n_points * range.first;
@@ -237,13 +237,13 @@ namespace corotet
   double
   SurfaceOperator<T>::round_off(const VectorType &x) const
   {
-    // The other entries of a row are together some three times its diagonal.
+    // The other entries of a row sum up to about three times its diagonal.
     constexpr double row = 4;
     double           sum = 0;
     for (unsigned int k = 0; k < rows.size(); ++k)
       {
-        // By components: a stiff spring along one axis says nothing of what
-        // moves along another.
+        // Components are treated separately: a stiff spring along one axis does
+        // not limit the error of motion along another.
         for (unsigned int a = 0; a < 3; ++a)
           {
             double size = 0;

@@ -10,7 +10,7 @@ namespace corotet
 {
   namespace
   {
-    // K source and M source.
+    // Computes K source and M source.
     template <typename Kernel, typename T, Terms terms>
     struct Form
     {
@@ -61,8 +61,8 @@ namespace corotet
       }
     };
 
-    // The diagonal of K + mass_factor M: K_aa = (lambda + mu) D_aa + mu tr D at
-    // node i, with D the integral of grad N_i (x) grad N_i.
+    // Computes the diagonal of K + mass_factor M: K_aa = (lambda + mu) D_aa +
+    // mu tr D at node i, with D the integral of grad N_i (x) grad N_i.
     template <typename Kernel, typename T, Terms terms>
     struct Diagonal
     {

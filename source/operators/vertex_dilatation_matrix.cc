@@ -44,7 +44,7 @@ namespace corotet
   void
   VertexDilatation::update_rows(const ElasticData &data)
   {
-    // Without rotations they never change.
+    // Without rotations the rows never change.
     if (are_entries_known && !data.has_rotations())
       return;
     are_entries_known = true;
@@ -58,7 +58,7 @@ namespace corotet
         const auto  &constants   = data.constants[batch];
         const double factor =
           constants.volume[lane] / (4 * constants.scale[lane]);
-        // Of the four nodes.
+        // The gradients of the four nodes.
         double gradients[4][3] = {};
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int a = 0; a < 3; ++a)
@@ -187,7 +187,7 @@ namespace corotet
                 prescribed.begin());
     pattern->exchange().update(prescribed.data(), 3);
 
-    // Columns of rows that have an owned node, in local numbers.
+    // Columns, in local numbers, of the rows that have an owned node.
     std::vector<int> columns(rows.columns.size(), -1);
     for_owned_columns([&](const int copy, const int, const int) {
       for (int k = rows.starts[copy]; k < rows.starts[copy + 1]; ++k)

@@ -21,7 +21,7 @@ namespace corotet
 
     using CellValues = Simd<double>[n_vertices][3];
 
-    // H = grad u R^T.
+    // Computes H = grad u R^T.
     COROTET_ALWAYS_INLINE void
     rotated_gradient(const Simd<double> (&g)[9],
                      const CellValues &u,
@@ -129,7 +129,7 @@ namespace corotet
             rotations_of(data, batch, R);
             dilatation += R[0][0] + R[1][1] + R[2][2] - 3.;
           }
-        // Zero in lanes without a cell.
+        // The volume is zero in lanes without a cell.
         dilatation *= lanes(data.constants[batch].volume) * (1. / n_vertices);
         for (unsigned int i = 0; i < n_vertices; ++i, copy += batch_size)
           for (unsigned int lane = 0; lane < batch_size; ++lane)
@@ -287,7 +287,7 @@ namespace corotet
       const Simd<double> volume = lanes(data.constants[batch].volume);
       const Simd<double> factor = volume * mean_pressure(batch);
       static_for<6>([&](auto s) {
-        // Lanes without a cell have no rotation.
+        // Lanes without a cell have no rotation, so their value is set to zero.
         const Simd<double> value = volume > 0. ? T[s] * factor : broadcast(0.);
         store_aligned(value, stored + s * batch_size);
       });

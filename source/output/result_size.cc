@@ -37,9 +37,10 @@ namespace corotet
                     const double            n_rows,
                     const double            n_states)
     {
-      // Numbers of 64 bits: displacement and velocity, and three of each cell;
-      // displacement and stress at each quadrature point. Those of a row are
-      // text, of 12 characters or more where they are not zero.
+      // A state has numbers of 64 bits: displacement and velocity at nodes, and
+      // three numbers for each cell; with stress at quadrature points, also
+      // displacements there. A row of the history is text, with 12 characters
+      // or more for each nonzero number.
       double n_of_stress = 0;
       for (const VtkhdfSeries::Table &table : StressTables::tables())
         n_of_stress += std::max(1U, static_cast<unsigned int>(table.n_columns));

@@ -83,8 +83,8 @@ namespace corotet
   {
     if (velocity_factor == 0 || !equation.terms.has_damping())
       return solve(state, time, velocity_factor);
-    // Damping is that of one moment: supports come in with the velocity to
-    // come, the others with that before it.
+    // Damping needs the velocities of one moment at all unknowns: prescribed
+    // ones come with the next velocity, free ones with that before it.
     add_to_supports(state.v, -velocity_factor, state.a);
     const StageReport report = solve(state, time, velocity_factor);
     add_to_supports(state.v, velocity_factor, state.a);
@@ -108,7 +108,8 @@ namespace corotet
                             const double time,
                             const double velocity_factor)
   {
-    // Of damping by mass and on the surface, a part is in the velocity to come.
+    // Damping by mass and on the surface depends on the next velocity, too, and
+    // so on the acceleration.
     const ForceTerms &terms = equation.terms;
     const double      c     = velocity_factor * terms.damping_shares().mass;
     const bool        has_surface_damping =
@@ -123,7 +124,7 @@ namespace corotet
     if (residual.size() == 0)
       for (Vector *vector : {&residual, &acceleration, &ghosted})
         body.discretization.initialize_vector(*vector);
-    // Free accelerations from those that are prescribed: M_ff a_f = r_f.
+    // The free accelerations follow from the prescribed ones: M_ff a_f = r_f.
     for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
       if (!body.motion.is_prescribed()[i])
         state.a.local_element(i) = 0;
@@ -135,7 +136,7 @@ namespace corotet
     ScopedTimer                    timer(equation.wall_times.solve);
     const SurfaceOperator<double> *C =
       has_surface_damping ? &surface_damping(time, velocity_factor) : nullptr;
-    // The part of the accelerations of supports.
+    // The damping due to the prescribed accelerations.
     if (c > 0)
       r.add(-c, forces.inertia);
     if (C != nullptr)
@@ -224,7 +225,7 @@ namespace corotet
     SurfaceOperator<double> surface_stiffness(discretization);
     if (springs)
       surface_stiffness.set(*springs);
-    // The exact tangent where it is symmetric: tension stiffens.
+    // The exact tangent is used where it is symmetric, as tension stiffens.
     Tangent tangent = elasticity.is_symmetric(Tangent::consistent) ?
                         Tangent::consistent :
                         Tangent::frozen_rotation;
@@ -243,7 +244,7 @@ namespace corotet
       },
       [&](Vector &f, const Vector &v) { mass_solver().vmult(f, v); },
       [&](Vector &v, const Vector &f) { mass_solver().solve(v, f); }};
-    // A start without pattern, the same on any number of ranks.
+    // The start vector has no pattern and is the same on any number of ranks.
     Vector       start(state.u);
     const double length = discretization.node_positions().linfty_norm();
     for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
@@ -262,8 +263,8 @@ namespace corotet
     if (equation.terms.damping_shares().stiffness == 0 ||
         (!springs && elasticity.is_by_cell(tangent)))
       return {all, all};
-    // Damping is that of the frozen rotations, whatever softens, and not of
-    // springs.
+    // Damping is proportional to the stiffness with frozen rotations, even if
+    // the exact tangent is softer, and not to that of springs.
     tangent      = Tangent::frozen_rotation;
     is_supported = false;
     return {all, std::sqrt(largest_eigenvalue(pencil, start, tolerance))};

@@ -64,7 +64,7 @@ namespace corotet
     smallest = parameters.smallest_step > 0 ?
                  parameters.smallest_step :
                  1e-6 * std::min(first_step, largest);
-    // Both ends are rounded, and are sums that are rounded.
+    // Both ends of a step are rounded sums.
     const double round_off =
       4 * std::numeric_limits<double>::epsilon() * duration;
     smallest_taken =
@@ -83,11 +83,12 @@ namespace corotet
                        const double error,
                        const double size)
   {
-    // What the step would have to be for the target, with a margin.
+    // A step that meets the target is longer by the cube root of this ratio;
+    // the factor has a margin.
     const double scale = std::max(largest_size, size);
     const double ratio = error > 0 ? parameters.target_error * scale / error :
                                      std::numeric_limits<double>::infinity();
-    // Not a number if the motion has no finite size.
+    // The ratio is not a number if the displacement is not finite.
     const bool   is_accurate = ratio >= 1;
     const double factor =
       ratio >= 0 ? std::clamp(0.9 * std::cbrt(ratio), 0.2, 2.) : 0.2;
@@ -124,7 +125,7 @@ namespace corotet
   AdaptiveStep::transfer(Archive &archive)
   {
     archive.transfer("length", dt);
-    // Limits may have changed.
+    // The limits of the step may have changed.
     if (archive.is_reading())
       set_length(dt);
     archive.transfer("largest_size", largest_size);

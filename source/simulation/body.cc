@@ -71,7 +71,7 @@ namespace corotet
              conditions,
              time_scale(parameters, discretization, materials, purpose))
   {
-    // Modes take it for the linear one at rest, too.
+    // The chosen law must be the linear one at rest, also for modal analyses.
     const auto chosen = parameters.material.law(discretization.degree());
     for (const auto &[region, material] : materials)
       check_at_rest(*chosen, material);
@@ -128,7 +128,7 @@ namespace corotet
   {
     const Vector &diagonal = mass.diagonal();
     if (sum_of_nodal_masses == 0)
-      // Three unknowns of each node have its mass.
+      // The mass of each node counts for its three unknowns.
       sum_of_nodal_masses = diagonal.mean_value() * diagonal.size() / 3;
     double sum = 0;
     for (unsigned int i = 0; i < field.locally_owned_size(); ++i)

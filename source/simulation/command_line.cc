@@ -43,7 +43,7 @@ namespace corotet
                          instruction_set);
     }
 
-    // An argument that belongs to nothing is a misspelt option or one file too
+    // Throws if an argument is left over: a misspelt option or one file too
     // many.
     void
     refuse_leftover(const CLI::App &app)
@@ -70,7 +70,7 @@ namespace corotet
     }
 
     // The value of --print-parameters may be left out; then the parameter file
-    // behind it looks like one.
+    // that follows it has been taken for the value.
     void
     separate_style_from_file(CommandLine &command_line)
     {
@@ -87,8 +87,8 @@ namespace corotet
       style                       = styles.front();
     }
 
-    // A check of the value of an option, a number: an empty text, or what is
-    // wrong with it. CLI's own ones accept nan.
+    // A check of an option's value, which must be a number. It returns an empty
+    // text, or what is wrong with the value. The checks of CLI11 accept nan.
     std::function<std::string(const std::string &)>
     number_check(const std::function<bool(double)> &is_allowed,
                  const std::string                 &allowed)
@@ -105,14 +105,14 @@ namespace corotet
       };
     }
 
-    // A variable of the shell that is not set is no name.
+    // An empty name may come from a shell variable that is not set.
     std::string
     name_check(const std::string &text)
     {
       return text.empty() ? "found ''; allowed is a name" : "";
     }
 
-    // Those of a run; returns --print-parameters.
+    // Adds the options of a run; returns --print-parameters.
     const CLI::Option *
     add_run_options(CLI::App &app, CommandLine &command_line)
     {
@@ -124,7 +124,8 @@ namespace corotet
       app.add_option("FILE",
                      command_line.parameter_file,
                      "The parameter file: .prm, .json or .xml");
-      // Without the last setting the option would take the file behind it, too.
+      // Without the last setting the option would also take the parameter file
+      // that follows it.
       app
         .add_option("--set",
                     command_line.overrides,

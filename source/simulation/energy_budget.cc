@@ -16,7 +16,7 @@ namespace corotet
 
   namespace
   {
-    // Of a node.
+    // The entries of a node.
     Tensor<1, 3>
     vector_at(const Vector &vector, const unsigned int n)
     {
@@ -68,7 +68,7 @@ namespace corotet
     began_unloaded          = true;
     is_unloaded             = true;
     initial_changing_energy = 0;
-    // No work has been done for the guess's energy.
+    // The balance begins with the guess's energy, for which no work was done.
     initial.energy_balance = initial.elastic_energy;
   }
 
@@ -117,8 +117,8 @@ namespace corotet
     if (force_terms.has_damping())
       archive.transfer("damping", forces.damping);
     archive.transfer("displacement", forces.displacement);
-    // Among all unknowns, as the order of the prescribed ones depends on the
-    // partition.
+    // The values of prescribed unknowns are stored among all unknowns, as their
+    // order depends on the partition.
     const auto transfer_prescribed = [&](const std::string   &name,
                                          std::vector<double> &values) {
       const auto &prescribed = body.motion.unknowns();
@@ -150,7 +150,8 @@ namespace corotet
   void
   EnergyBudget::add_work(const State &state, const double time, const double dt)
   {
-    // Forces at the middle: c of now, 1 - c of last.
+    // Forces at the middle of the step: c is the share of the present ones, 1 -
+    // c that of the last ones.
     const double c =
       (time - 0.5 * dt - last.time) / (equation.last_time() - last.time);
     const Vector &damping        = equation.last_forces().damping;
@@ -162,7 +163,7 @@ namespace corotet
       return state.u.local_element(i) -
              (is_unloaded ? 0. : last.displacement.local_element(i));
     };
-    // Which asks all terms.
+    // Asked once, as it loops over all terms.
     const bool         has_damping = force_terms.has_damping();
     Tensor<1, 2>       sums;
     const unsigned int n = state.u.locally_owned_size();
@@ -172,7 +173,7 @@ namespace corotet
     if (has_damping)
       for (unsigned int i = 0; i < n; ++i)
         sums[1] += middle_damping(i) * du(i);
-    // What is prescribed moves with its own velocity.
+    // Prescribed unknowns move with their own velocity.
     const std::size_t n_moving =
       equation.is_dynamic ? body.motion.unknowns().size() : 0;
     for (std::size_t k = 0; k < n_moving; ++k)
@@ -235,7 +236,7 @@ namespace corotet
              vector_at(equation.displacement(), n);
     };
 
-    // Where the equation of motion holds.
+    // Reactions and moments are those where the equation of motion holds.
     record.reaction = Tensor<1, 3>();
     for (std::size_t k = 0; k < support_force_list.size(); ++k)
       {
@@ -255,7 +256,7 @@ namespace corotet
       record.internal_moment +=
         cross_product_3d(position_at(n), vector_at(terms.internal, n));
 
-    // At the end of the step.
+    // Energies and momenta are those at the end of the step.
     equation.set_state(state);
     find_kinetic_energy(record, state);
     record.momentum = record.angular_momentum = Tensor<1, 3>();

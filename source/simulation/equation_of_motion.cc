@@ -17,7 +17,8 @@ namespace corotet
     ForceTerms
     make_terms(Body &body, const SimulationParameters &parameters, Log &log)
     {
-      // What was noted before belongs to others.
+      // Values that were noted as not finite before do not belong to this
+      // equation.
       take_not_finite(body.discretization.communicator());
       ForceTerms terms =
         parameters.forces.make(body.force_context(log, parameters.start_time));
@@ -77,7 +78,7 @@ namespace corotet
     if (load_factor != known_load_factor ||
         (time != known_time && !terms.is_constant()) || terms.follows_motion())
       {
-        // Of no time if a term throws.
+        // If a term throws, the forces belong to no time.
         known_time = std::numeric_limits<double>::quiet_NaN();
         terms.external_force(forces.external, last_motion(), load_factor);
         known_load_factor = load_factor;

@@ -18,9 +18,10 @@ namespace corotet
   namespace
   {
     constexpr double machine_precision = std::numeric_limits<double>::epsilon();
-    // Of forces, in terms of those at a guess: two solves to 1e-8.
+    // The smallest scale of forces relative to those at a guess: two solves
+    // with an accuracy of 1e-8.
     constexpr double least_share = 1e-8;
-    // Of one linear solve.
+    // The smallest relative tolerance of one linear solve.
     constexpr double least_tolerance = 1e-9;
   } // namespace
 
@@ -72,7 +73,8 @@ namespace corotet
     this->stage        = stage;
     stage_state        = &state;
     const bool statics = stage.acceleration_factor == 0;
-    // Where forces vanish, those that there were before are what counts.
+    // Where all forces vanish, residuals are compared with those of the last
+    // stage.
     stage_scale = solved_scale;
     NewtonReport report;
     try
@@ -91,7 +93,7 @@ namespace corotet
       }
     solved_scale = force_scale;
     if (parameters.linearly_implicit)
-      // Newton's method ends before it looks at the forces again.
+      // Newton's method has ended without an evaluation of the new state.
       equation.evaluate(state, stage.time, stage.load_factor);
     if (statics || parameters.always_log || report.line_searches > 0)
       log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
@@ -114,7 +116,7 @@ namespace corotet
       return {};
     if (!effective_operator)
       make_operators();
-    // With the state before, at which the tangent is taken.
+    // The tangent is taken at the state before the step.
     state.u.swap(before);
     stage       = {time, 0., 0., load_factor};
     stage_state = &state;
@@ -122,10 +124,10 @@ namespace corotet
     for (Vector *vector : {&r, &du, &f})
       body.discretization.initialize_vector(*vector);
     residual(r);
-    // The solve before may have ended with the other one.
+    // The last solve may have ended with the definite tangent.
     use_definite_tangent(false);
     const TangentOperator *J = linearize();
-    // Without the derivatives of loads: it is a guess.
+    // The derivatives of loads are left out, as this is only a guess.
     motion_of_supports.update_ghost_values();
     body.elasticity.apply_stiffness(f, motion_of_supports, tangent);
     effective_operator->add_surface(f, motion_of_supports);
@@ -140,8 +142,8 @@ namespace corotet
       }
     catch (const ComputationError &)
       {
-        // Newton's method has other tangents, and tells of forces that are
-        // not finite.
+        // Newton's method can choose another tangent, and reports forces that
+        // are not finite.
         du = 0;
       }
     state.u.swap(before);
@@ -166,8 +168,8 @@ namespace corotet
     external_force = sizes[1];
     inertia_force  = sizes[4];
     force_scale    = *std::max_element(sizes.begin() + 1, sizes.end());
-    // Forces at a guess may be of any size; what round-off leaves of them
-    // counts, for a linear problem whose solution has none.
+    // Forces at a guess may be of any size. In a linear problem whose solution
+    // has no forces, the round-off of those at the guess is the scale.
     if (is_linear())
       stage_scale = std::max(stage_scale, least_share * force_scale);
     const RoundOffOfForces noise = round_off();
@@ -180,8 +182,9 @@ namespace corotet
   NewtonProblem::Norm
   ImplicitSolver::improve_guess(Vector &r, const Norm &at_guess)
   {
-    // Without the acceleration the forces of inertia are missing, and some of
-    // them may be there twice: what is as small as that is as good.
+    // A residual is fair if it is no larger than the forces of the step:
+    // without the acceleration of the guess the inertia is missing, and some of
+    // it may count twice.
     const double fair = std::max({inertia_force, external_force, solved_scale});
     Norm         best = at_guess;
     const auto is_fair = [&] { return best.is_finite() && best.value <= fair; };
@@ -190,7 +193,8 @@ namespace corotet
     const auto try_without = [&](Vector &part) {
       body.motion.set_zero(part);
       add(-1., part);
-      // What is hardly less may be farther from the solution.
+      // A residual that is hardly smaller may belong to a state farther from
+      // the solution.
       const Norm without = residual(r);
       if (without.value < 0.5 * best.value || !best.is_finite())
         {
@@ -283,14 +287,14 @@ namespace corotet
     ScopedTimer timer(equation.wall_times.solve);
     try
       {
-        // One solve is all that a linear problem needs if it is as good as
-        // Newton's method wants it, measured by what is known of the forces at
-        // the solution; a tenth is for the round-off between this residual and
-        // that of the forces.
+        // A linear problem needs only one solve if that is as accurate as
+        // Newton's method asks, relative to the forces known at the solution. A
+        // tenth is left for the difference by round-off between this residual
+        // and that of the forces.
         const double known = std::max(solved_scale, external_force);
         const double scale =
           std::max(stage_scale, known > 0 ? known : force_scale);
-        // What one solve cannot do is left to the next one.
+        // What one solve cannot reach is left to the next one.
         const double limit =
           is_linear() ? std::max({0.9 * parameters.residual_tolerance * scale,
                                   least_tolerance * norm(r),
@@ -302,7 +306,7 @@ namespace corotet
         if (preconditioner_builds() > n_builds)
           {
             built_stage = stage;
-            // Linear laws have no rotations that depend on it.
+            // Linear laws have no rotations that depend on the displacement.
             if (!body.law->is_linear())
               built_displacement = stage_state->u;
             built_with_tangent = J != nullptr;
@@ -313,8 +317,9 @@ namespace corotet
       }
     catch (const ComputationError &error)
       {
-        // No cell is to blame for a matrix that is singular, nor for an exact
-        // tangent that may be next to it: the solve with another one tells.
+        // The failure is not due to cells if the matrix is singular, or if the
+        // tangent is exact, which may be almost singular: then the solve with
+        // another tangent tells.
         if (dynamic_cast<const SingularMatrixError *>(&error) == nullptr &&
             (J == nullptr || !J->is_exact()))
           report_linear_solver(std::numeric_limits<unsigned int>::max());

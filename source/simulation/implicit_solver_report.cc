@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What the log says of slow linear solves.
+// What the log says about slow linear solves.
 
 #include <corotet/discretization/cell_proportions.h>
 #include <corotet/simulation/implicit_solver.h>

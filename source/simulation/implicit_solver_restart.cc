@@ -49,12 +49,12 @@ namespace corotet
   {
     if (!effective_operator)
       make_operators();
-    // The run may go on with another tangent, which needs no operator.
+    // The run may go on with another tangent, for which no operator is needed.
     built_with_tangent = built_with_tangent && tangent_operator != nullptr;
     State state;
     for (Vector *vector : {&state.u, &state.v})
       body.discretization.initialize_vector(*vector);
-    // Empty with linear laws, which it does not matter for.
+    // The displacement is empty with linear laws, where it does not matter.
     if (built_displacement.size() > 0)
       state.u = built_displacement;
     equation.set_state(state);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What round-off leaves of residuals, and when that is no excuse.
+// What round-off leaves of residuals, and when it does not excuse them.
 
 #include <corotet/operators/force_round_off.h>
 #include <corotet/simulation/implicit_solver.h>
@@ -15,7 +15,8 @@ namespace corotet
   namespace
   {
     constexpr double precision = std::numeric_limits<double>::epsilon();
-    // Sizes of a body: no equilibrium with its supports is there.
+    // The displacement, in sizes of the body, beyond which there is no
+    // equilibrium with its supports.
     constexpr double far_away = 1e3;
   } // namespace
 
@@ -37,7 +38,7 @@ namespace corotet
   bool
   ImplicitSolver::is_out_of_reach() const
   {
-    // In motion inertia resists, and bodies get anywhere.
+    // In dynamics inertia resists, and bodies may move any distance.
     if (equation.is_dynamic)
       return false;
     const Vector &u           = equation.displacement();

@@ -20,8 +20,8 @@ namespace corotet
   {
     using dealii::Tensor;
 
-    // What is left of omega^2 in sums that are so much larger has three digits
-    // less than numbers have [-].
+    // The precision of omega^2 relative to the much larger terms that it is a
+    // sum of: three digits less than that of numbers [-].
     constexpr double share_of_round_off =
       1000 * std::numeric_limits<double>::epsilon();
 
@@ -37,7 +37,7 @@ namespace corotet
       return result;
     }
 
-    // Largest displacement of a node.
+    // The largest displacement of a node.
     double
     largest_displacement(const Vector &x)
     {
@@ -115,7 +115,7 @@ namespace corotet
   {
     ScopedTimer timer(wall_times.solve);
     choose_shift();
-    // Of a mode that deforms the body.
+    // The estimate for a mode that deforms the body.
     const double     with_strain = lowest;
     const Eigenpairs pairs       = solver.solve(parameters.modes.number, shift);
     if (pairs.values.size() > rigid_motions.size())
@@ -129,7 +129,7 @@ namespace corotet
         std::min<std::size_t>(rigid_motions.size(), computed.size()),
       computed.end(),
       [](const Mode &a, const Mode &b) { return a.eigenvalue < b.eigenvalue; });
-    // Ghost entries have not come along.
+    // Sorting has not kept the ghost entries of shapes up to date.
     for (Mode &mode : computed)
       mode.shape.update_ghost_values();
     log_table();
@@ -152,9 +152,10 @@ namespace corotet
   void
   ModalAnalysis::check_shift() const
   {
-    // No mode of the mesh has an omega^2 as high as that: (c_p / h)^2 with the
-    // speed of pressure waves and the smallest height of a cell, times what
-    // elements of degree 3 and shapes make of it, and more.
+    // No mode of the mesh has a larger omega^2 than this bound: (c_p / h)^2
+    // with the speed c_p of pressure waves and the smallest height h of a cell,
+    // times a generous factor for elements of degree 3 and for the shapes of
+    // cells.
     double largest = 0;
     for (unsigned int c = 0; c < the_body.discretization.n_owned_cells(); ++c)
       {
@@ -183,10 +184,11 @@ namespace corotet
   void
   ModalAnalysis::choose_shift()
   {
-    // With more, all modes that are wanted look alike to the solver: it takes
-    // ages, and in the end errors are larger than differences.
+    // With a larger shift all modes that are wanted look alike to the solver:
+    // it takes very long, and in the end errors exceed the differences of
+    // modes.
     constexpr double most = 10;
-    // Soft springs resist motions without strain, but these deform nothing.
+    // Soft springs resist rigid motions, but these deform nothing.
     const Discretization &disc = the_body.discretization;
     const RigidMotions    without_strain(disc, the_body.motion);
     const double          first_look = estimated_shift();
@@ -194,9 +196,9 @@ namespace corotet
                                       rigid_body_modes(disc, without_strain),
                                       true);
     shift                            = 0.01 * lowest;
-    // A solve with A makes such a motion larger than other modes by the ratio
-    // of what they have of A: if that exceeds a million, these become the noise
-    // of that one.
+    // A solve with A amplifies a rigid motion more than other modes, by the
+    // ratio of their Rayleigh quotients. If that exceeds a million, the other
+    // modes drown in the noise of the rigid motion.
     if (without_strain.size() > rigid_motions.size())
       shift =
         std::max(0.01 *
@@ -219,9 +221,9 @@ namespace corotet
   double
   ModalAnalysis::estimated_shift() const
   {
-    // (v_s / L)^2 with the slowest shear wave, times 1e-4: the lowest frequency
-    // of a compact body is about v_s / L, that of one as slender as 1:100 a
-    // hundredth of it. Enough for a first look.
+    // A first guess: (v_s / L)^2 of the slowest shear wave, times 1e-4. The
+    // lowest frequency of a compact body is about v_s / L, that of a slender
+    // one (1:100) a hundredth of it.
     double square = std::numeric_limits<double>::max();
     for (const auto &[region, material] : the_body.materials)
       square = std::min(square, material.mu / material.density);
@@ -239,8 +241,9 @@ namespace corotet
     solver.apply(f, g, mode.shape);
     mode.modal_mass = mode.shape * g;
     mode.shape.update_ghost_values();
-    // By the energy of the strain and not by phi . K phi: so that of a rigid
-    // body mode is the square of its round-off, and never negative.
+    // The eigenvalue comes from the energy of the strain and not from phi . K
+    // phi: so that of a rigid body mode is the square of its round-off, and
+    // never negative.
     const double energy =
       the_body.elasticity.state(mode.shape).energy +
       terms.energy({parameters.start_time, mode.shape, mode.shape});
@@ -252,16 +255,17 @@ namespace corotet
     r.add(-mode.eigenvalue, g);
     const double unit = std::max(mode.eigenvalue, lowest) * norm(g);
     mode.residual     = norm(r) / unit;
-    // The bound for a sum of n terms, n epsilon times the sum of their sizes:
-    // row i has at most some three hundred, which are together some three times
-    // K_ii phi_i.
+    // The bound of the round-off in a sum of n terms is n epsilon times the sum
+    // of their sizes. A row i has at most some three hundred terms, whose sizes
+    // sum up to about three times K_ii phi_i.
     for (unsigned int i = 0; i < r.locally_owned_size(); ++i)
       r.local_element(i) =
         A.diagonal().local_element(i) * mode.shape.local_element(i);
     mode.round_off =
       1000 * std::numeric_limits<double>::epsilon() * norm(r) / unit;
 
-    // Also from the nodes of supports, which phi moves through M.
+    // The participation includes the nodes of supports, which phi moves through
+    // M.
     the_body.mass.apply(g, mode.shape);
     Tensor<1, 3> participation;
     for (unsigned int i = 0; i < g.locally_owned_size(); ++i)
@@ -278,9 +282,9 @@ namespace corotet
   double
   ModalAnalysis::sign(const Vector &x) const
   {
-    // Products with waves of directions and phases that no body is symmetric
-    // to. That one counts which is farthest from zero: whichever of two that
-    // are alike it is would be chance, but that they are alike is, too.
+    // Products with waves whose directions and phases match no symmetry of a
+    // body. The product that is farthest from zero decides. If two are equally
+    // far, it would be chance which one is taken, but that is unlikely.
     constexpr unsigned int      n_waves = 8;
     std::array<double, n_waves> products{};
     const Vector               &mass = the_body.mass.diagonal();

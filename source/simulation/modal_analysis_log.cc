@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What a modal analysis says in the log.
+// What the log says about a modal analysis.
 
 #include <corotet/simulation/modal_analysis.h>
 
@@ -56,8 +56,8 @@ namespace corotet
   void
   ModalAnalysis::note_cut_group(const std::vector<double> &eigenvalues) const
   {
-    // Meshes are less symmetric than bodies: what is one frequency of the body
-    // is several, that differ by the error of the mesh.
+    // Meshes are less symmetric than bodies: one frequency of the body may
+    // become several of the mesh, which differ by its discretization error.
     constexpr double    equal   = 5e-3;
     const unsigned int  n_rigid = rigid_motions.size(), n = computed.size();
     std::vector<double> frequencies;

@@ -46,7 +46,7 @@ namespace corotet
   void
   Simulation::check_supports()
   {
-    // Of the first time that is solved for.
+    // The springs at the first time that is solved for.
     const auto springs =
       system.equation().terms.springs(the_body.reference, stepper.first_time());
     const std::string motions =
@@ -100,7 +100,8 @@ namespace corotet
                                                 failure.step,
                                                 failure.time,
                                                 error.what());
-        // If the machine fails now, too, the reason of the run's end is known.
+        // If observers fail now, too, the reason of the run's end is known
+        // already.
         try
           {
             if (is_started)
@@ -143,7 +144,7 @@ namespace corotet
     transfer(archive);
     archive.within("time_loop",
                    [&] { stepper.resume(recording, archive, last_record); });
-    // Before the checkpoint it has if something has done work since.
+    // The body has moved before the checkpoint if any work has been done.
     has_moved  = is_moved(last_record) || last_record.external_work != 0;
     is_started = true;
     system.equation().set_state(stepper.state());
@@ -239,7 +240,7 @@ namespace corotet
   void
   Simulation::save()
   {
-    // What the failed step has left in the system is not the state.
+    // A failed step has left another state in the system.
     system.equation().set_state(stepper.state());
     stress_is_present = false;
     if (stepper.has_new_record())
@@ -286,7 +287,8 @@ namespace corotet
     summary.status  = status;
     summary.message = message;
     the_body.fill_in(summary);
-    // Of the state, which may be some steps after its last record.
+    // Step and time are those of the state, which may be later than its last
+    // record.
     summary.steps    = step_number() - (parts_made() > 0 ? 1 : 0);
     summary.end_time = time();
     summary.preconditioner_builds =
@@ -345,7 +347,8 @@ namespace corotet
       fmt::format("rotations inside of cells differ from those of their "
                   "centres by up to {:.3g} degrees",
                   angle * 180 / dealii::numbers::PI);
-    // Measured, see doc/rotations.md: with less no error was above a percent.
+    // This limit was measured, see doc/rotations.md: below it no error exceeded
+    // a percent.
     if (angle > 0.005)
       log.warning(text + ", which may make errors of some percent; finer cells "
                          "or Material/Rotation = quadrature points make them "

@@ -11,7 +11,7 @@ namespace corotet
 {
   namespace
   {
-    // Declares a section by @p declare_entries.
+    // Declares the entries of a section with @p declare_entries.
     template <typename Function>
     void
     section(dealii::ParameterHandler &prm,

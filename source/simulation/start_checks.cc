@@ -22,7 +22,8 @@ namespace corotet
   {
     const std::string displacement_entry = "Initial conditions/Displacement";
 
-    // Nodes of supports must be where these are at the start.
+    // The initial displacement must agree with that of the supports at the
+    // start.
     void
     check_supports_at_start(StructuralSystem           &system,
                             const SimulationParameters &parameters,
@@ -47,10 +48,10 @@ namespace corotet
             }
         }
       const double largest_of_all = dealii::Utilities::MPI::max(largest, comm);
-      // Of what is written with six digits.
+      // The tolerance is that of numbers written with six digits.
       if (largest_of_all <= 1e-6 * std::cbrt(discretization.volume()))
         return;
-      // Without an initial displacement it may be meant: supports that jump.
+      // Without an initial displacement the jump of supports may be intended.
       if (norm(initial.u) == 0)
         {
           log.warning(fmt::format(
@@ -81,7 +82,8 @@ namespace corotet
       });
     }
 
-    // Crushed cells are allowed, which round-off makes a little negative.
+    // Crushed cells are allowed; their det F may be slightly negative by
+    // round-off.
     void
     check_inversions(const ElasticState &state)
     {
@@ -131,24 +133,25 @@ namespace corotet
     // Displacements of a linear law may be of any size.
     if (!equation.body.law->is_linear())
       check_inversions(equation.body.elasticity.state(equation.displacement()));
-    // Better now than after hours.
+    // A load that is not finite is better found now than after hours.
     check_loads(equation, initial, parameters.end_time);
   }
 
   namespace
   {
-    // Laws of other programs may be wrong where bodies are not at rest.
+    // User-defined laws may be wrong where bodies are not at rest.
     void
     warn_of_law(const Body &body, Log &log)
     {
-      // Strains of some percent, and a rotation.
+      // The test uses strains of some percent, and a rotation.
       const dealii::Tensor<2, 3> H(
         {{0.02, -0.07, 0.01}, {0.05, -0.01, 0.03}, {-0.02, 0.01, 0.03}});
       constexpr double tolerance = 1e-3;
       const LawErrors  errors =
         law_errors(*body.law, body.materials.begin()->second, H);
       const std::string law = "Material/Type: the law's stress";
-      // Numbers that are not finite are those of laws without stress there.
+      // Values that are not finite come from laws that have no stress at this
+      // strain.
       if (body.law->has_energy(body.discretization.degree()) &&
           errors.stress > tolerance)
         log.warning(fmt::format("{} is not the derivative of its energy, from "
@@ -173,7 +176,7 @@ namespace corotet
     warn_of_law(body, log);
     for (const auto &[region, material] : body.materials)
       {
-        // That it is a round number is known up to round-off.
+        // Poisson's ratio is a round number only up to round-off.
         const double      nu = poissons_ratio(material);
         const std::string found =
           fmt::format("Material/Poisson's ratio: {:.9g} of region '{}' ",
@@ -190,8 +193,8 @@ namespace corotet
             (allows_vertex_dilatation(*body.law) ?
                ", nor do those of degree 1 with Dilatation = vertices" :
                ""));
-        // With 0.499 displacements of degree 2 and 3 are good to some percent,
-        // and solvers need a few times more iterations.
+        // With a ratio of 0.499 displacements of degree 2 and 3 are accurate to
+        // some percent, and solvers need a few times more iterations.
         else if (nu > 0.499 + 1e-9)
           log.warning(found + "is almost that of an incompressible material: " +
                       (of_vertices ? "" : "pressures are inaccurate, and ") +
@@ -236,12 +239,12 @@ namespace corotet
     const double size  = 1e-6 * std::cbrt(body.discretization.volume());
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
       {
-        // Fractions of multiples of the golden ratio are all over the place.
+        // The fractional parts of multiples of the golden ratio spread evenly.
         const double multiple = 0.6180339887498949 * double(first + i);
         u.local_element(i)    = size * (0.5 + multiple - std::floor(multiple));
       }
     u.update_ghost_values();
-    // At more times for loads that may act for a short while.
+    // Loads may act for a short while only, so more times are tried.
     constexpr unsigned int n_between = 100;
     std::vector<Motion>    motions{{parameters.start_time, u, u},
                                    {parameters.end_time, u, u}};
@@ -255,7 +258,7 @@ namespace corotet
          equation.terms.names_without_effect(motions, body.motion))
       log.warning(name + ": has no effect but on reactions, as the "
                          "displacement is prescribed wherever it acts");
-    // What was noted of these times belongs to no step.
+    // Values that were noted as not finite at these times belong to no step.
     take_not_finite(body.discretization.communicator());
   }
 } // namespace corotet

@@ -104,7 +104,7 @@ namespace corotet
     first_step  = step;
     first_done  = done;
     step_length = duration / n_steps;
-    // Times have 16 digits: so four are left for the length of a step.
+    // Times have 16 digits, so that four are left for the length of a step.
     constexpr double least = 1e-12;
     const double     latest =
       std::max(std::abs(parameters.start_time), std::abs(parameters.end_time));
@@ -118,7 +118,8 @@ namespace corotet
           step_length,
           latest,
           least * latest));
-    // Nobody minds steps that are a little shorter.
+    // Steps that are a little shorter than the given one are not worth a
+    // message.
     constexpr double much = 0.5;
     if (integrator->is_dynamic() && step_length < much * parameters.time_step)
       log.line(fmt::format("steps of {:.6g} s: found 'Time step' = {:g}, and "
@@ -131,8 +132,8 @@ namespace corotet
 
   namespace
   {
-    // Of the square of a step from that of the stable one, as far as that is
-    // known.
+    // The smallest distance of the squared step from the squared stable one,
+    // relative to the latter: the accuracy with which that is known.
     constexpr double least_distance_from_limit = 1e-3;
   } // namespace
 
@@ -142,15 +143,16 @@ namespace corotet
     const StabilityControl &control = *integrator->stability();
     const auto [omega, damped] =
       system.acceleration_solver().largest_frequencies(present, time(done));
-    // Stable is dt if (dt omega)^2 + 2 alpha_K dt damped^2 is at most that for
-    // one frequency, as the sum's largest eigenvalue is no larger than the sum
-    // of both: so the damping counts by the ratio of these.
+    // A step dt is stable if (dt omega)^2 + 2 alpha_K dt damped^2 is at most
+    // the limit for one frequency, as the largest eigenvalue of the sum is no
+    // larger than the sum of both. So the damping counts by the ratio of these
+    // frequencies.
     const double ratio  = omega > 0 ? damped / omega : 1;
     const double stable = integrator->stable_step(
       omega,
       system.equation().terms.damping_shares().stiffness * ratio * ratio);
-    // Close to the limit the energy of the fastest mode, which central
-    // difference has with two velocities, is 1 / (1 - r^2) times as large.
+    // Close to the limit the energy of the fastest mode, computed by central
+    // differences from two velocities, is larger by the factor 1 / (1 - r^2).
     const double r =
       n_steps == 0 ? control.safety_factor : step_length / stable;
     amplification =
@@ -217,18 +219,18 @@ namespace corotet
     const double time  = start + part * (parameters.end_time - start);
     const double latest =
       std::max(std::abs(start), std::abs(parameters.end_time));
-    // Of as many digits, of which steps take none, a number is decimal if it
-    // is one but for the round-off of three operations.
+    // A time is decimal if it has at most this number of digits, up to the
+    // round-off of three operations.
     constexpr int    n_digits  = 12;
     constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
-    // Powers of ten up to this one are exact.
+    // Powers of ten are exact up to this exponent.
     constexpr int most_places = 22;
     const double  places      = n_digits - 1 - std::floor(std::log10(latest));
     if (places < 0 || places > most_places)
       return time;
     const double unit    = std::pow(10., places);
     const double decimal = std::round(time * unit) / unit;
-    // Without the sign of a zero.
+    // Adding zero removes the sign of a negative zero.
     return std::abs(decimal - time) <= round_off * latest ? decimal + 0. : time;
   }
 
@@ -242,7 +244,8 @@ namespace corotet
     const double duration = parameters.end_time - parameters.start_time;
     const double interval = recording.time_between_results;
     const double now      = time(done);
-    // A multiple that is reached but for round-off is reached.
+    // A multiple counts as reached even if round-off has left it slightly
+    // below.
     const double target =
       interval > 0 ?
         std::min((std::floor(now / interval + 1e-6) + 1) * interval,
@@ -255,8 +258,8 @@ namespace corotet
     const double n   = std::ceil((end - done) * duration / dt * (1 - 1e-10));
     if (n <= ahead)
       return end;
-    // Steps of stability are all equal; those of an error keep their length,
-    // and none is left over that is very short.
+    // Steps that stability limits are all equal; those that an error controls
+    // keep their length, and none that is left over becomes very short.
     return adaptive && n > 2 ? done + dt / duration :
                                done + ahead * (end - done) / n;
   }
@@ -266,8 +269,8 @@ namespace corotet
   {
     if (n_steps == 0)
       return part * (parameters.end_time - parameters.start_time);
-    // The same number for each step, whatever round-off makes of its ends:
-    // matrices depend on it.
+    // The duration is the same number for each step, whatever round-off there
+    // is in its ends, as matrices depend on it.
     return std::ldexp(
       step_length, std::lround(std::log2(part * n_steps / (1 - first_done))));
   }

@@ -30,7 +30,7 @@ namespace corotet
     if (is_dynamic)
       for (Vector *vector : {&state.v, &state.a})
         body.discretization.initialize_vector(*vector);
-    // Those of the parameters, or made from the exact solution.
+    // The expressions of the parameters, or those made from the exact solution.
     const auto expression = [&](const std::string &name,
                                 const std::string &text,
                                 const std::string &given) {
@@ -51,7 +51,7 @@ namespace corotet
             take_not_finite(body.discretization.communicator()))
         throw InputError(found->entry, found->message);
     };
-    // Of constant loads, which are known by now.
+    // Values of constant loads have been computed by now and are checked first.
     check_finite();
     const auto fill = [&](Vector &vector, const Expression &value) {
       if (value.is_zero())

@@ -24,7 +24,7 @@ namespace corotet
   {
     check_parameters();
 
-    // Boundaries that disagree show themselves before the run starts.
+    // Boundaries that contradict each other are found before the run starts.
     system.initialize(present);
     State moved = present;
     for (const double part : {0., 0.5, 1.})
@@ -48,18 +48,18 @@ namespace corotet
   StageReport
   TimeLoop::solve_first_half_step(const double half)
   {
-    // Of damping that would take more than this part of a velocity in the half
-    // step. What it takes is wrong by the square of that part, which is a
-    // hundredth here.
+    // Damping is strong if it takes more than this part of a velocity in the
+    // half step. The error of explicit damping is the square of this part, so a
+    // hundredth.
     constexpr double  strong     = 0.1;
     const double      start_time = parameters.start_time;
     const StageReport report = system.solve_acceleration(present, start_time);
     if (!system.equation().terms.has_damping())
       return report;
-    // The same with the damping of the velocity at the end of the half step, as
-    // later steps have it: as long as that is weak, both differ by that part of
-    // the acceleration. Where it is strong, the velocity at the start would be
-    // turned round and grow.
+    // The implicit acceleration has the damping of the velocity at the end of
+    // the half step, as later steps do. If damping is weak, both accelerations
+    // differ by its part of the velocity. If it is strong, the explicit one
+    // would reverse the velocity and make it grow.
     const State exact = present;
     for (const unsigned int i : body.motion.unknowns())
       present.v.local_element(i) += half * present.a.local_element(i);
@@ -117,7 +117,7 @@ namespace corotet
         if (!integrator->is_explicit())
           system.acceleration_solver().release();
       }
-    // Explicit methods have their first forces already.
+    // Explicit methods have evaluated their first forces already.
     if (!integrator->is_explicit())
       system.equation().evaluate(present,
                                  start_time,
@@ -173,7 +173,7 @@ namespace corotet
   {
     StepRecord next    = is_between_records ? unrecorded : record;
     is_between_records = false;
-    // Of the state that a step that fails leaves.
+    // The record of the state that is left if a step fails.
     StepRecord good = integrator->is_explicit() ? record : next;
     const auto stay = [&](const StepRecord &reached) {
       unrecorded         = reached;
@@ -210,7 +210,8 @@ namespace corotet
           }
         catch (const StepInterrupted &)
           {
-            // What is left is a state at which a step or a part of it begins.
+            // The state that is left is the one at the start of a step or of a
+            // part of it.
             restore_state();
             system.equation().set_state(present);
             if (next.parts > 0)
@@ -231,7 +232,7 @@ namespace corotet
               }
             else if (!parts_left.empty() && next.parts > 0)
               {
-                // Part of the step is done.
+                // A part of the step has been done.
                 good       = next;
                 is_partial = true;
               }

@@ -37,7 +37,7 @@ namespace corotet
         keep_state();
         good_done = done;
       }
-    // Load steps know no time step.
+    // In statics a change of the time step does not matter.
     if (end_time == parameters.end_time &&
         (time_step == parameters.time_step || !integrator->is_dynamic()))
       return;
@@ -66,15 +66,15 @@ namespace corotet
         if (start_of_left_step)
           *start_of_left_step *= factor;
       }
-    // What is left of a step that has been begun is made of other steps, the
-    // first of which has its number.
+    // The rest of a step that was begun is replaced by other steps; the first
+    // of them gets its number.
     if (!parts_left.empty())
       {
         parts_left.clear();
         --unrecorded.step;
         start_of_left_step = from;
       }
-    // Whose steps are all made has no use for another length of them.
+    // A run whose steps are all done needs no new step length.
     if (is_done())
       return;
     if (n_equal > 0)
@@ -86,7 +86,7 @@ namespace corotet
       }
     else
       return;
-    // That of the body as it is now.
+    // The stable step of the body in its present state is compared.
     if (integrator->stability() != nullptr)
       check_stable_step();
   }
@@ -147,7 +147,7 @@ namespace corotet
         archive.transfer("good_done", good_done);
         archive.transfer("from", from);
         transfer_parts(archive);
-        // Others keep one at each step.
+        // Other methods keep a state at each step.
         if (integrator->is_explicit())
           archive.within("good_state", [&] { good_state.transfer(archive); });
       }

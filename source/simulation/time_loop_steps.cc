@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// One step of a time loop: explicit ones, several at once; ones that are halved
-// if they fail; ones that follow their error.
+// The kinds of steps of a time loop: several explicit ones at once, steps that
+// are halved if they fail, and adaptive ones.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/simulation/time_loop.h>
@@ -17,7 +17,7 @@ namespace corotet
 {
   namespace
   {
-    // So that a run that is to stop need not wait long.
+    // This limit ensures that a run that is to stop need not wait long.
     constexpr unsigned int most_steps_together = 1000;
   } // namespace
 
@@ -42,8 +42,8 @@ namespace corotet
   void
   TimeLoop::advance_explicitly(StepRecord &record)
   {
-    // If the work of many steps is as easy to tell as that of one: all steps up
-    // to one that is recorded or that an estimate follows.
+    // If many steps can be made at once, take all steps up to one that is
+    // recorded or that is followed by an estimate of the stable step.
     unsigned int n  = 1;
     double       to = end_of_step(record.step);
     while (
@@ -99,7 +99,7 @@ namespace corotet
     catch (const ComputationError &error)
       {
         const double middle = 0.5 * (done + to);
-        // In motion there are no halves that round-off of the time swallows.
+        // In dynamics a half must be longer than the round-off of the time.
         const bool is_swallowed =
           integrator->is_dynamic() &&
           (time() >= time(middle) || time(middle) >= time(to));
@@ -126,7 +126,7 @@ namespace corotet
   {
     const double duration = parameters.end_time - parameters.start_time;
     keep_state();
-    // Of the steps that were rejected, the end of the shortest one.
+    // The end of the shortest of the steps that were rejected.
     double rejected = std::numeric_limits<double>::infinity();
     for (;;)
       {
@@ -155,7 +155,7 @@ namespace corotet
           }
         catch (const ComputationError &error)
           {
-            // A step that was accepted may have failed after that.
+            // The step may have failed after the error control accepted it.
             adaptive = std::make_unique<AdaptiveStep>(known);
             if (is_unstable || !adaptive->reduce(dt))
               {
@@ -185,7 +185,7 @@ namespace corotet
       {
         report = integrator->steps(system, first, n, present);
       }
-    // Of supports, which only some times have been tried for before the start.
+    // The values of supports were tried only at some times before the start.
     catch (const InputError &error)
       {
         throw ComputationError((error.entry.empty() ? "" : error.entry + ": ") +
@@ -232,8 +232,9 @@ namespace corotet
   void
   TimeLoop::check_growth(const StepRecord &record)
   {
-    // Far more than the errors of a stable step may make of what was put in,
-    // and no noise of a body at rest. Implicit steps may be long.
+    // The limits are far above the errors of a stable step relative to the
+    // energy supplied, and above the noise of a body at rest. Implicit steps
+    // may be long, so their limit is larger.
     const double factor =
       integrator->is_explicit() ? std::max(100., 10 * amplification) : 1e4;
     const auto cause = [&] {
@@ -243,7 +244,8 @@ namespace corotet
                "between estimates' be smaller" :
                "the time step is too long";
     };
-    // The kinetic energy between steps may be negative where it is unstable.
+    // The kinetic energy between steps may be negative if the motion is
+    // unstable.
     const double energy =
       std::abs(record.kinetic_energy) + record.elastic_energy;
     const bool is_visible = record.max_displacement >
@@ -252,8 +254,8 @@ namespace corotet
                              std::abs(record.external_work) +
                                std::abs(budget->kinetic_energy_of_supports()));
     is_unstable   = is_visible && energy > factor * energy_supply;
-    // Work of follower pressures grows faster than the energy of a motion that
-    // is unstable.
+    // The work of follower pressures grows faster than the energy of an
+    // unstable motion.
     constexpr double lost = 1e8;
     largest_energy =
       std::max(largest_energy, energy + std::abs(record.dissipated_energy));

@@ -42,11 +42,11 @@ namespace corotet
         for (auto *vector : {&x, &direction})
           vector->resize(offset(points->exchange().n_items()));
       }
-    // Matrices of aggregates come divided.
+    // Matrices of aggregates have been divided by the unit already.
     if (d == 3)
       the_unit = unit_of(A);
-    // With room for what takes its place, see below, which may be larger: pages
-    // that nothing is written to are no memory.
+    // The reserve has room for the motions, see below, which may need more than
+    // the blocks: pages that nothing is written to take no memory.
     blocks.reserve(5 * offset(d) * points->graph().columns.size() / 4);
     copy_blocks(A);
     copy_diagonal(A);
@@ -62,7 +62,8 @@ namespace corotet
     if (has_aggregate_blocks)
       invert_aggregates(A);
     estimate_largest_eigenvalue();
-    // Gives its place to the motions: a copy costs little.
+    // The blocks give their place to the motions and are copied once more
+    // afterwards, which costs little.
     blocks.clear();
     build_coarse(A, frames);
     copy_blocks(A, given_up);
@@ -75,7 +76,7 @@ namespace corotet
   AggregationLevel<d>::copy_blocks(const BlockMatrix &A, BlockMatrix *given_up)
   {
     const NodeGraph &graph = points->graph();
-    // A load of the last column reaches beyond it.
+    // Loading the last column reads some numbers beyond it.
     blocks.resize_fast(offset(d) * graph.columns.size() + 2);
     std::fill(blocks.end() - 2, blocks.end(), 0.f);
     float                     *block = blocks.data();
@@ -141,7 +142,7 @@ namespace corotet
       }
     inverse_aggregates.resize(starts_of_inverses.back());
     block_product.resize(largest);
-    // Of a point in its aggregate.
+    // The place of each point in its aggregate.
     std::vector<int> places(n_points);
     for (int g = 0; g < points_of_aggregates.n_rows(); ++g)
       {
@@ -171,7 +172,7 @@ namespace corotet
           {
             inverse.invert();
           }
-        // A body that is nowhere held, as a single aggregate.
+        // The block is singular if a body is held nowhere and is one aggregate.
         catch (const dealii::ExceptionBase &)
           {
             inverse = 0.;
@@ -200,7 +201,8 @@ namespace corotet
       }
   }
 
-  /// Of D^-1 A: ten steps of Lanczos' method, and a margin.
+  /// Estimates the largest eigenvalue of D^-1 A: ten steps of Lanczos' method,
+  /// and a margin.
   template <int d>
   void
   AggregationLevel<d>::estimate_largest_eigenvalue()
@@ -216,7 +218,7 @@ namespace corotet
       return dealii::Utilities::MPI::sum(own, points->communicator());
     };
     fill_without_pattern(r, 0);
-    // In terms of D, so that the start is as rough as A is.
+    // The start is divided by D, so that it is as rough as A is.
     for (int i = 0; i < n_points; ++i)
       for (int a = 0; a < d; ++a)
         r[d * i + a] /= inverse_diagonal[d * d * i + (d + 1) * a];
@@ -247,7 +249,8 @@ namespace corotet
                            1.1 * largest_of_tridiagonal(diagonal, beside).first;
   }
 
-  // One member at a time, as others are in files of their own.
+  // These members are instantiated one by one, as others are in files of their
+  // own.
   template AggregationLevel<3>::AggregationLevel(const unsigned int);
   template AggregationLevel<6>::AggregationLevel(const unsigned int);
   template void

@@ -20,9 +20,8 @@ namespace corotet
               graph.columns.data() + graph.starts[row + 1]};
     }
 
-    /// Adds the products p^T b to the six rows of an aggregate, for blocks b of
-    /// the columns @p numbers; the row has @p entries, and these are its only
-    /// columns that count. Both ascend.
+    /// Adds the products p^T b to the six rows of an aggregate, for blocks b in
+    /// the columns @p numbers; the row has @p entries. Both ascend.
     template <int d>
     void
     add_to_row(const std::array<double *, 6>           &row,
@@ -52,8 +51,8 @@ namespace corotet
         }
     }
 
-    /// Where the six rows of an aggregate begin in @p values, which have 36 for
-    /// each entry, row by row.
+    /// The starts of the six rows of an aggregate in @p values, which have 36
+    /// numbers for each entry, row by row.
     std::array<double *, 6>
     six_rows(std::vector<double> &values, const NodeGraph &graph, const int row)
     {
@@ -71,8 +70,9 @@ namespace corotet
   AggregationLevel<d>::build_coarse(const BlockMatrix                &A,
                                     const std::vector<PointFrame<d>> &frames)
   {
-    // Room for one at a time. The larger array comes first, for where the
-    // blocks have been: a smaller one there would leave it no room.
+    // There is room for one of the two arrays at a time. The larger one comes
+    // first and takes the place of the blocks: a smaller one there would leave
+    // it no room.
     std::vector<ModeBlock<float>>().swap(prolongation);
     std::vector<ModeBlock<double>> exact(prolongation_pattern.columns.size());
     smooth_motions(exact, A, rigid_motions(frames));
@@ -87,8 +87,8 @@ namespace corotet
       }
   }
 
-  /// Of known aggregates in the coarse matrix, in the same order; -1 where it
-  /// has none.
+  /// Numbers of the known aggregates in the coarse matrix, in the same order;
+  /// -1 for those that it does not have.
   template <int d>
   std::vector<int>
   AggregationLevel<d>::coarse_numbers() const
@@ -108,7 +108,8 @@ namespace corotet
     return result;
   }
 
-  /// P^T A P / unit. Motions that an aggregate lacks get a 1 on the diagonal.
+  /// Computes P^T A P / unit. Motions that an aggregate lacks get a 1 on the
+  /// diagonal.
   template <int d>
   void
   AggregationLevel<d>::fill_coarse(const BlockMatrix                    &A,
@@ -119,7 +120,7 @@ namespace corotet
     BlockMatrix     &coarse = *problem.matrix;
     const int        n_own  = known_aggregates.n_owned();
     const auto       number = coarse_numbers();
-    // Of each row six, one after the other, as in the matrix.
+    // Six rows for each row, one after the other, as in the matrix.
     std::vector<double> of_others(36 * rows_of_others.columns.size());
     std::vector<int>    place(known_aggregates.n_local()), numbers;
     std::vector<std::array<Modes, d>> row_blocks;
@@ -178,7 +179,7 @@ namespace corotet
           diagonal = 1;
   }
 
-  /// @p of_others: what is sent, see @p rows_of_others.
+  /// @p of_others has the values to be sent, see @p rows_of_others.
   template <int d>
   void
   AggregationLevel<d>::add_received_rows(

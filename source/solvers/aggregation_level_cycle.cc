@@ -12,13 +12,13 @@ namespace corotet
 {
   namespace
   {
-    /// Of the smoother's range [-].
+    /// Ratio of the eigenvalues between which the smoother damps [-].
     constexpr double eigenvalue_ratio = 8;
 
     using FourFloats [[gnu::vector_size(16)]]  = float;
     using EightFloats [[gnu::vector_size(32)]] = float;
 
-    /// What holds a column of a block; the rest of it is ignored.
+    /// A register for a column of a block; its other numbers are ignored.
     template <int d>
     using Column = std::conditional_t<d == 3, FourFloats, EightFloats>;
 
@@ -198,7 +198,8 @@ namespace corotet
     });
   }
 
-  // One member at a time, as others are in files of their own.
+  // These members are instantiated one by one, as others are in files of their
+  // own.
   template void
   AggregationLevel<3>::apply(float *, float *) const;
   template void

@@ -10,9 +10,9 @@ namespace corotet
 {
   namespace
   {
-    /// What the unknowns of a point are in six motions of all space:
-    /// displacements along the axes, and rotations about them through @p
-    /// centre.
+    /// The values of a point's unknowns in six motions of all space:
+    /// displacements along the axes, and rotations about the axes through
+    /// @p centre.
     template <int d>
     std::array<Modes, d>
     motions_at(const PointFrame<d> &point, const dealii::Tensor<1, 3> &centre)
@@ -40,10 +40,10 @@ namespace corotet
         }
     }
 
-    /// Makes six vectors orthonormal, in Gram and Schmidt's way: component i
-    /// of vector m is rows[i][m]. What is left of a dependent one is zero: as
-    /// small as round-off of the translations, which come first, or of the
-    /// rotations.
+    /// Makes six vectors orthonormal by the Gram-Schmidt process: component i
+    /// of vector m is rows[i][m]. A dependent vector becomes zero if its
+    /// remainder is only round-off of the translations, which come first, or of
+    /// the rotations.
     void
     make_orthonormal(std::vector<Modes> &rows)
     {
@@ -73,9 +73,10 @@ namespace corotet
     }
   } // namespace
 
-  /// Of points, owned ones and ghosts, with their aggregates; orthonormal for
-  /// each aggregate, zero where A has a prescribed unknown, or where an
-  /// aggregate is too small to have six. Fills the frames of aggregates.
+  /// The rigid motions of owned points and ghosts with their aggregates;
+  /// orthonormal for each aggregate, zero where A has a prescribed unknown, or
+  /// where an aggregate is too small for six motions. Fills the frames of
+  /// aggregates.
   template <int d>
   std::vector<typename AggregationLevel<d>::template ModeBlock<double>>
   AggregationLevel<d>::rigid_motions(const std::vector<PointFrame<d>> &frames)
@@ -117,8 +118,9 @@ namespace corotet
     return motions;
   }
 
-  /// Row @p i of A / unit times the motions, for each column of the row of the
-  /// prolongation. @p place: for each known aggregate, overwritten.
+  /// Row @p i of A / unit times the motions, for each column in the
+  /// prolongation's row. @p place has an entry for each known aggregate and is
+  /// overwritten.
   template <int d>
   void
   AggregationLevel<d>::multiply_by_motions(
@@ -148,7 +150,7 @@ namespace corotet
   }
 
   /// Calls action(points, their number, inverse) for each diagonal block of D,
-  /// which has the unknowns of these points; its inverse is given by columns.
+  /// which couples these points; its inverse is given by columns.
   template <int d>
   template <typename Action>
   void
@@ -167,8 +169,8 @@ namespace corotet
         action(&i, 1, &inverse_diagonal[d * offset(i)]);
   }
 
-  /// The prolongation, with rows of ghosts: the product of
-  /// I - omega D^-1 A / unit and the motions, omega = 4/3 over the largest
+  /// Computes the prolongation, with rows of ghosts: the product of I - omega
+  /// D^-1 A / unit and the motions, with omega = 4/3 over the largest
   /// eigenvalue.
   template <int d>
   void
@@ -180,7 +182,7 @@ namespace corotet
     const double                      omega = 4. / 3 / largest_eigenvalue;
     std::vector<std::array<Modes, d>> products;
     std::vector<int>                  place(known_aggregates.n_local());
-    // Points of one block have the same columns in the prolongation.
+    // All points of a block have the same columns in the prolongation.
     for_each_diagonal_block([&](const int   *own,
                                 const int    n,
                                 const float *inverse) {
@@ -211,7 +213,8 @@ namespace corotet
     prolongation_ghosts.update(result.data());
   }
 
-  // One member at a time, as others are in files of their own.
+  // These members are instantiated one by one, as others are in files of their
+  // own.
   template std::vector<AggregationLevel<3>::ModeBlock<double>>
   AggregationLevel<3>::rigid_motions(const std::vector<PointFrame<3>> &);
   template std::vector<AggregationLevel<6>::ModeBlock<double>>

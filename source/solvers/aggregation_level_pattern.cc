@@ -14,7 +14,7 @@ namespace corotet
 {
   namespace
   {
-    /// The pattern of matrices whose nodes come in twos, from that of the twos.
+    /// The pattern of matrices with two nodes for each row of @p twos.
     NodeGraph
     split_in_two(const NodeGraph &twos)
     {
@@ -29,7 +29,7 @@ namespace corotet
       return result;
     }
 
-    /// The entries that @p is_wanted(row, k) chooses.
+    /// The graph of the entries for which @p is_wanted(row, k) is true.
     template <typename Predicate>
     NodeGraph
     part_of(const NodeGraph &graph, const Predicate &is_wanted)
@@ -44,7 +44,7 @@ namespace corotet
         }
       return result;
     }
-    /// With one entry in each row.
+    /// The graph with one entry in each row.
     NodeGraph
     one_entry_each(const std::vector<int> &columns)
     {
@@ -66,8 +66,9 @@ namespace corotet
 
     using PointVector = dealii::Tensor<1, 3>;
 
-    /// Of a node, or the mean one of an aggregate: the first three of its
-    /// motions are the translations, and the others are orthogonal to them.
+    /// The displacement of a node, or the mean one of an aggregate: the first
+    /// three of its motions are the translations, and the others are orthogonal
+    /// to them.
     template <int d>
     PointVector
     displacement(const PointFrame<d> &frame, const float *unknowns)
@@ -82,8 +83,8 @@ namespace corotet
     }
   } // namespace
 
-  /// They see what is coupled strongly whatever the signs in A are. The sizes
-  /// of its blocks do not: on flat cells, large ones cancel each other.
+  /// Similarities find strong couplings whatever the signs in A are. The sizes
+  /// of its blocks do not: on flat cells, large blocks cancel each other.
   template <int d>
   std::vector<double>
   AggregationLevel<d>::similarities(const std::vector<PointFrame<d>> &frames)
@@ -118,7 +119,7 @@ namespace corotet
     return result;
   }
 
-  /// Aggregates are numbered from zero.
+  /// Aggregates get numbers from zero on.
   template <int d>
   void
   AggregationLevel<d>::aggregate_points(
@@ -156,7 +157,7 @@ namespace corotet
           aggregates = join(graph, aggregates, coarsening.n_joined);
         return;
       }
-    // Lines of points make aggregates of three, and so hardly fewer of them:
+    // Lines of points make aggregates of three points, so hardly fewer points:
     // these are aggregated once more.
     constexpr int   few = 12, most_passes = 2;
     const NodeGraph joined =
@@ -237,7 +238,7 @@ namespace corotet
       return !is_last || known_aggregates.global_node(all.columns[k]) <=
                            used_aggregates.global_node(i);
     });
-    // Rows and columns of the owned rows.
+    // Pairs of a row and a column in the owned rows.
     std::vector<std::pair<int, int>> entries;
     std::map<unsigned int, RowParts> parts;
     rows_of_others = NodeGraph();
@@ -314,7 +315,8 @@ namespace corotet
     product_pattern = corotet::product(points->graph(),
                                        prolongation_pattern,
                                        known_aggregates.n_local());
-    // Points without neighbours, as those of many small bodies, stay as many.
+    // Points without neighbours, like those of many small bodies, cannot be
+    // aggregated.
     constexpr double almost_all = 0.8;
     const int        n_all      = n_aggregates();
     const bool       is_last    = n_all <= coarsening.most_aggregates ||

@@ -17,49 +17,49 @@ namespace corotet
 {
   namespace
   {
-    // Measured on one core, on plates and blocks of 700 to 170,000 unknowns.
-    // Only ratios matter, and these are much the same on other processors.
-    // Seconds of an iteration for each unknown, with degrees above 1 and with
-    // degree 1; of the matrix, and of ordering the unknowns, for each of them;
-    // of an operation of a factorisation; of an entry of its factor in a solve.
+    // Times measured on one core, on plates and blocks of 700 to 170,000
+    // unknowns. Only their ratios matter, which are much the same on other
+    // processors. Seconds per unknown: of an iteration with degrees above 1 and
+    // with degree 1, of making the matrix, and of ordering. Seconds per
+    // operation of a factorisation, and per entry of the factor in a solve.
     constexpr double iteration_time   = 60e-9;
     constexpr double iteration_time_1 = 250e-9;
     constexpr double matrix_time      = 1.5e-6;
     constexpr double ordering_time    = 8e-6;
     constexpr double operation_time   = 1 / 25e9;
     constexpr double entry_time       = 1e-9;
-    // With the dilatation of vertices, iterations and the matrix take as many
-    // times as long.
+    // With the dilatation of vertices, iterations and the matrix take longer by
+    // this factor.
     constexpr double wide_rows = 3;
 
-    // From degree 1 to another one with r times as many unknowns, operations
-    // grow by r^2.25 and entries of a factor by r^1.5: powers between 1.9 and
-    // 2.6, and 1.35 and 1.65, have been met.
+    // From degree 1 to a degree with r times as many unknowns, operations of a
+    // factorisation grow by r^2.25 and entries of the factor by r^1.5: measured
+    // powers are between 1.9 and 2.6, and between 1.35 and 1.65.
     constexpr double power_of_operations = 2.25;
     constexpr double power_of_entries    = 1.5;
 
-    // Factors with more entries than these, 2 GB, are left to those who ask
-    // for them.
+    // Factors with more entries than these, 2 GB, are only made for users who
+    // ask for them.
     constexpr double most_entries = 2.5e8;
 
     // Poisson's ratio of materials that are nearly incompressible.
     constexpr double incompressible = 0.48;
 
-    // Solves with factors, with those of an older matrix, too, take about
-    // three iterations. The multigrid needs some 30 on bodies of cells as
-    // meshing programs make them: these are not in vain.
+    // Solves with factors, even of an older matrix, take about three
+    // iterations. The multigrid needs some 30 on cells as meshing programs make
+    // them: these do not count as wasted.
     constexpr double       direct_iterations = 3;
     constexpr unsigned int usual_iterations  = 30;
 
-    // Where the multigrid has no factors of degree 1, their size is found when
-    // a solve takes as many iterations: ordering a large matrix takes its time,
-    // and conjugate gradients that start again lose some iterations.
+    // Where the multigrid has no factors of degree 1, their size is computed
+    // when a solve takes this many iterations: ordering a large matrix takes
+    // time, and conjugate gradients that start again lose some iterations.
     constexpr unsigned int slow = 100;
 
-    // Iterations for each unit of the mean ratio of cells that are flat or
-    // stretched, the least that has been met: without rotations of vertices,
-    // and with them on flat and on stretched cells. On flat ones of degree 3
-    // they grow by the square root of the ratio more.
+    // The smallest measured number of iterations per unit of the mean ratio of
+    // cells that are flat or stretched: without rotations of vertices, and with
+    // them on flat and on stretched cells. On flat cells of degree 3 they grow
+    // by the square root of the ratio above growth_begins.
     constexpr double iterations_by_ratio           = 10;
     constexpr double iterations_by_flat_ratio      = 4.5;
     constexpr double iterations_by_stretched_ratio = 1.3;
@@ -80,10 +80,11 @@ namespace corotet
       return iterations_by_flat_ratio * ratio * growth;
     }
 
-    // Solves after which factors are judged, as hard ones come together, at the
-    // beginning of a step; how much more than the multigrid they may take until
-    // then, in first factorisations; and how much more than factors have cost
-    // the multigrid may take in vain before they are tried again.
+    // Number of solves after which factors are judged, as hard ones come
+    // together, at the beginning of a step; the excess of their cost over that
+    // of the multigrid that is allowed until then, in first factorisations; and
+    // the iterations that the multigrid may waste, relative to the cost of
+    // factors, before they are tried again.
     constexpr unsigned int trial                   = 10;
     constexpr double       patience_with_trial     = 4;
     constexpr double       patience_with_multigrid = 4;
@@ -100,8 +101,8 @@ namespace corotet
       {
         degree_1 = multigrid.lowest_level().factorization(A);
       }
-    // Too large, for the memory or for the library: all the more that of the
-    // whole matrix.
+    // A factor of degree 1 that is too large, for the memory or for the
+    // library, means that the one of the whole matrix is, too.
     catch (const ComputationError &)
       {
         is_settled = true;
@@ -121,7 +122,7 @@ namespace corotet
         is_settled = true;
         return;
       }
-    // Ranks share the work of an iteration, and not that of a factorisation.
+    // Ranks share the work of an iteration, but not that of a factorisation.
     // Matrices with the dilatation of vertices have more entries.
     const double width =
       A.elasticity().vertex_dilatation() != nullptr ? wide_rows : 1.;
@@ -175,7 +176,7 @@ namespace corotet
                   costs.first,
                   forecast,
                   proportions.text());
-    // What later solves with factors are compared with.
+    // The forecast is compared with the cost of later solves with factors.
     n_multigrid = 1;
     iterations  = forecast;
     is_direct   = true;
@@ -192,12 +193,11 @@ namespace corotet
       {
         if (!direct)
           direct = std::make_unique<CholeskyDirect>();
-        // Exact tangents of well-shaped cells are indefinite far from the
-        // solution alone, and take several factorisations there that the next
-        // iterate has no use for.
-        // The volume's share of the stiffness is that of the deformed body,
-        // which the frozen matrix does not know: of nearly incompressible
-        // bodies it is most of it.
+        // With well-shaped cells exact tangents are indefinite only far from
+        // the solution, and take several factorisations there that the next
+        // iterate cannot use. In nearly incompressible bodies the stiffness of
+        // the volume dominates; it is that of the deformed body, which the
+        // frozen matrix does not have.
         if (!has_factors_of_tangents)
           has_factors_of_tangents =
             A.elasticity().largest_poissons_ratio() > incompressible ||
@@ -207,8 +207,9 @@ namespace corotet
                           displacement);
         return;
       }
-    // Too large, for the memory or for the library, or singular up to
-    // round-off: conjugate gradients may go on where a factorisation cannot.
+    // The factor may be too large, for the memory or for the library, or the
+    // matrix singular up to round-off: conjugate gradients may go on where a
+    // factorisation cannot.
     catch (const ComputationError &error)
       {
         reason = error.what();
@@ -341,8 +342,8 @@ namespace corotet
         return false;
       }
     ++n_direct;
-    // The first factorisation is spent: it does not speak against the next
-    // solves.
+    // The cost of the first factorisation is sunk and no reason to give up
+    // factors.
     direct_cost += n_iterations * costs.solve +
                    (was_built && n_direct > 1 ? costs.again : 0);
     const double allowed =

@@ -41,7 +41,7 @@ namespace corotet
   Chebyshev::find_blocks(const FloatVector            &diagonal,
                          const SurfaceOperator<float> &surface)
   {
-    // Couplings below this part of the diagonal are none.
+    // Couplings below this part of the diagonal are ignored.
     constexpr double weak  = 0.1;
     const auto      &nodes = surface.owned_nodes();
     for (unsigned int k = 0; k < nodes.size(); ++k)
@@ -99,7 +99,8 @@ namespace corotet
   double
   Chebyshev::norm(const FloatVector &x) const
   {
-    // Where the inverse is zero, so is x. Eight sums at once.
+    // Where the inverse is zero, x is zero. Eight partial sums are taken at
+    // once.
     constexpr float        smallest = std::numeric_limits<float>::min();
     constexpr unsigned int n_sums   = 8;
     const float *const     inverse  = inverse_diagonal.begin();
@@ -119,7 +120,8 @@ namespace corotet
       for (const double part : sums)
         sum += part;
     };
-    // Between the blocks, which are in ascending order.
+    // The sum covers the entries between the blocks, which are in ascending
+    // order.
     unsigned int next = 0;
     for (const NodeBlock &block : blocks)
       {
@@ -138,9 +140,9 @@ namespace corotet
   void
   Chebyshev::estimate_eigenvalues(const FloatVector &start)
   {
-    // The Lanczos method for D^{-1} A in the inner product of D.
+    // This is the Lanczos method for D^{-1} A in the inner product of D.
     constexpr unsigned int n_steps = 12;
-    // Ritz values come from below; what they miss is a few percent.
+    // Ritz values approach from below and miss a few percent.
     constexpr double   safety = 1.1;
     const unsigned int n      = inverse_diagonal.locally_owned_size();
     FloatVector        v(inverse_diagonal), previous(v), w(v);
@@ -152,7 +154,7 @@ namespace corotet
       }
     std::vector<double> alphas, betas;
     double              beta = norm(v);
-    // No unknown is free.
+    // There is no free unknown.
     if (beta == 0)
       {
         max_eigenvalue = 1;
@@ -183,7 +185,7 @@ namespace corotet
           }
         alphas.push_back(alpha);
         beta = norm(w);
-        // The space is exhausted: a mesh with few free unknowns.
+        // The Krylov space is exhausted: a mesh with few free unknowns.
         if (!(beta > 1e-5 * alpha))
           break;
         betas.push_back(beta);

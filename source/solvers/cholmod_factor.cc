@@ -19,12 +19,12 @@ namespace corotet
 {
   namespace
   {
-    /// Below this number of rows, nested dissection takes longer than it saves:
-    /// measured, one factorisation per ordering.
+    /// Number of rows below which nested dissection takes longer than it saves,
+    /// measured with one factorisation per ordering.
     constexpr int min_rows_for_dissection = 15000;
 
-    /// A pivot that is smaller than this many machine precisions, relative to
-    /// the diagonal entry that it is left of, is round-off.
+    /// A pivot counts as round-off if it is smaller than this many machine
+    /// precisions, relative to the diagonal entry that it comes from.
     constexpr double pivot_noise = 64;
   } // namespace
 
@@ -37,7 +37,7 @@ namespace corotet
     common.print        = 0;
     common.supernodal   = CHOLMOD_SUPERNODAL;
     common.nthreads_max = 1;
-    // Wider supernodes than CHOLMOD's own: three columns per node.
+    // Supernodes are wider than CHOLMOD's default, as a node has three columns.
     common.nrelax[0] = 8;
     common.nrelax[1] = 32;
     common.nrelax[2] = 96;
@@ -99,8 +99,8 @@ namespace corotet
                     common.status));
   }
 
-  /// The graph of points with @p size unknowns each: whose columns each row of
-  /// a point has, in the order of the rows. False if rows of a point differ.
+  /// The graph of points with @p size unknowns each: columns for each row of a
+  /// point, in the order of the rows. Returns false if rows of a point differ.
   bool
   CholmodFactor::find_points(const int size, NodeGraph &points) const
   {
@@ -136,8 +136,8 @@ namespace corotet
     return true;
   }
 
-  /// Orders the graph of points, which has a ninth of the matrix's entries, or
-  /// less.
+  /// Orders the graph of points, which has at most a ninth of the matrix's
+  /// entries.
   void
   CholmodFactor::order()
   {
@@ -198,8 +198,8 @@ namespace corotet
     analyze();
   }
 
-  /// Whether each L_kk^2, what elimination leaves of a diagonal entry of A, is
-  /// more than round-off.
+  /// Whether each L_kk^2, the remainder of a diagonal entry of A after
+  /// elimination, is more than round-off.
   template <typename Number>
   bool
   CholmodFactor::pivots_are_sound() const
@@ -219,7 +219,7 @@ namespace corotet
         for (int k = first[s]; k < first[s + 1]; ++k)
           {
             const Number pivot = x[px[s] + (k - first[s]) * (length + 1)];
-            // Rows are sorted, with the diagonal last, or nearly so.
+            // Columns are sorted, with the diagonal last or nearly so.
             int diagonal = ends[row[k]] - 1;
             while (diagonal > ends[row[k] - 1] && column[diagonal] != row[k])
               --diagonal;
@@ -273,8 +273,8 @@ namespace corotet
           dst[i] = factor * x[i];
         return;
       }
-    // Right-hand sides of any size become ones of size one, which no product
-    // takes out of the range of float.
+    // Right-hand sides of any size are scaled to size one, so that no product
+    // leaves the range of float.
     double largest = 0;
     for (int i = 0; i < n_rows; ++i)
       largest = std::max(largest, std::abs(static_cast<double>(src[i])));

@@ -33,9 +33,10 @@ namespace corotet
                             const TangentOperator   *J,
                             const Vector            &displacement)
   {
-    // Where stresses of an iterate make the tangent indefinite, some more of
-    // the stiffness makes it definite, and the stresses' share is still there:
-    // in thin bodies it may be a thousand times what bending takes.
+    // Where the stresses of an iterate make the tangent indefinite, some more
+    // of the frozen stiffness makes it definite while keeping the effect of the
+    // stresses, which in thin bodies may be a thousand times the bending
+    // stiffness.
     is_of_tangent = true;
     is_makeshift  = false;
     if (J != nullptr && J->has_matrix())

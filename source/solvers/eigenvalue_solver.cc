@@ -20,14 +20,15 @@ namespace corotet
 {
   namespace
   {
-    // Vectors of a block: pairs of modes are what symmetric bodies have.
+    // Vectors of a block, as symmetric bodies have pairs of modes.
     constexpr unsigned int block_size = 2;
 
-    // Vectors of the basis beyond those sought. Fewer take more solves.
+    // Number of basis vectors beyond those sought. With fewer the search takes
+    // more solves.
     constexpr unsigned int n_extra_vectors = 50;
 
-    // Pairs sought beyond those wanted: a search is slow if the first one that
-    // it does without is next to the last one that it must find.
+    // Pairs sought beyond those wanted: a search is slow if the first pair that
+    // is left out is close to the last one that it must find.
     constexpr unsigned int n_extra_pairs = 6;
   } // namespace
 
@@ -103,8 +104,8 @@ namespace corotet
   EigenvalueSolver::Basis
   EigenvalueSolver::orthonormal(std::vector<Vector> vectors)
   {
-    // Gram and Schmidt, twice each: what the first time leaves is round-off of
-    // vectors that were far from orthogonal.
+    // The Gram-Schmidt process is applied twice: the first pass leaves
+    // round-off of vectors that were far from orthogonal.
     Basis  result;
     Vector Mx(right_side);
     for (Vector &x : vectors)
@@ -206,9 +207,9 @@ namespace corotet
     problem.setOperator(rcp(new ShiftedInverse(*this)));
     problem.setM(rcp(new FreeMass(*this)));
     problem.setInitVec(start);
-    // Solves of finite accuracy are not quite symmetric, so eigenvalues of the
-    // same size come as conjugate pairs, which the symmetric variant does not
-    // survive at a restart. Rayleigh-Ritz makes up for it.
+    // Solves of finite accuracy are not quite symmetric, so equal eigenvalues
+    // come as conjugate pairs, with which the symmetric variant fails at a
+    // restart. A Rayleigh-Ritz step corrects that.
     problem.setHermitian(false);
     problem.setNEV(n);
     std::vector<const Vector *> known;
@@ -228,7 +229,7 @@ namespace corotet
       }
     problem.setProblem();
 
-    // The basis must not fill the space, where there is no next vector.
+    // The basis must not fill the space, as there would be no next vector.
     const unsigned int n_basis = std::min<dealii::types::global_dof_index>(
       n + std::max(n, n_extra_vectors), (n_free - known.size()) / 2);
     Teuchos::ParameterList list;
@@ -300,9 +301,9 @@ namespace corotet
   void
   EigenvalueSolver::refine(Eigenpairs &pairs, const unsigned int n)
   {
-    // What is left in the vectors that is of other modes is damped, most of all
-    // that of high frequency, which residuals of K amplify. Modes of one
-    // frequency mix: all of them are needed.
+    // The step damps errors of the vectors from other modes, most of all from
+    // those of high frequency, which residuals of K amplify. Modes of one
+    // frequency mix, so all of them are included.
     constexpr double same  = 1e-6;
     unsigned int     n_all = n;
     while (n_all < pairs.vectors.size() &&
@@ -334,18 +335,18 @@ namespace corotet
       n + std::min(n_extra_pairs, max_eigenvalues() - n_wanted);
     Eigenpairs pairs = search(n_sought, shift, tolerance, {});
     refine(pairs, n);
-    // Values far below the shift look alike to the search: errors of their
-    // vectors are small beside the shift, and not beside them. In another step
-    // errors of a mode with a value lambda become 1 + lambda / shift times
-    // smaller.
+    // Values far below the shift look alike to the search: the errors of their
+    // vectors are small relative to the shift, but not to these values. Another
+    // step makes the errors of a mode with value lambda smaller by the factor 1
+    // + lambda / shift.
     const unsigned int n_below_shift =
       std::count_if(pairs.values.begin(),
                     pairs.values.begin() + n,
                     [&](const double value) { return value < shift; });
     if (n_below_shift > 0)
       refine(pairs, n_below_shift);
-    // What a search finds is too large, if at all, by the square of its
-    // tolerance.
+    // A value that a search finds exceeds the true one at most by the square of
+    // its tolerance.
     unsigned int n_missing = 0;
     double       next      = 0;
     while ((next = search(1, shift, 1e-3, pairs).values[0]) + shift <

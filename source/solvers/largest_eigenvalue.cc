@@ -18,7 +18,7 @@ namespace corotet
   largest_of_tridiagonal(const std::vector<double> &diagonal,
                          const std::vector<double> &beside)
   {
-    // LAPACK's tolerances have units: they are given a matrix of size one.
+    // LAPACK's tolerances are absolute, so the matrix is scaled to size one.
     double size = 0;
     for (const auto *entries : {&diagonal, &beside})
       for (const double entry : *entries)
@@ -45,13 +45,13 @@ namespace corotet
       }
     dealii::Vector<double>     eigenvalues;
     dealii::FullMatrix<double> eigenvectors;
-    // To round-off: what a bisection leaves would change with any rounding of
-    // T. The norm bounds all eigenvalues, but the interval is without its lower
-    // end.
+    // The eigenvalues are computed to round-off: a larger tolerance of the
+    // bisection would make the result depend on any rounding of T. The norm
+    // bounds them; the interval excludes its lower end.
     T.compute_eigenvalues_symmetric(
       -1.1 * norm, 1.1 * norm, 1e-14 * norm, eigenvalues, eigenvectors);
     AssertThrow(eigenvalues.size() == n, dealii::ExcInternalError());
-    // In ascending order.
+    // The eigenvalues are in ascending order.
     return {size * eigenvalues[n - 1], std::abs(eigenvectors(n - 1, n - 1))};
   }
 
@@ -60,7 +60,7 @@ namespace corotet
                      Vector                &start,
                      const double           tolerance)
   {
-    // Some 30 steps are enough for a hundredth.
+    // Some 30 steps are enough for an accuracy of a hundredth.
     constexpr unsigned int max_steps = 300;
     // The small eigenvalue problem is not solved after every step.
     constexpr unsigned int steps_between_checks = 4;
@@ -91,7 +91,7 @@ namespace corotet
         pencil.inverse_mass(w, z);
         w.add(-alpha, v, -beta, previous);
         beta = scale(w);
-        // A space of no more dimensions: the mesh has few free unknowns.
+        // The Krylov space is exhausted: the mesh has few free unknowns.
         const bool is_exhausted = beta <= 1e-10 * std::abs(alpha);
         if (is_exhausted || (k + 1) % steps_between_checks == 0)
           {

@@ -15,8 +15,8 @@ namespace corotet
 {
   namespace
   {
-    // Ratios of mass to stiffness that differ by no more are the same but for
-    // round-off in the time step.
+    // Ratios of mass to stiffness are the same if they only differ by round-off
+    // in the time step, for which this is the tolerance.
     constexpr double same_mass_ratio = 1e-6;
   } // namespace
 
@@ -33,11 +33,11 @@ namespace corotet
   {
     constexpr double many = 1000, least = 100;
     double           most = parameters.max_iterations;
-    // Far from a solution exact tangents may be next to singular: Newton's
-    // method has others.
+    // Far from a solution exact tangents may be nearly singular; Newton's
+    // method has another tangent.
     if (J != nullptr && J->is_exact())
       most = std::min(most, std::max(many / preconditioner->cost(), least));
-    // Whether the preconditioner is outdated shows earlier.
+    // A solve shows earlier whether the preconditioner is outdated.
     if (!is_new)
       most = std::min(most, least + 2. * first_iterations);
     return most;
@@ -55,7 +55,8 @@ namespace corotet
     unsigned int done  = 0;
     done_before_change = 0;
     has_changed        = false;
-    // For the operator that the preconditioner was made of it is as a new one.
+    // If the operator is the one that the preconditioner was made of, the
+    // latter counts as new.
     unsigned int most =
       largest_number(is_new || (J == nullptr && A.version() == built_version),
                      J);
@@ -90,8 +91,8 @@ namespace corotet
             if (limit == most)
               throw dealii::SolverControl::NoConvergence(done,
                                                          failure.last_residual);
-            // As if the residual went on falling as it did; it may not have
-            // begun to.
+            // The forecast assumes that the residual goes on falling as before;
+            // it may not have begun to fall.
             double digits = std::log(norm(b) / failure.last_residual) /
                             std::log(norm(b) / wanted);
             if (!std::isfinite(digits))
@@ -116,8 +117,8 @@ namespace corotet
     else
       A.vmult(r, x);
     r -= b;
-    // What is larger than b says nothing: x has run away along a motion that
-    // nothing resists.
+    // Round-off that is larger than b tells nothing: x has run away along a
+    // motion that nothing resists.
     const double round_off = A.round_off(x);
     return norm(r) <= round_off && round_off < norm(b);
   }
@@ -129,7 +130,7 @@ namespace corotet
                           const TangentOperator   *J,
                           const double             loosest)
   {
-    // In terms of solves to the tolerance.
+    // Iterations are converted to those of a solve to the full tolerance.
     const double digits =
       loosest > tolerance ? std::log(loosest) / std::log(tolerance) : 1.;
     const auto with_this =
@@ -139,14 +140,14 @@ namespace corotet
         first_iterations = with_this;
         more_iterations  = 0;
       }
-    // For the operator that it was made of, another one would be the same.
+    // If the operator has not changed, a new preconditioner would be the same.
     else if (with_this > first_iterations &&
              (J != nullptr || A.version() != built_version))
       more_iterations += with_this - first_iterations;
     unsigned int acceptable =
       preconditioner->acceptable_iterations(first_iterations);
-    // A new preconditioner is not better than the first solve with it, as most
-    // are made of the effective operator.
+    // A new preconditioner is no better than at the first solve with it, as
+    // most are made of the effective operator.
     if (J != nullptr)
       acceptable = std::max(acceptable, 3 * first_iterations / 2 + 3);
     is_built = with_this <= acceptable &&
@@ -194,7 +195,7 @@ namespace corotet
     known_version = A.version();
 
     unsigned int iterations = 0;
-    // Until the solve has come to its end.
+    // The preconditioner counts as built again after the solve has succeeded.
     is_built = false;
     try
       {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The Krylov methods of LinearSolver, which ask now and then whether they are
-// to go on.
+// The Krylov methods of LinearSolver, which ask the stop question from time to
+// time.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/solvers/conjugate_gradients.h>
@@ -20,15 +20,16 @@ namespace corotet
 {
   namespace
   {
-    // Directions that flexible conjugate gradients keep. On bent bodies more do
-    // not save iterations, as long as the solver is not slow.
+    // Number of directions that flexible conjugate gradients keep. On bent
+    // bodies more do not save iterations, as long as the solver is not slow.
     constexpr unsigned int n_directions = 2;
 
-    // Where a question costs a sum over the ranks of its own.
+    // Iterations between two questions, where each takes an additional sum over
+    // the ranks.
     constexpr unsigned int iterations_unasked = 8;
 
-    // After how many iterations GMRES starts again, which stores two vectors
-    // for each: few of them make it stagnate on ill-conditioned systems.
+    // Number of iterations after which GMRES restarts; it stores two vectors
+    // for each. With few of them it stagnates on ill-conditioned systems.
     unsigned int
     basis_size(const Vector &b)
     {
@@ -37,8 +38,8 @@ namespace corotet
         std::clamp(memory / (2 * sizeof(double) * b.size()), few, many));
     }
 
-    // The iterations of @p solve; if it does not converge, those that were @p
-    // done before are counted, too.
+    // The iterations of @p solve; if it does not converge, the exception counts
+    // those that were @p done before, too.
     template <typename Solve>
     unsigned int
     after(const unsigned int done, const Solve &solve)
@@ -55,7 +56,7 @@ namespace corotet
     }
   } // namespace
 
-  // For methods of deal.II.
+  // The preconditioner as methods of deal.II use it.
   class LinearSolver::AskingPreconditioner
   {
   public:
@@ -84,9 +85,9 @@ namespace corotet
                                   const Vector      &b,
                                   const double       wanted) const
   {
-    // MINRES measures residuals in the norm of the preconditioner, and a
-    // preconditioner in single precision blurs them: it starts again from the
-    // residual proper until that is small.
+    // MINRES measures residuals in the norm of the preconditioner, and single
+    // precision makes that inaccurate: it restarts from the true residual until
+    // that is small.
     Vector       r(b), dx(b);
     unsigned int iterations = 0;
     for (unsigned int round = 0; round < 10; ++round)
@@ -143,8 +144,8 @@ namespace corotet
               return done;
           }
         dealii::SolverControl left(limit - done, control.tolerance());
-        // The flexible variant: a preconditioner in single precision is not
-        // quite linear, and the plain one trusts that it is.
+        // The flexible variant is needed, as a preconditioner in single
+        // precision is not quite linear.
         using GMRES = dealii::SolverFGMRES<Vector>;
         GMRES gmres(left, GMRES::AdditionalData(basis_size(b)));
         return done + after(done, [&] {
@@ -154,8 +155,8 @@ namespace corotet
       }
     if (method == KrylovMethod::minres)
       return minimal_residuals(A, limit, x, b, wanted);
-    // Exact tangents may be indefinite, which the user's own choice of method
-    // overrides.
+    // Exact tangents may be indefinite. If the user has chosen conjugate
+    // gradients, that is ignored.
     const bool is_watched = method != KrylovMethod::conjugate_gradients &&
                             std::is_same_v<Matrix, TangentOperator>;
     ConjugateGradients cg(control, stop_question, is_watched);

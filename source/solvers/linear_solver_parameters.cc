@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Section Linear solver, and what of it fits which operators.
+// Section Linear solver, and which of its methods fit which operators.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/solvers/linear_solver.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What LinearSolver keeps in checkpoints.
+// The data that LinearSolver keeps in checkpoints.
 
 #include <corotet/solvers/linear_solver.h>
 
@@ -13,7 +13,8 @@ namespace corotet
     std::string saved = type();
     archive.transfer("type", saved);
     if (saved != type())
-      // The run goes on with another solver, which has no past.
+      // The run goes on with another preconditioner, which has no data to
+      // restore.
       return;
     archive.transfer("is_built", is_built);
     archive.transfer("built_mass_ratio", built_mass_ratio);

@@ -46,7 +46,7 @@ namespace corotet
     const double r_norm = norm(r);
     if (!std::isfinite(r_norm) || r_norm <= negligible)
       return 0;
-    // Round-off is the only limit.
+    // Only round-off limits the accuracy.
     dealii::SolverControl    control(500, 1e-13 * r_norm);
     dealii::SolverCG<Vector> cg(control);
     try
@@ -117,7 +117,8 @@ namespace corotet
       return dealii::Utilities::MPI::sum(sum, a.get_mpi_communicator());
     };
 
-    // By the diagonal, which is all there is where S does not act.
+    // The start is a division by the diagonal, which is the whole matrix where
+    // S does not act.
     inverse = 0;
     S.add_diagonal(inverse);
     for (unsigned int i = 0; i < a.locally_owned_size(); ++i)
@@ -133,7 +134,7 @@ namespace corotet
       return 0;
     const double wanted = 1e-13 * size;
 
-    // Conjugate gradients from there.
+    // Conjugate gradients go on from that start.
     multiply(a, c_M, S);
     for_each([&](const unsigned int i) {
       residual.local_element(i) = r.local_element(i) - product.local_element(i);
@@ -145,7 +146,7 @@ namespace corotet
       {
         if (std::sqrt(sum_of_products(residual, residual)) <= wanted)
           return n;
-        // The preconditioned residual, for a moment.
+        // The vector product has the preconditioned residual for a moment.
         for_each([&](const unsigned int i) {
           product.local_element(i) =
             inverse.local_element(i) * residual.local_element(i);

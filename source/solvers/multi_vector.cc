@@ -12,11 +12,12 @@ namespace corotet
 {
   namespace
   {
-    // Entries of a column that are worked on before the next ones: some columns
-    // of them fit into the first cache.
+    // Number of entries of a column that are worked on before the next ones, so
+    // that those of some columns fit into the first-level cache.
     constexpr unsigned int chunk = 512;
 
-    // Columns of A that are read together, for each entry of which is written.
+    // Number of columns of A that are read for each pass that writes the
+    // result.
     constexpr unsigned int n_together = 4;
 
     // Calls f(begin, n) for all chunks of the owned entries.
@@ -98,7 +99,7 @@ namespace corotet
                           const double       b,
                           const MultiVector &B)
   {
-    // A vector whose factor is zero may have any numbers.
+    // A vector whose factor is zero may have values that are not finite.
     if (a == 0 || b == 0)
       {
         const double factor = a == 0 ? b : a;

@@ -17,17 +17,18 @@ namespace corotet
 {
   namespace
   {
-    // Full increments that may raise the residual before a line search.
+    // Limit of full increments that raise the residual, before a line search.
     constexpr unsigned int patience = 5;
-    // Solves that begin with the definite tangent where the exact one fails.
+    // Limit of solves that begin with the definite tangent after failures.
     constexpr unsigned int longest_pause = 16;
-    // Trials of a line search: the last are some 1e-4 of the increment.
+    // Limit of trials of a line search: the last are some 1e-4 of the
+    // increment.
     constexpr unsigned int max_trials = 10;
-    // Where a residual may be round-off: what a full increment leaves of it
-    // then at least, and iterations after which others have converged.
+    // A residual may be round-off if a full increment leaves at least this part
+    // of it, or after this many iterations.
     constexpr double       stalled = 0.5;
     constexpr unsigned int many    = 5;
-    // Residuals this much above the best one are divergence.
+    // The ratio of a residual to the best one that counts as divergence.
     constexpr double divergence = 1e8;
   } // namespace
 
@@ -77,7 +78,7 @@ namespace corotet
           const bool converged = has_converged();
           if (converged && n_needed == 0)
             n_needed = report.iterations;
-          // The last linear solve has the full tolerance.
+          // The last linear solve must have had the full tolerance.
           if (converged && (tolerance_of_solve == 0 || is_round_off()))
             {
               newton.n_last         = report.line_searches == 0 ? n_needed : 0;
@@ -92,8 +93,8 @@ namespace corotet
     }
 
   private:
-    // What may be round-off is taken for it if a full increment has not made it
-    // smaller, or if there were many.
+    // A residual that may be round-off counts as such if a full increment has
+    // not reduced it, or after many iterations.
     bool
     is_round_off() const
     {
@@ -143,12 +144,12 @@ namespace corotet
           "; Newton/Tangent = consistent may help"));
     }
 
-    // What the residual of the linear solve may be, relative to r. Quadratic
-    // convergence doubles the digits in each iteration, and the last solve
-    // tells how many iterations there will be: a small part of what an
-    // iteration will leave by that is as good as nothing. What was the last one
-    // may be the last again; from the fifth on there are as many digits as
-    // there may be. More than eight are no quadratic convergence.
+    // The residual that a linear solve may leave, relative to r: a small part
+    // of what quadratic convergence leaves after the iteration. That doubles
+    // the digits in each iteration, and the last solve tells the number of
+    // iterations to expect. The last one is solved fully. From the fifth on all
+    // digits are reached; more than eight iterations are no quadratic
+    // convergence.
     double
     linear_tolerance() const
     {
@@ -164,8 +165,8 @@ namespace corotet
                       loosest);
     }
 
-    // A direction from the present point. What the exact tangent has none for,
-    // the definite one may have.
+    // Finds a direction from the present point, with the definite tangent if
+    // the exact one fails.
     void
     find_direction()
     {
@@ -215,7 +216,7 @@ namespace corotet
       find_direction();
       if (n_without_progress == 0)
         {
-          // This is the best point so far.
+          // The present point is the best one so far.
           problem.keep();
           is_from_best = true;
         }
@@ -229,7 +230,7 @@ namespace corotet
            (may_rise && n_without_progress < patience &&
             residual.value < divergence * best)))
         {
-          // On the way down from a rise that an increment has made there is
+          // If the residual falls after an increment has raised it, that is
           // progress, too.
           if (residual.value < best)
             n_without_progress = 0;
@@ -242,7 +243,7 @@ namespace corotet
           best = std::min(best, residual.value);
           return;
         }
-      // Back to the best point, and along the direction found there.
+      // Return to the best point, and search along the direction found there.
       search_from_best(true);
     }
 
@@ -263,8 +264,8 @@ namespace corotet
       if (!problem.has_energy() || slope > 0)
         if (const double length = line_search(value, slope); length > 0)
           {
-            // After a search in vain full increments would go round by where
-            // they went before.
+            // After a search that gained little, full increments would repeat
+            // their earlier path.
             const bool could_rise =
               std::exchange(may_rise,
                             problem.has_energy() || length > 0.01 ||
@@ -285,7 +286,7 @@ namespace corotet
     }
 
     // Moves x along dx; returns the part of dx that it took, or zero. Forces
-    // that are not finite count as too far.
+    // that are not finite mean that x is too far.
     double
     line_search(const double value, const double slope)
     {
@@ -333,8 +334,7 @@ namespace corotet
                                 linear_iterations});
     }
 
-    // Gives up when the rate at which the residual has been falling is far too
-    // slow.
+    // Throws if the residual has been falling far too slowly.
     void
     check_progress() const
     {
@@ -368,13 +368,13 @@ namespace corotet
     bool                definite = false;
     /// Whether dx is the direction at the best point; best_dx is it otherwise.
     bool is_from_best = false;
-    /// Of the last full increment.
+    /// Properties of the last full increment.
     bool         increment_is_round_off = false;
     bool         has_stalled            = false;
     unsigned int linear_iterations      = 0;
     double       tolerance_of_solve     = 0;
     /// Iterations of the last solve, if it has converged without a search, and
-    /// those of this one until it had converged.
+    /// those that this one needed.
     unsigned int n_expected         = 0;
     unsigned int n_needed           = 0;
     unsigned int n_without_progress = 0;
@@ -391,7 +391,7 @@ namespace corotet
                 const Vector  &prototype,
                 NewtonReport  &report)
   {
-    // Of another problem vectors may have the same size on other ranks.
+    // Vectors of another problem may differ in size on other ranks only.
     if (r.get_partitioner() != prototype.get_partitioner())
       for (Vector *vector : {&r, &dx})
         vector->reinit(prototype);

@@ -14,7 +14,7 @@ namespace corotet
   NewtonReport::observed_order() const
   {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    // The last increments may be nothing but round-off.
+    // The last increments may be round-off only.
     std::size_t n = history.size();
     while (n > 0 && history[n - 1].increment < 1e-13)
       --n;
@@ -27,7 +27,7 @@ namespace corotet
           return none;
         e[k] = std::log(history[n - 3 + k].increment);
       }
-    // An order is what convergence has, not the search for it.
+    // The order is that of convergence, so increments must already decrease.
     return e[1] < e[0] - 0.7 && e[2] < e[1] - 0.7 ?
              (e[2] - e[1]) / (e[1] - e[0]) :
              none;
@@ -38,7 +38,7 @@ namespace corotet
   {
     std::string residuals = fmt::format("{:.1e}", first_residual);
     std::string increments;
-    // Of long histories the start and the end.
+    // Long histories show only their start and end.
     constexpr std::size_t shown = 8;
     for (std::size_t k = 0; k < history.size(); ++k)
       {

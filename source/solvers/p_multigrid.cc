@@ -17,7 +17,7 @@ namespace corotet
 {
   namespace
   {
-    // target = factor source, for owned entries.
+    // target = factor source on owned entries.
     template <typename To, typename From>
     void
     copy_scaled(To &target, const From &source, const double factor)
@@ -29,7 +29,7 @@ namespace corotet
         to[i] = factor * from[i];
     }
 
-    // The sine of a number of any size, to 4e-6.
+    // The sine of a number of any size, with an error of 4e-6.
     double
     rough_sine(const double x)
     {
@@ -41,10 +41,11 @@ namespace corotet
                            q * (1. / 120 + q * (-1. / 5040 + q / 362880))));
     }
 
-    // Values in [-1, 1] without pattern, by the places of the nodes in the body
-    // alone: the same on any number of ranks, and in any units. They are smooth
-    // functions of the place, so that round-off of positions, which others than
-    // vertices have, grows to 1e7 roundings of doubles: none of floats.
+    // Fills with values in [-1, 1] without pattern, which depend only on the
+    // nodes' places in the body: they are the same on any number of ranks and
+    // in any units. They are smooth functions of the place, so that round-off
+    // in positions, which nodes other than vertices have, is amplified to 1e7
+    // roundings of doubles, less than one of floats.
     void
     fill_by_place(dealii::LinearAlgebra::distributed::Vector<float> &values,
                   const Discretization &discretization)
@@ -75,7 +76,7 @@ namespace corotet
             phase += waves[a] / size *
                      (discretization.node_position(node)[a] + ends[3 + a]);
           const double sine = std::sin(phase), cosine = std::cos(phase);
-          // sin(phase + a).
+          // sin(phase + a) for a = 0, 1, 2.
           const double shifted[3] = {sine,
                                      sine * cos_1 + cosine * sin_1,
                                      sine * cos_2 + cosine * sin_2};
@@ -119,7 +120,7 @@ namespace corotet
     std::vector<unsigned int> finest_nodes(nodes->n_owned_nodes());
     for (unsigned int n = 0; n < finest_nodes.size(); ++n)
       {
-        // Down the levels: vertices are their own keys.
+        // Follows a vertex down the levels, where it is its own key.
         finest_nodes[n] = n;
         for (unsigned int l = levels.size(); l-- > 0;)
           finest_nodes[n] = levels[l]->coarser.key(finest_nodes[n]);
@@ -159,8 +160,8 @@ namespace corotet
           mass      = std::max(mass, A.mass().cell_masses()[batch].mass[lane]);
         }
     const MPI_Comm comm = A.discretization().communicator();
-    // Powers of two, and of four where there is a root: then no number gets
-    // another last digit by them, whatever the rotations of this first state.
+    // The units are powers of two, or of four where a root is taken: so no
+    // number is rounded by them, whatever the rotations of this first state.
     const auto power = [&](const double largest, const int base_exponent) {
       const double of_all = dealii::Utilities::MPI::max(largest, comm);
       if (of_all == 0)
@@ -209,8 +210,8 @@ namespace corotet
   void
   PMultigrid::estimate_eigenvalues(const Discretization &discretization)
   {
-    // Nodes of coarser levels have no places of their own on all ranks alike:
-    // their start is what they see of the finer one.
+    // Places of nodes of coarser levels are not known on all ranks alike, so
+    // their start is restricted from the finer level.
     for (unsigned int l = 0; l < levels.size(); ++l)
       {
         FloatVector &start = levels[l]->b;
@@ -236,8 +237,8 @@ namespace corotet
   {
     const double stiffness = A.stiffness_factor() * stiffness_unit;
     const double mass      = A.mass_factor() * mass_unit;
-    // In steps so short that there is nothing but mass, that must not leave the
-    // range of single precision.
+    // In very short steps the mass dominates and must not leave the range of
+    // single precision.
     constexpr double largest = 1e20;
     scale                    = std::max(stiffness, mass / largest);
     if (levels.empty())
@@ -271,8 +272,9 @@ namespace corotet
                           coefficients.data(),
                           mass / scale,
                           masses.data(),
-                          // Mass is lumped on the finest level only: that comes
-                          // closer to what the coarser ones must correct.
+                          // Mass is lumped on the finest level only: the
+                          // consistent mass is closer to what coarser levels
+                          // must correct.
                           l == 0 && A.mass().is_lumped() ? &level.lumped_mass :
                                                            nullptr);
         if (l == 0)
@@ -310,8 +312,8 @@ namespace corotet
         vertex_level->vmult(dst, src, src_norm);
         return;
       }
-    // Single precision has its limits: sources of any size become one of size
-    // one.
+    // Sources of any size are scaled to size one, for the range of single
+    // precision.
     copy_scaled(levels[0]->b, src, 1 / src_norm);
     cycle(0);
     copy_scaled(dst, levels[0]->x, src_norm / scale);

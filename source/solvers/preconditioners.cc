@@ -17,8 +17,8 @@ namespace corotet
   std::vector<Candidate<Preconditioner>>
   preconditioners()
   {
-    // p-multigrid has its parameters in common with the automatic choice, and
-    // amg with the coarse solver.
+    // p-multigrid shares its parameters with the automatic choice, and amg with
+    // the coarse solver.
 #ifdef COROTET_WITH_EPETRA
     const auto          amg = std::make_shared<AMGParameters>();
     const CoarseSolvers coarse_solvers{

@@ -9,12 +9,11 @@
 
 namespace corotet
 {
-  /// Iterations that tell at which rate a residual falls.
+  /// Number of iterations from which the rate of the residual is estimated.
   inline constexpr unsigned int rate_window = 6;
 
-  /// How many more iterations residuals need to come down to @p wanted at the
-  /// rate of the last ones; zero where there are too few of these, or they do
-  /// not fall.
+  /// The number of further iterations that residuals need to fall to @p wanted
+  /// at the rate of the last ones; zero if these are too few, or do not fall.
   inline double
   iterations_needed(const std::vector<double> &residuals, const double wanted)
   {

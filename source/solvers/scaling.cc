@@ -15,7 +15,7 @@ namespace corotet
   {
     if (!(size > 0) || !std::isfinite(size))
       return 1;
-    // Also the inverse is to be a number.
+    // The limits keep the inverse finite.
     return std::ldexp(1., std::clamp(std::ilogb(size), -1000, 1000));
   }
 

@@ -52,8 +52,8 @@ namespace corotet
     unsigned int n_above    = 0;
     Coarsening   of_coarser = coarsening;
     of_coarser.n_joined     = 1;
-    // What is needed of a matrix is copied. That of aggregates which this
-    // object was given stays.
+    // Levels copy what they need of a matrix, which is then given up. A matrix
+    // of aggregates that was passed to build() stays.
     const auto given_up = [&]() -> BlockMatrix * {
       return is_of_aggregates && n_above == 0 ? nullptr : problem->matrix.get();
     };
@@ -81,9 +81,9 @@ namespace corotet
                              const unsigned int n_above,
                              const bool         x_is_zero) const
   {
-    // A second cycle of the levels below costs little and keeps iterations
-    // from growing with their number. Not on flat and stretched cells: in
-    // single precision it adds to the errors there.
+    // A second cycle of the levels below costs little and keeps iterations from
+    // growing with their number. On flat and stretched cells it is left out, as
+    // in single precision it adds to the errors there.
     const int n_cycles = coarsening.least_similarity > 0 ? 1 : 2;
     level.smooth(x_is_zero);
     if (n_above < coarser.size())
@@ -109,7 +109,8 @@ namespace corotet
                              const Number *src,
                              const double  size) const
   {
-    // Numbers near 1, which no product takes out of the range of float.
+    // Numbers are scaled to about 1, so that no product leaves the range of
+    // float.
     const Number scale   = size;
     const auto   through = [&](const auto &level, const unsigned int n_above) {
       const Number back = scale / level.unit();

@@ -23,7 +23,7 @@ namespace corotet
 {
   using dealii::Utilities::MPI::mpi_type_id_for_type;
 
-  /// What each rank has of a distributed array; on rank 0 only.
+  /// The shares of all ranks in a distributed array; on rank 0 only.
   struct SparseCholesky::Shares
   {
     std::vector<int> counts, offsets;
@@ -49,7 +49,7 @@ namespace corotet
     {
       const MPI_Datatype type        = mpi_type_id_for_type<T>;
       const bool         is_in_place = part == all && !counts.empty();
-      // Elsewhere both may be null, on a rank without nodes.
+      // On a rank without nodes both pointers may be null.
       MPI_Gatherv(is_in_place ? MPI_IN_PLACE : part,
                   size,
                   type,
@@ -63,7 +63,7 @@ namespace corotet
   };
 
   /**
-   * What depends on the graph of A, and the numbers.
+   * The data that depend on the graph of A, and the values.
    */
   class SparseCholesky::Factors
   {
@@ -100,17 +100,17 @@ namespace corotet
     const bool                                is_root;
     const bool                                is_alone;
 
-    /// Of each owned row, how many entries its lower triangle has, and their
-    /// positions in the row, one row after another.
+    /// For each owned row the number of entries in its lower triangle, and
+    /// their positions in the row, one row after another.
     std::vector<int> row_counts;
     std::vector<int> positions;
     Shares           row_shares;
     Shares           entry_shares;
 
-    /// What A is divided by, so that single precision holds it.
+    /// The divisor of A, with which single precision holds it.
     double unit = 1;
 
-    /// On rank 0 only: of A / unit.
+    /// The factor of A / unit, on rank 0 only.
     std::unique_ptr<CholmodFactor> factor;
     /// Own values on their way to rank 0; on rank 0, vectors of all ranks.
     std::tuple<std::vector<double>, std::vector<float>> buffers;
@@ -126,7 +126,8 @@ namespace corotet
     , is_alone(dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
   {
     const NodeGraph &graph = pattern->graph();
-    // Before any of them is counted in int: those of the lower triangle.
+    // The entries of the lower triangle are counted before they are stored as
+    // int.
     const std::int64_t n_unknowns =
       std::int64_t(3) * pattern->nodes().n_global();
     const double n_entries = dealii::Utilities::MPI::sum(
@@ -262,8 +263,9 @@ namespace corotet
         }
       catch (const std::exception &)
         {
-          // It has had its memory since the factorisation. If it fails all the
-          // same, all ranks see numbers that are none, without a message more.
+          // The solve has had its memory since the factorisation. If it fails
+          // all the same, all ranks get values that are not numbers, without
+          // another message.
           std::fill(all.begin(),
                     all.end(),
                     std::numeric_limits<Number>::quiet_NaN());

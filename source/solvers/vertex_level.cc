@@ -14,27 +14,29 @@ namespace corotet
 {
   namespace
   {
-    // Faces of the surface for each cell of a body with at most three layers of
-    // cells: one layer has 0.8.
+    // Number of faces of the surface per cell of a body that is at most three
+    // layers of cells thick; one layer has 0.8.
     constexpr double thin = 0.25;
 
     // Rotations halve the iterations, or better, and make each of them cost up
     // to twice as much: they pay on thin bodies, where factors are small, and
-    // on others from this mean ratio of their cells' proportions on.
+    // on others if the mean ratio of their cells' proportions is at least this
+    // one.
     constexpr double least_ratio = 15;
 
-    // Operations that the factors of a cube with n unknowns of degree 1 take,
-    // in terms of n^2.
+    // Operations to factorise a cube with n unknowns of degree 1, divided by
+    // n^2.
     constexpr double operations_of_cube = 12;
-    // Thin bodies with more than that many times as many unknowns as a cube
-    // take more.
+    // Thin bodies with more than this many times the unknowns that a cube may
+    // have are not factorised.
     constexpr double most_unknowns = 8;
 
-    // Nodes of a rank that take more memory than pages of libraries do.
+    // Number of nodes of a rank that take more memory than pages of libraries
+    // do.
     constexpr unsigned int many_nodes = 50000;
 
-    // What a factor takes with six unknowns in place of three at each point of
-    // the same graph.
+    // The growth of a factor with six unknowns in place of three at each point
+    // of the same graph.
     constexpr double operations_of_motions = 8;
     constexpr double entries_of_motions    = 4;
 
@@ -59,15 +61,15 @@ namespace corotet
     if (!cells.are_poor() && !is_thin_body)
       {
         // Larger aggregates take a third more iterations of half the work and
-        // memory: for elements of degree 1 only, as on others iterations cost
-        // more. The dilatation of vertices couples more nodes, which makes
-        // aggregates that large anyway.
+        // memory. They are for elements of degree 1 only, as iterations of
+        // others cost more. The dilatation of vertices couples more nodes,
+        // which makes aggregates that large anyway.
         if (quadratic == nullptr && !couples_further)
           result.n_joined = 3;
         return result;
       }
-    // What bends, as flat cells and thin bodies do, takes a large last level:
-    // with more levels iterations double, or worse.
+    // Bodies that bend, like those of flat cells and thin ones, need a large
+    // last level: with more levels iterations double, or worse.
     result.most_aggregates = 4000;
     if (cells.are_poor())
       result.least_similarity = 0.3;
@@ -77,7 +79,7 @@ namespace corotet
   bool
   VertexLevel::wants_rotations(const CellProportions &cells) const
   {
-    // The further solvers know nothing of rotations.
+    // The further solvers do not support rotations.
     for (const auto &candidate : parameters.further)
       if (candidate.name == parameters.coarse_type)
         return false;
@@ -179,8 +181,8 @@ namespace corotet
                      const double             scale,
                      const Vector            &displacement)
   {
-    // The most memory is in use here. What only the set-up of large bodies has
-    // read makes room.
+    // Memory use is largest here. Library pages that only the set-up of large
+    // bodies has read are released.
     if (solver.empty() && A.discretization().n_owned_nodes() > many_nodes)
       release_library_pages();
     assemble(A, scale, displacement);

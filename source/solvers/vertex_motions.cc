@@ -66,7 +66,7 @@ namespace corotet
               length_of_edges += (b - a).norm();
           }
       }
-    // A power of two, so that units do not matter.
+    // The length is a power of two, so that it causes no round-off.
     const MPI_Comm comm = quadratic.communicator();
     const double   mean =
       dealii::Utilities::MPI::sum(length_of_edges, comm) /

@@ -48,7 +48,7 @@ namespace corotet
           K[i][j][a][a] += mass[i][j];
   }
 
-  // X w = w x arm.
+  // Sets X with X w = w x arm.
   void
   VertexMotions::CellMatrix::set_ends(
     const unsigned int                         edge,
@@ -67,9 +67,10 @@ namespace corotet
   }
 
   // Cofactors of the edges are gradients of the barycentric coordinates times
-  // the determinant D. Returns mu times the volume over D squared: stiffness of
-  // a vertex has the trace (4 + lambda / mu) mu volume |gradient|^2 for linear
-  // functions, which the vertices' quadratic ones are close to.
+  // the determinant D. Returns mu times the volume over D squared: the
+  // stiffness of a vertex has the trace (4 + lambda / mu) mu volume
+  // |gradient|^2 for linear functions, which the vertices' quadratic ones
+  // resemble.
   V
   VertexMotions::CellMatrix::shear_stiffness(const V lame_ratio,
                                              V (&cofactors)[4][3]) const
@@ -91,7 +92,8 @@ namespace corotet
     for (unsigned int i = 0; i < 4; ++i)
       for (unsigned int a = 0; a < 3; ++a)
         squares += cofactors[i][a] * cofactors[i][a];
-    // In a cell that is crushed to a line or a point they are nothing.
+    // In a cell that is crushed to a line or a point the cofactors are only
+    // round-off.
     V lengths{};
     for (const auto &edge : edges)
       for (const V component : edge)
@@ -116,7 +118,7 @@ namespace corotet
   {
     for (unsigned int j = 0; j < 4; ++j)
       {
-        // K times the functions of vertex j.
+        // The products of K and the functions of vertex j.
         V products[10][3][6];
         for (unsigned int m = 0; m < 10; ++m)
           {
@@ -161,9 +163,9 @@ namespace corotet
       }
   }
 
-  // size / 4 times the sum over the vertices of |D w - D curl u / 2|^2, with D
-  // the determinant; @p length is what w is multiplied with. @p least is
-  // what resists rotations in crushed cells, where D is zero.
+  // Adds size / 4 times the sum over the vertices of |D w - D curl u / 2|^2,
+  // with the determinant D; @p length is the factor of w. @p least resists
+  // rotations in crushed cells, where D is zero.
   void
   VertexMotions::CellMatrix::add_springs(const V      size,
                                          const double length,
@@ -175,7 +177,7 @@ namespace corotet
       determinant += cofactors[1][a] * (vertices[1][a] - vertices[0][a]);
     determinant    = determinant / length;
     const V spring = 0.25 * size * determinant * determinant;
-    // Y u = half the cofactor x u.
+    // Y u is half the cross product of the cofactor and u.
     Block Y[4]{};
     for (unsigned int i = 0; i < 4; ++i)
       for (unsigned int a = 0; a < 3; ++a)

@@ -9,7 +9,7 @@
 namespace corotet
 {
   /**
-   * The matrix of a cell for motions of its vertices. Lanes are cells of a
+   * The matrix of a cell for the motions of its vertices. Lanes are cells of a
    * batch.
    */
   struct VertexMotions::CellMatrix
@@ -17,19 +17,20 @@ namespace corotet
     using V     = FrozenCellMatrices::V;
     using Block = FrozenCellMatrices::Block;
 
-    // Of the nodes of the quadratic element.
+    // Stiffness and mass of the nodes of the quadratic element.
     Block K[10][10];
     V     mass[10][10];
-    // Of the vertices.
+    // The matrix of the vertices' motions.
     V A[4][4][6][6];
-    // By vertices: their edges, and what their rotation moves the middle by.
+    // The edges at each vertex, and the motion of their middles by its
+    // rotation.
     struct End
     {
       unsigned int edge;
       Block        X;
     };
     End ends[4][3];
-    // Where they are [m].
+    // The places of the vertices [m].
     V vertices[4][3];
 
     CellMatrix();

@@ -15,13 +15,13 @@ namespace corotet
 {
   namespace
   {
-    // Of the spring that ties the rotation w of a vertex to that of the cells
-    // around it, c int mu |w - curl u / 2|^2 in each cell. Iterations are the
-    // same from 1e-6 to 1e-1; large ones keep the matrix well conditioned.
+    // The factor c of the spring that ties the rotation w of a vertex to that
+    // of the cells around it, c int mu |w - curl u / 2|^2 in each cell.
+    // Iterations are the same from 1e-6 to 1e-1; large factors keep the matrix
+    // well conditioned.
     constexpr double spring = 0.01;
-    // What there is of it at least, in terms of the trace of stiffness and
-    // mass, in crushed cells and in short steps: enough to be seen beside
-    // round-off.
+    // The smallest spring, relative to the trace of stiffness and mass, for
+    // crushed cells and short steps: enough to exceed round-off.
     constexpr double least_spring = 1e-12;
 
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
@@ -63,7 +63,7 @@ namespace corotet
                         const unsigned int n_cells,
                         CellMatrix        &cells) const
   {
-    // Lanes without a cell repeat the last one.
+    // Lanes without a cell repeat the last cell.
     for (unsigned int lane = 0; lane < batch_size; ++lane)
       {
         const auto nodes =
@@ -128,7 +128,7 @@ namespace corotet
   }
 
   // The blocks of a face follow each other, and faces have no edges of other
-  // cells: each is a cell matrix of its own.
+  // cells, so each face is treated as a cell matrix of its own.
   void
   VertexMotions::add_surface(const SurfaceOperator<double> &surface,
                              CellMatrix                    &cells)
@@ -206,7 +206,7 @@ namespace corotet
       FrozenCellMatrices::V cofactors[4][3];
       const auto            shear = cells->shear_stiffness(
         load_aligned<batch_size>(coefficients[batch].lame_ratio), cofactors);
-      // In short steps the mass is far larger than what resists deformation.
+      // In short steps the mass is far larger than the stiffness.
       cells->add_mass();
       const FrozenCellMatrices::V least = least_spring * cells->trace();
       leave_out_prescribed(first, n_cells, *cells);

@@ -32,7 +32,7 @@ namespace corotet
     const double c_0 = -(1 + w) / dt;
     const double c_m = w * w / ((1 + w) * dt);
 
-    // y becomes D y, with y_1 = y.
+    // Sets derivative = D y, with y_1 = y.
     const auto differentiate =
       [&](Vector &derivative, const Vector &y, const auto past) {
         derivative = y;

@@ -46,7 +46,7 @@ namespace corotet
                            const unsigned int n,
                            State             &state)
   {
-    // Leaps need one evaluation of the forces more.
+    // Steps that are made together need one more evaluation of the forces.
     if (n > 2)
       {
         state.v.add(-0.5 * first.dt, state.a);
@@ -63,8 +63,8 @@ namespace corotet
   CentralDifference::stable_step(const double omega, const double alpha_K) const
   {
     // The amplification matrix of the mode has an eigenvalue -1 where (omega
-    // dt)^2 + 2 alpha_K omega^2 dt = 4. The root (sqrt(c^2 + 4) - c) / omega
-    // without its cancellation for large c.
+    // dt)^2 + 2 alpha_K omega^2 dt = 4. The root (sqrt(c^2 + 4) - c) / omega is
+    // written without its cancellation for large c.
     const double c = alpha_K * omega;
     return 4 / (omega * (std::hypot(c, 2.) + c));
   }

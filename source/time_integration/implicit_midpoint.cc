@@ -12,14 +12,14 @@ namespace corotet
   {
     const double dt = step.dt;
 
-    // Guess: a_m is that of the step before.
+    // The guess of a_m is that of the step before.
     middle = state;
     middle.u.add(dt, state.v, 0.5 * dt * dt, state.a);
     middle.v.add(dt, state.a);
     system.prescribe(middle, step.end, 1.);
 
-    // From the end to the middle. The acceleration is that of the velocities,
-    // also for what is prescribed.
+    // The guess moves from the end of the step to its middle. The acceleration
+    // follows from the velocities, also for prescribed unknowns.
     middle.a = middle.v;
     middle.a -= state.v;
     middle.a *= 1 / dt;

@@ -11,7 +11,7 @@ namespace corotet
   NewmarkFamily::order() const
   {
     const Coefficients c = coefficients();
-    // But for round-off in coefficients.
+    // The tolerance is for round-off in the coefficients.
     return std::abs(c.gamma - (0.5 - c.alpha_m + c.alpha_f)) <= 1e-12 ? 2 : 1;
   }
 
@@ -40,8 +40,8 @@ namespace corotet
     constexpr double round_off = 1e-12;
     if (std::abs(c.gamma - (0.5 - c.alpha_m + c.alpha_f)) > round_off)
       return 0;
-    // Steps that are stable on a condition grow with their waves; and near beta
-    // = 1/6 the estimate vanishes.
+    // With conditionally stable methods steps would grow until waves become
+    // unstable, and near beta = 1/6 the estimate vanishes.
     if (c.alpha_m == 0 && c.alpha_f == 0 && 2 * c.beta < c.gamma)
       return 0;
     return std::abs(1. / 6 - c.beta - 0.5 * (c.alpha_m - c.alpha_f));
@@ -56,7 +56,7 @@ namespace corotet
 
     const double dt = step.dt;
 
-    // Guess: a_1 = a_0, and what follows for u_1 and v_1.
+    // The guess is a_1 = a_0, with the u_1 and v_1 that follow from it.
     stage.u = state.u;
     stage.u.add(dt, state.v, 0.5 * dt * dt, state.a);
     stage.v = state.v;
@@ -65,14 +65,14 @@ namespace corotet
     system.prescribe(stage, step.end, 1.);
     end_acceleration = stage.a;
 
-    // From the end of the step to the intermediate times. The guess of free
-    // accelerations does not change; those that are prescribed, other than a_n
-    // of the method, belong to the time t_n, so they have to go to t_f.
+    // The guess moves from the end of the step to the intermediate times. Its
+    // free accelerations do not change; prescribed ones, unlike a_n of the
+    // method, belong to the time t_n, so they have to go to t_f.
     stage.u.sadd(1 - alpha_f, alpha_f, state.u);
     stage.v.sadd(1 - alpha_f, alpha_f, state.v);
     stage.a.sadd(1 - alpha_f, alpha_f, state.a);
 
-    // How v_f and a_m change with u_f.
+    // The derivatives of v_f and a_m by u_f.
     const double      c_v = gamma / (beta * dt);
     const double      c_a = (1 - alpha_m) / ((1 - alpha_f) * beta * dt * dt);
     const StageReport report =
@@ -84,14 +84,14 @@ namespace corotet
                           &state,
                           (1 - alpha_f) * 0.5 * dt * dt});
 
-    // And back to the end of the step.
+    // The results move back to the end of the step.
     const auto extrapolate = [&](Vector &end, const Vector &middle) {
       end.sadd(-alpha_f / (1 - alpha_f), 1 / (1 - alpha_f), middle);
     };
     extrapolate(state.u, stage.u);
     extrapolate(state.v, stage.v);
-    // What is free has changed by (a_m - a_0) / (1 - alpha_m), what is
-    // prescribed not at all since the guess.
+    // Free accelerations have changed by (a_m - a_0) / (1 - alpha_m),
+    // prescribed ones not at all since the guess.
     state.a.sadd(-alpha_f / (1 - alpha_m), 1 / (1 - alpha_m), stage.a);
     state.a.add((alpha_f - alpha_m) / (1 - alpha_m), end_acceleration);
     return report;

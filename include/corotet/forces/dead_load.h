@@ -24,8 +24,8 @@ namespace corotet
   class DeadLoad : public ForceTerm
   {
   public:
-    /// At a point at rest, on the surface with the outward normal there, at a
-    /// time.
+    /// The load at a point at rest, with the outward normal there if it is on
+    /// the surface, at a time.
     using Value =
       std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &,
                                          const dealii::Tensor<1, 3> &,
@@ -41,7 +41,7 @@ namespace corotet
     add_force(Vector &f, const Motion &motion) const override;
 
   protected:
-    /// The value at one time.
+    /// The load at one time.
     using Field =
       std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &,
                                          const dealii::Tensor<1, 3> &)>;
@@ -51,7 +51,7 @@ namespace corotet
              const Value          &value,
              const bool            depends_on_time);
 
-    /// f += the force of that field, in any local entries. Collective.
+    /// f += the force of @p field, in any local entries. Collective.
     virtual void
     integrate(Vector &f, const Field &field) const = 0;
 
@@ -60,7 +60,7 @@ namespace corotet
   private:
     struct NodalForce
     {
-      /// Owned.
+      /// The local number of an owned node.
       unsigned int         node;
       dealii::Tensor<1, 3> force;
     };
@@ -72,8 +72,8 @@ namespace corotet
     Value value;
     bool  varies_in_space;
     bool  varies_in_time;
-    /// The force of a unit load in each direction, by the first add_force() if
-    /// the load is the same everywhere, at nodes where there is one.
+    /// The forces of a unit load in each direction, at the nodes where it has
+    /// any; set by the first add_force() if the load is the same everywhere.
     mutable std::optional<std::vector<NodalForce>> unit_forces;
   };
 
@@ -94,7 +94,7 @@ namespace corotet
     add_to(ForceTerms &terms, const ForceContext &context) const override;
 
   protected:
-    /// @p entry: its name. @p quantity: what it is, with its unit.
+    /// @p entry is its name, @p quantity describes the load with its unit.
     VectorFieldKind(const std::string &entry, const std::string &quantity);
 
     virtual std::unique_ptr<ForceTerm>

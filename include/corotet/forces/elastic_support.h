@@ -11,23 +11,24 @@ namespace corotet
 {
   /**
    * A stiffness [N/m^3] or damping [N s/m^3] per area at rest on a boundary, a
-   * symmetric tensor D(x, t), as the matrix int N_i N_j D of the surface: by
-   * the rule for faces, exact on straight faces for D linear in x.
+   * symmetric tensor D(x, t), as the matrix int N_i N_j D of the surface. It is
+   * integrated with the rule for faces, exactly on straight faces for D linear
+   * in x.
    */
   class SurfaceCoefficient
   {
   public:
     enum class Direction
     {
-      /// Three expressions, along x, y and z.
+      /// Three expressions, for the directions x, y and z.
       axes,
-      /// One, along the surface's normal at rest.
+      /// One expression, for the direction of the surface's normal at rest.
       normal
     };
 
-    /// @p text: expressions in x, y, z, t. @p entry: that which gives it.
-    /// Throws InputError, also if the values at the start are negative or not
-    /// finite. Collective.
+    /// @p text has expressions in x, y, z, t, and is given by @p entry. Throws
+    /// InputError, also if the values at the start are negative or not finite.
+    /// Collective.
     SurfaceCoefficient(const ForceContext &context,
                        const unsigned int  boundary,
                        const std::string  &text,
@@ -40,15 +41,15 @@ namespace corotet
       return value.depends_on_time();
     }
 
-    /// Whether it is zero always and everywhere.
+    /// Whether the coefficient is zero always and everywhere.
     bool
     is_zero() const
     {
       return value.is_zero();
     }
 
-    /// At that time. Throws WrongValueError if values are negative or not
-    /// finite. Collective.
+    /// The matrix at that time. Throws WrongValueError if values are negative
+    /// or not finite. Collective.
     const SurfaceMatrix &
     matrix(const double time) const;
 
@@ -56,7 +57,7 @@ namespace corotet
     operator_at(const double time) const;
 
   private:
-    /// Both throw InputError.
+    /// Both of these throw InputError.
     void
     evaluate(const double time) const;
     double
@@ -121,7 +122,7 @@ namespace corotet
     const SurfaceCoefficient coefficient;
 
   private:
-    /// What the coefficient multiplies.
+    /// The vector that the coefficient multiplies.
     const Vector &
     factor(const Motion &motion) const
     {
@@ -158,8 +159,8 @@ namespace corotet
   };
 
   /**
-   * Section Supports, entry Dashpots: f = - c v per area at rest, to the
-   * ground.
+   * Section Supports, entry Dashpots: dashpots between a boundary and the
+   * ground, f = - c v per area at rest.
    */
   class Dashpots : public SurfaceForce
   {
@@ -182,7 +183,7 @@ namespace corotet
   };
 
   /**
-   * Section Supports.
+   * The parameters of section Supports.
    */
   class SupportsKind : public ForceKind
   {

@@ -23,8 +23,8 @@ namespace corotet
   class Mass;
 
   /**
-   * What force terms may be made of, and may keep. All that it refers to must
-   * outlive the terms.
+   * The data that force terms are made of, and may keep. All that it refers to
+   * must outlive the terms.
    */
   struct ForceContext
   {
@@ -33,10 +33,10 @@ namespace corotet
     const Mass               &mass;
     Elasticity               &elasticity;
     const BoundaryConditions &conditions;
-    /// For expressions.
+    /// The tables that expressions may use.
     const TableFunctions &tables;
     Log                  &log;
-    /// Of the run [s].
+    /// Start time of the run [s].
     double start_time = 0;
 
     /// f = M a for owned entries. Ghost entries of @p a are up to date.
@@ -48,29 +48,30 @@ namespace corotet
   /// An item of a list "name: value, ..." of boundaries.
   struct ValueOnBoundaries
   {
-    /// As in the list.
+    /// The name as in the list.
     std::string name;
     std::string value;
-    /// Those that @p name stands for.
+    /// The ids of the boundaries that @p name stands for.
     std::vector<unsigned int> boundaries;
   };
 
-  /// The items of @p list, an entry @p entry; @p what is "a traction" and the
-  /// like, for messages. Throws InputError, also if a boundary is in two items.
+  /// The items of @p list, the value of the entry @p entry; @p what is "a
+  /// traction" or the like, for messages. Throws InputError, also if a boundary
+  /// is in two items.
   std::vector<ValueOnBoundaries>
   values_on_boundaries(const ForceContext &context,
                        const std::string  &list,
                        const std::string  &entry,
                        const std::string  &what);
 
-  /// What messages call a term on a boundary: "ENTRY on boundary 'NAME'".
+  /// The name of a term on a boundary in messages: "ENTRY on boundary 'NAME'".
   std::string
   on_boundary(const ForceContext &context,
               const std::string  &entry,
               const unsigned int  boundary);
 
   /**
-   * A kind of force: its parameters, and how terms are made of them.
+   * A kind of force: its parameters, and how to make terms of them.
    */
   class ForceKind
   {
@@ -78,14 +79,15 @@ namespace corotet
     /// An entry of the parameter file that gives a force.
     struct GivenEntry
     {
-      /// "Section/Name".
+      /// The path of the entry, "Section/Name".
       std::string entry;
       std::string value;
-      /// What stands for no force.
+      /// The value that stands for no force.
       std::string none;
-      /// Whether it belongs to the stiffness at rest, which modes have.
+      /// Whether the force belongs to the stiffness at rest, which modes take
+      /// into account.
       bool in_modes = false;
-      /// Whether it is a force on the mass, so that statics needs densities.
+      /// Whether the force acts on the mass, so that statics needs densities.
       bool on_mass = false;
     };
 
@@ -96,14 +98,14 @@ namespace corotet
     declare_parameters(dealii::ParameterHandler & /*prm*/)
     {}
 
-    /// Those of its entries that give a force. Throws InputError.
+    /// The entries that give a force. Throws InputError.
     virtual std::vector<GivenEntry>
     given() const
     {
       return {};
     }
 
-    /// Adds the terms that the parameters ask for, none if there is no force.
+    /// Adds the terms that the parameters ask for; none if there is no force.
     /// Throws InputError. Collective.
     virtual void
     add_to(ForceTerms &terms, const ForceContext &context) const = 0;
@@ -121,7 +123,7 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    /// Of all kinds. Throws InputError.
+    /// The entries of all kinds that give a force. Throws InputError.
     std::vector<ForceKind::GivenEntry>
     given() const;
 
@@ -129,7 +131,7 @@ namespace corotet
     ForceTerms
     make(const ForceContext &context) const;
 
-    /// Those of the kinds that give a force to modes. Throws InputError.
+    /// The terms of the kinds that give a force to modes. Throws InputError.
     /// Collective.
     ForceTerms
     make_for_modes(const ForceContext &context) const;
@@ -138,7 +140,7 @@ namespace corotet
     std::vector<std::unique_ptr<ForceKind>> kinds;
   };
 
-  /// All kinds of forces, and those that programs have added.
+  /// All kinds of forces, with those that programs have added.
   std::vector<Candidate<ForceKind>>
   force_kinds();
 } // namespace corotet

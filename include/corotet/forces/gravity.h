@@ -10,8 +10,8 @@ namespace corotet
 {
   /**
    * Section Loads, entry Gravity: an acceleration field [m/s^2], interpolated
-   * at the nodes, times the mass matrix: a free body falls without deforming
-   * whatever the mass matrix.
+   * at the nodes, times the mass matrix. So a free body falls without
+   * deforming, whatever the mass matrix.
    */
   class Gravity : public DeadLoad
   {

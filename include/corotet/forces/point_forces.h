@@ -18,8 +18,9 @@ namespace corotet
   class PointForce : public ForceTerm
   {
   public:
-    /// @p value [N], three components, at the node nearest to a point of the
-    /// body at rest. @p nearby: of that discretization. Collective.
+    /// A force @p value [N], three components, at the node nearest to the point
+    /// @p target of the body at rest. @p nearby belongs to @p discretization.
+    /// Collective.
     PointForce(const Discretization   &discretization,
                const NearbyCells      &nearby,
                const dealii::Point<3> &target,
@@ -38,7 +39,7 @@ namespace corotet
   private:
     const Expression value;
     dealii::Point<3> position;
-    /// Local number; used only where the node is owned.
+    /// Local number of the node; used only where the node is owned.
     unsigned int node = 0;
     bool         is_owned;
   };

@@ -66,8 +66,9 @@ namespace corotet
       return !follow;
     }
 
-    /// Relative to the size of all loads: displacements are known to some eps
-    /// |u|, directions of faces to that over their height.
+    /// The error of the force, which is proportional to the size of all loads:
+    /// displacements have errors of some eps |u|, directions of faces of that
+    /// over their height.
     double
     round_off(const Motion        &motion,
               const double         size,
@@ -78,9 +79,9 @@ namespace corotet
     struct PressurePoint
     {
       const BoundaryFace *face;
-      /// In the face's rule.
+      /// Index of the point in the face's rule.
       unsigned int index;
-      /// Pressure times weight [Pa].
+      /// Half of the pressure times the point's weight [Pa].
       double pressure;
       /// Derivatives of the position by the face's parameters [m].
       std::array<dealii::Tensor<1, 3>, 2> tangents;
@@ -96,14 +97,14 @@ namespace corotet
     const ReferenceElement                &reference;
     const BoundaryConditions::SurfaceLoad &load;
     const bool                             follow;
-    /// Of the faces, the inverse of the smallest height [1/m].
+    /// The inverse of the smallest height of a face [1/m].
     double inverse_height = 0;
-    /// Of the last linearize().
+    /// The points at the last linearize().
     std::vector<PressurePoint> points;
   };
 
   /**
-   * The boundary conditions have its parameters.
+   * The kind Pressure; its parameters belong to the boundary conditions.
    */
   class PressureKind : public ForceKind
   {

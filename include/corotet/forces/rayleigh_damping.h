@@ -13,7 +13,7 @@
 
 namespace corotet
 {
-  /// alpha_M [1/s] and alpha_K [s] of Rayleigh damping.
+  /// Coefficients alpha_M [1/s] and alpha_K [s] of Rayleigh damping.
   struct DampingCoefficients
   {
     double mass      = 0;
@@ -47,8 +47,8 @@ namespace corotet
   class RayleighDamping : public ForceTerm
   {
   public:
-    /// @p mass and @p elasticity must outlive this object; @p elasticity has
-    /// the rotations of the motion whenever forces are asked for.
+    /// @p mass and @p elasticity must outlive this object; @p elasticity must
+    /// have the rotations of the motion whenever forces are asked for.
     RayleighDamping(const Discretization     &discretization,
                     const Mass               &mass,
                     Elasticity               &elasticity,
@@ -93,7 +93,7 @@ namespace corotet
       return {coefficients.stiffness, coefficients.mass};
     }
 
-    /// A stiffness that turns with the body has none.
+    /// The force of a stiffness that turns with the body has no potential.
     bool
     has_potential() const override
     {

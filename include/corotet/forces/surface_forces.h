@@ -17,7 +17,8 @@ namespace corotet
   class EvenTraction : public Traction
   {
   public:
-    /// @p force: of the whole surface, whose area at rest is @p area [m^2].
+    /// @p force is that of the whole surface, whose area at rest is @p area
+    /// [m^2].
     EvenTraction(const Discretization   &discretization,
                  const ReferenceElement &reference,
                  const unsigned int      boundary,

@@ -37,7 +37,7 @@ namespace corotet
   };
 
   /**
-   * The boundary conditions have its parameters.
+   * The kind Traction; its parameters belong to the boundary conditions.
    */
   class TractionKind : public ForceKind
   {

@@ -11,8 +11,8 @@
 namespace corotet
 {
   /// Corotational elasticity with the rotation of each cell's centre; if
-  /// @p variational, the force is the gradient of the energy. @p at_points: the
-  /// law with a rotation for each point.
+  /// @p variational, the force is the gradient of the energy. @p at_points is
+  /// the law with a rotation for each point.
   std::shared_ptr<const MaterialLaw>
   cell_centred_law(const bool                                variational,
                    const std::shared_ptr<const MaterialLaw> &at_points);

@@ -8,8 +8,8 @@
 
 namespace corotet
 {
-  /// P = R sigma(sym(R^T F) - I) with F = R S where the rotation is taken
-  /// [seed, 2.73 to 2.76].
+  /// The corotational law P = R sigma(sym(R^T F) - I), with R of F = R S at the
+  /// points that @p rotation names [seed, 2.73 to 2.76].
   std::shared_ptr<const MaterialLaw>
   corotational_law(const Rotation rotation);
 

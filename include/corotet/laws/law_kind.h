@@ -31,23 +31,23 @@ namespace corotet
     declare_parameters(dealii::ParameterHandler & /*prm*/)
     {}
 
-    /// Whether Material/Rotation makes a difference.
+    /// Whether Material/Rotation makes a difference to the law.
     virtual bool
     has_rotations() const
     {
       return false;
     }
 
-    /// @p rotation: the value of Material/Rotation.
+    /// Makes the law. @p rotation is the value of Material/Rotation.
     virtual std::shared_ptr<const MaterialLaw>
     make(const Rotation rotation) const = 0;
   };
 
-  /// All kinds, and those that programs have added.
+  /// All kinds of laws, with those that programs have added.
   std::vector<Candidate<LawKind>>
   law_kinds();
 
-  /// The law of a program, written at a point, as the library's own ones are:
+  /// Makes a MaterialLaw of a program's law, which is written at a point.
   /// law_candidate() registers it.
   std::shared_ptr<const MaterialLaw>
   material_law(const std::shared_ptr<const PointLaw> &law);

@@ -27,8 +27,8 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    /// For elements of that degree. At degree 1 all points of a cell have the
-    /// same rotation, and the fastest way is taken.
+    /// The law for elements of that degree. At degree 1 all points of a cell
+    /// have the same rotation, and the fastest implementation is taken.
     std::shared_ptr<const MaterialLaw>
     law(const unsigned int degree) const;
 
@@ -39,8 +39,8 @@ namespace corotet
     std::map<unsigned int, IsotropicMaterial>
     materials(const MeshNames &regions) const;
 
-    /// Whose dilatation elements of that degree take. Throws InputError if they
-    /// or the law have no choice and it is not that of cells.
+    /// The dilatation that elements of that degree resist. Throws InputError if
+    /// the elements or the law have no choice and it is not Dilatation::cells.
     Dilatation
     dilatation_of(const unsigned int degree) const;
 

@@ -9,17 +9,18 @@
 namespace corotet
 {
   /**
-   * Where the rotation of corotational elasticity is taken.
+   * The place where the rotation of corotational elasticity is taken.
    */
   enum class Rotation
   {
-    /// From F at the centre of each cell. The force is R K0 (R^T x - X).
+    /// The rotation R of F at the centre of each cell. The force is R K0 (R^T x
+    /// - X).
     cell_centre,
     /// The same R; the force is the gradient of the energy, so it has a term
     /// with the derivative of R.
     cell_centre_variational,
-    /// From F at each quadrature point: hyperelastic. For degree 1 all three
-    /// are the same.
+    /// The rotation of F at each quadrature point: hyperelastic. For degree 1
+    /// all three are the same.
     quadrature_points
   };
 

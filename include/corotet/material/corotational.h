@@ -57,7 +57,7 @@ namespace corotet
   inline double
   rotation_angle(const dealii::Tensor<2, 3> &R)
   {
-    // By the sine where the cosine is flat, and the other way round.
+    // The sine determines the angle where the cosine is flat, and vice versa.
     const double sine =
       0.5 * std::hypot(R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]);
     return std::atan2(sine, 0.5 * (trace(R) - 1));

@@ -33,7 +33,7 @@ namespace corotet
     });
   }
 
-  /// sigma of the strain sym(A) - I.
+  /// The stress sigma of the strain sym(A) - I.
   COROTET_ALWAYS_INLINE void
   stress_of_stretch(const Simd<double> lambda,
                     const Simd<double> mu,
@@ -113,14 +113,15 @@ namespace corotet
   }
 
   /**
-   * With the rotation that varies, the derivative of that stress in the
-   * direction dF = R A is
+   * The derivative of that stress with a varying rotation, in the direction dF
+   * = R A, is
    *
    *   dP = R (sigma(A) + W(T a(A))),
    *   T  = mu I + (lambda tr(S - I) - 2 mu) G^{-1}:
    *
-   * corotational_tangent() and a term that T tells. Computes T; returns the
-   * lanes where G was clamped. Symmetric: P is the gradient of an energy.
+   * the sum of corotational_tangent() and a term with T. Computes T; returns
+   * the lanes where G was clamped. T is symmetric, as P is the gradient of an
+   * energy.
    */
   COROTET_ALWAYS_INLINE unsigned int
   rotation_stiffness(const Simd<double> lambda,

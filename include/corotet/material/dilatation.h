@@ -10,13 +10,15 @@
 namespace corotet
 {
   /**
-   * Whose change of volume the elements of degree 1 resist.
+   * The dilatation that elements of degree 1 resist.
    */
   enum class Dilatation
   {
-    /// That of each cell, which locks in nearly incompressible bodies.
+    /// The dilatation of each cell, which locks in nearly incompressible
+    /// bodies.
     cells,
-    /// The mean of the cells around each vertex, see VertexDilatation.
+    /// The mean dilatation of the cells around each vertex, see
+    /// VertexDilatation.
     vertices
   };
 
@@ -24,9 +26,9 @@ namespace corotet
                                                    {"vertices",
                                                     Dilatation::vertices}};
 
-  /// Whether elements of degree 1 with that law may have the dilatation of
-  /// vertices: whether it is linear or, with the rotations of cells,
-  /// corotational.
+  /// Whether elements of degree 1 with this law may have the dilatation of
+  /// vertices: whether the law is linear, or corotational with the rotations of
+  /// cells.
   inline bool
   allows_vertex_dilatation(const MaterialLaw &law)
   {

@@ -22,7 +22,7 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    /// Empty: there is none.
+    /// The exact displacement; empty if there is none.
     std::string displacement;
     bool        manufacture           = true;
     std::string displacement_boundary = "all";
@@ -35,27 +35,28 @@ namespace corotet
    *
    *   b = rho u_tt - Div P(F),    t = P(F) n,
    *
-   * with the law's stress at points: what rotations of cells converge to, too.
+   * with the law's stress at points, to which laws with the rotations of cells
+   * converge, too.
    */
   class ExactSolution
   {
   public:
-    /// @p text: three components in x, y, z, t. Throws InputError blamed on
+    /// @p text has three components in x, y, z, t. Throws InputError blamed on
     /// Exact solution/Displacement if it cannot be differentiated.
     explicit ExactSolution(const std::string &text);
 
-    /// Unit m.
+    /// The displacement [m].
     dealii::Tensor<1, 3>
     displacement(const dealii::Point<3> &x, const double t) const
     {
       return u.vector_value(x, t);
     }
 
-    /// [component][direction] [-].
+    /// Gradient of the displacement [-], [component][direction].
     dealii::Tensor<2, 3>
     gradient(const dealii::Point<3> &x, const double t) const;
 
-    /// P [Pa], per area at rest.
+    /// First Piola-Kirchhoff stress P [Pa].
     dealii::Tensor<2, 3>
     stress(const IsotropicMaterial &material,
            const MaterialLaw       &law,
@@ -70,7 +71,7 @@ namespace corotet
                const dealii::Point<3>  &x,
                const double             t) const;
 
-    /// u and du/dt as texts of three components.
+    /// The displacement u and the velocity du/dt as texts of three components.
     const std::string &
     displacement_text() const
     {
@@ -96,9 +97,10 @@ namespace corotet
     std::string text;
     Expression  u;
     Expression  acceleration;
-    /// [3 direction + component].
+    /// First derivatives of u, [3 direction + component].
     Expression first;
-    /// Directions xx, yy, zz, yz, xz, xy: [3 pair + component].
+    /// Second derivatives of u, [3 pair + component], for the pairs of
+    /// directions xx, yy, zz, yz, xz, xy.
     Expression second;
   };
 } // namespace corotet

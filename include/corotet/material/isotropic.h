@@ -25,7 +25,8 @@ namespace corotet
   };
 
   /**
-   * From Young's modulus [Pa] and Poisson's ratio [-], in (-1, 1/2).
+   * The material with a Young's modulus [Pa] and a Poisson's ratio [-], in (-1,
+   * 1/2).
    */
   inline IsotropicMaterial
   isotropic_material(const double youngs_modulus,
@@ -38,14 +39,14 @@ namespace corotet
             density};
   }
 
-  /// Of a material [-].
+  /// Poisson's ratio of a material [-].
   inline double
   poissons_ratio(const IsotropicMaterial &material)
   {
     return material.lambda / (2 * (material.lambda + material.mu));
   }
 
-  /// Those of several regions [kg/m^3].
+  /// The densities of several regions [kg/m^3].
   inline std::map<unsigned int, double>
   densities(const std::map<unsigned int, IsotropicMaterial> &materials)
   {
@@ -55,8 +56,9 @@ namespace corotet
     return result;
   }
 
-  /// The number of the material among @p known ones that has the same elastic
-  /// constants, whatever its density; @p known gets it if there is none.
+  /// The index among @p known materials of the one with the same elastic
+  /// constants, whatever its density; if there is none, it is added to
+  /// @p known.
   unsigned int
   index_of(const IsotropicMaterial        &material,
            std::vector<IsotropicMaterial> &known);

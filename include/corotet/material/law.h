@@ -49,8 +49,7 @@ namespace corotet
    * Optional:
    *   - spatial_stress(lame, H, sigma): the stress to be shown [Pa]. Without
    *     it, Cauchy's.
-   *   - is_linear = true: P is linear in H and symmetric, and needs no
-   * rotation.
+   *   - is_linear = true: P is linear in H, symmetric, without a rotation.
    *   - a frozen form, see LawWithFrozenForm.
    */
   template <typename L>
@@ -69,7 +68,7 @@ namespace corotet
    * each point, which Newton's method falls back on and damping uses: n_frozen
    * numbers from linearize_frozen(H, stored), applied by
    * frozen_derivative(lame, stored, dF, dP). Its derivative() has a further
-   * argument after lame, the factor of that part: 1 gives the derivative. Of
+   * argument after lame, the factor of that part: 1 gives the derivative. For
    * other laws that part is linear elasticity rotated with the cell.
    */
   template <typename L>

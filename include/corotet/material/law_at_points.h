@@ -13,7 +13,8 @@ namespace corotet
 {
   namespace internal
   {
-    /// Points [first, ..) of @p tensors, one per lane; the others are zero.
+    /// Loads @p tensors from @p first on into the lanes; other lanes become
+    /// zero.
     inline void
     to_lanes(const std::span<const dealii::Tensor<2, 3>> tensors,
              const std::size_t                           first,
@@ -68,7 +69,7 @@ namespace corotet
   } // namespace internal
 
   /**
-   * What MaterialLaw says of single points, for a Law.
+   * The members of MaterialLaw for single points, by a Law.
    */
   template <Law L>
   class LawAtPoints : public MaterialLaw

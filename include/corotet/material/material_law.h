@@ -43,10 +43,10 @@ namespace corotet
 
     /**
      * The stress that is shown [Pa] at points of a cell with gradients @p H,
-     * written to @p sigma. @p centre: the gradient at the cell's centre.
-     * Cauchy's stress; of corotational elasticity R sigma R^T, which is the
-     * same but for terms of the order of the strain; of linear elasticity
-     * sigma.
+     * written to @p sigma. @p centre is the gradient at the cell's centre. The
+     * stress is Cauchy's; for corotational elasticity R sigma R^T, which
+     * differs from it by terms of the order of the strain; for linear
+     * elasticity sigma.
      */
     virtual void
     spatial_stresses(const IsotropicMaterial                    &material,
@@ -54,7 +54,7 @@ namespace corotet
                      const std::span<const dealii::Tensor<2, 3>> H,
                      dealii::SymmetricTensor<2, 3> *sigma) const = 0;
 
-    /// The work on cells.
+    /// The loops over cells that compute forces, energies and tangents.
     virtual ElasticSweeps
     sweeps(const Element element) const = 0;
   };

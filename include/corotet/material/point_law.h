@@ -36,7 +36,7 @@ namespace corotet
     stress(const IsotropicMaterial    &material,
            const dealii::Tensor<2, 3> &H) const = 0;
 
-    /// Its derivative in the direction @p dF.
+    /// Derivative of the stress in the direction @p dF [Pa].
     virtual dealii::Tensor<2, 3>
     stress_derivative(const IsotropicMaterial    &material,
                       const dealii::Tensor<2, 3> &H,
@@ -57,15 +57,17 @@ namespace corotet
   /// How far the members of a law contradict each other [-].
   struct LawErrors
   {
-    /// Stress, from the derivative of the energy; relative to the stress.
+    /// Difference of the stress from the derivative of the energy, relative to
+    /// the stress.
     double stress;
-    /// Derivative of the stress, as the law gives it, from that of the stress;
-    /// relative to it.
+    /// Difference of the law's stress derivative from that by finite
+    /// differences, relative to the latter.
     double stress_derivative;
   };
 
-  /// At the gradient @p H, which is not zero, by central differences: of a law
-  /// without mistakes below 1e-6. Runs warn of more than 1e-3.
+  /// The errors at the gradient @p H, which is not zero, by central
+  /// differences: below 1e-6 for a law without mistakes. Runs warn of more than
+  /// 1e-3.
   LawErrors
   law_errors(const PointLaw             &law,
              const IsotropicMaterial    &material,

@@ -17,7 +17,7 @@
 namespace corotet
 {
   /**
-   * What polar_decomposition() of several F found, a bit per lane.
+   * What polar_decomposition() has found about several F, a bit per lane.
    */
   struct PolarLanes
   {
@@ -29,7 +29,7 @@ namespace corotet
     /// Lanes with PolarState::degenerate.
     unsigned int degenerate = 0;
 
-    /// Lanes that this or @p other names.
+    /// Adds the lanes of @p other.
     COROTET_ALWAYS_INLINE void
     operator|=(const PolarLanes &other)
     {
@@ -163,8 +163,8 @@ namespace corotet
                        (d * d > 1e-6 * f * f * f));
     }
 
-    /// With |X|^2 = 3, 1 - det X is the sum of (s - 1)^2 over the singular
-    /// values s, to leading order: three steps are enough below this.
+    /// The largest 1 - det X for which three steps are enough. With |X|^2 = 3
+    /// it is the sum of (s - 1)^2 over the singular values s, to leading order.
     constexpr double far_from_rotation = 1.75e-3;
 
     /// Balanced steps for the lanes of @p lanes that need more than one.
@@ -184,7 +184,8 @@ namespace corotet
           copy(X, next);
           norm_square(X, f);
           balanced_step(next, C, f, d);
-          // The others stay: the result of a lane is its own.
+          // Other lanes keep their values: the result of a lane must not depend
+          // on those of others.
           static_for<9>([&](auto ij) {
             constexpr int i = ij / 3, j = ij % 3;
             X[i][j] = is_far ? next[i][j] : X[i][j];
@@ -192,7 +193,7 @@ namespace corotet
         }
     }
 
-    /// The scalar function for the lanes of @p lanes.
+    /// Calls the scalar function for the lanes of @p lanes.
     inline __attribute__((noinline, cold)) PolarLanes
     polar_decomposition_by_lane(const unsigned int lanes,
                                 const SimdMatrix  &F,
@@ -252,7 +253,8 @@ namespace corotet
     internal::cofactors(X, C, d);
     const unsigned int far_ones =
       internal::lane_bits(~(1. - d < internal::far_from_rotation)) & ordinary;
-    // Rare calls get copies: X and the caller's F and R stay in registers.
+    // The rarely called functions get copies, so that X and the caller's F and
+    // R stay in registers.
     if (__builtin_expect(static_cast<long>(far_ones != 0), 0))
       {
         Simd<double> Y[3][3];

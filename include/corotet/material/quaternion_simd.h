@@ -40,7 +40,7 @@ namespace corotet
       q[c + 1]                = is_larger ? symmetric[b] : q[c + 1];
       largest                 = is_larger ? square : largest;
     });
-    // From 2 on to 8; four steps leave round-off.
+    // The factor is in [2, 8]: four steps leave only round-off.
     V factor = 0.5 * (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     internal::approximate_rsqrt<4>(factor);
     static_for<4>([&](auto i) { q[i] *= factor; });

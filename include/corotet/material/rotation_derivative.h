@@ -22,8 +22,8 @@ namespace corotet
    * xx, yy, zz, yz, xz, xy.
    */
 
-  /// Eigenvalues of G are sums of two principal stretches. Smaller ones count
-  /// as this [-]: where two stretches sum to zero, R jumps.
+  /// The smallest eigenvalue of G [-], to which smaller ones are clamped. They
+  /// are sums of two principal stretches; where such a sum is zero, R jumps.
   inline constexpr double smallest_sum_of_stretches = 0.01;
 
   namespace internal
@@ -65,7 +65,7 @@ namespace corotet
     }
   } // namespace internal
 
-  /// a(A).
+  /// Computes the axial vector a(A).
   COROTET_ALWAYS_INLINE void
   axial_vector(const Simd<double> (&A)[3][3], Simd<double> (&a)[3])
   {
@@ -112,8 +112,8 @@ namespace corotet
     });
   }
 
-  /// Adds to @p moment the m with w . m = -weight sigma : W(w) A for all w: how
-  /// a rotation that turns under the strain changes the energy.
+  /// Adds to @p moment the m with w . m = -weight sigma : W(w) A for all w: the
+  /// change of the energy when the rotation turns under the strain.
   COROTET_ALWAYS_INLINE void
   add_moment(const Simd<double> weight,
              const Simd<double> (&sigma)[3][3],
@@ -152,7 +152,7 @@ namespace corotet
 
   /// @p inverse = G^{-1} of the stretch @p S, clamped. S is that of a polar
   /// decomposition, so no two of its eigenvalues have a negative sum. Returns
-  /// the lanes where that made a difference, a bit each.
+  /// the lanes where clamping made a difference, a bit each.
   COROTET_ALWAYS_INLINE unsigned int
   inverse_spin_tensor(const Simd<double> (&S)[6], Simd<double> (&inverse)[6])
   {
@@ -169,8 +169,8 @@ namespace corotet
     const V trace  = G[0] + G[1] + G[2];
     const V factor = 1. / det;
     static_for<6>([&](auto s) { inverse[s] *= factor; });
-    // No eigenvalue is small, as the other two have at most a product of
-    // trace^2 / 4. NaN is not among these lanes.
+    // In these lanes no eigenvalue is small, as the other two have at most a
+    // product of trace^2 / 4. NaN is not among them.
     const unsigned int ordinary = internal::lane_bits(
       (trace > 0.) & (det > 0.25 * smallest_sum_of_stretches * trace * trace));
     const unsigned int others  = ~ordinary & ((1u << n_lanes<double>)-1);

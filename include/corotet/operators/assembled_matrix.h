@@ -20,13 +20,14 @@
 
 namespace corotet
 {
-  /// The blocks of a matrix of @p nodes: those of nodes that share a cell.
-  /// Throws ComputationError if they are too many for one rank. Collective.
+  /// The pattern of matrices with blocks for all pairs of @p nodes that share a
+  /// cell. Throws ComputationError if there are too many for one rank.
+  /// Collective.
   std::shared_ptr<const BlockPattern>
   block_pattern(const Nodes &nodes);
 
   /**
-   * Where the blocks of the cells are in a matrix of that pattern. Almost all
+   * The places of the cells' blocks in a matrix of that pattern. Almost all
    * rows have at most 256 blocks: then a place takes one byte.
    */
   class BlockPlaces
@@ -47,33 +48,33 @@ namespace corotet
 
   private:
     std::vector<std::uint8_t> low;
-    /// Multiples of 256; empty if there are none.
+    /// Multiples of 256 in the places; empty if there are none.
     std::vector<std::uint8_t> high;
   };
 
   /**
-   * The matrix A = c_K K + c_M M of one element, with a matrix of the surface
-   * if there is one. Rows and columns of prescribed
-   * unknowns are those of a diagonal matrix.
+   * The matrix A = c_K K + c_M M of one element, plus a matrix of the surface
+   * if there is one. Rows and columns of prescribed unknowns are those of a
+   * diagonal matrix.
    *
-   * The sparsity and the place of every block of every cell in it are found
-   * once; update() writes numbers only. Each rank computes its own rows from
-   * all cells that touch them, ghost cells included, so assembly needs no
-   * communication.
+   * The pattern and the places of all blocks of all cells are found once;
+   * update() only writes values. Each rank computes its own rows from all cells
+   * that touch them, with ghost cells, so assembly needs no communication.
    *
    * @p nodes must outlive this object.
    */
   class AssembledMatrix
   {
   public:
-    /// @p is_prescribed: for each local unknown, ghosts included. @p pattern:
-    /// that of @p nodes, or one with more blocks, for what others add.
+    /// @p is_prescribed has an entry for each local unknown, with ghosts.
+    /// @p pattern is that of @p nodes, or one with more blocks, for values that
+    /// are added to matrix().
     AssembledMatrix(const Nodes                               &nodes,
                     const std::vector<unsigned char>          &is_prescribed,
                     const std::shared_ptr<const BlockPattern> &pattern);
 
-    /// Computes A as CellwiseOperator::set_terms() takes it, from the
-    /// coefficients of all local cells, and adds a matrix of the surface, if
+    /// Computes the A that CellwiseOperator::set_terms() defines, from the
+    /// coefficients of all local cells, and adds the matrix of the surface, if
     /// that is not null. Not collective.
     void
     update(const double                                           c_K,
@@ -83,8 +84,8 @@ namespace corotet
            const Vector                                          *lumped_mass,
            const SurfaceOperator<double> *surface = nullptr);
 
-    /// The same from the symmetric parts of the matrices of all local cells, in
-    /// terms of Elasticity::TakeCellMatrices, which @p hand_over passes on.
+    /// Computes A from the symmetric parts of the matrices of all local cells,
+    /// which @p hand_over passes on as to an Elasticity::TakeCellMatrices.
     void
     update(const std::function<void(
              const std::function<void(const unsigned int, const double *)> &)>
@@ -93,21 +94,22 @@ namespace corotet
            const Vector                  *lumped_mass,
            const SurfaceOperator<double> *surface);
 
-    /// Without values after release_values().
+    /// The matrix; it has no values after release_values().
     const BlockMatrix &
     matrix() const
     {
       return *block_matrix;
     }
 
-    /// Gives back their memory until the next update(). Not collective.
+    /// Gives back the memory of the values until the next update(). Not
+    /// collective.
     void
     release_values()
     {
       block_matrix->release_values();
     }
 
-    /// The same, for others to add to.
+    /// The matrix, to which values may be added.
     BlockMatrix &
     matrix()
     {
@@ -115,12 +117,12 @@ namespace corotet
     }
 
   private:
-    /// Adds what no cell has.
+    /// Adds the contributions that do not come from cells.
     void
     add_others(const double                   c_M,
                const Vector                  *lumped_mass,
                const SurfaceOperator<double> *surface);
-    /// Adds block i, j of these cells and its transpose.
+    /// Adds block i, j of cells [first, first + n_cells) and its transpose.
     void
     add_lanes(const unsigned int first,
               const unsigned int n_cells,
@@ -140,7 +142,7 @@ namespace corotet
 
     std::unique_ptr<BlockMatrix> block_matrix;
     BlockPlaces                  places_of_blocks;
-    /// Local cells with prescribed unknowns.
+    /// Whether each local cell has prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
   };
 } // namespace corotet

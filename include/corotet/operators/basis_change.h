@@ -9,9 +9,10 @@
 
 namespace corotet
 {
-  /// Calls @p function(i) for i = 0 .. n - 1, on cells of degree p: unrolled,
-  /// but of degree 3 in a loop. Kernels of that degree are long, and processors
-  /// wait longer for the code than for the numbers, which are in memory anyway.
+  /// Calls @p function(i) for i = 0 .. n - 1, on cells of degree p. The calls
+  /// are unrolled, except at degree 3: kernels of that degree are long, and
+  /// processors would wait longer for the code than for the numbers, which are
+  /// in memory anyway.
   template <int p, int n, typename Function>
   COROTET_ALWAYS_INLINE void
   repeat(const Function &function)
@@ -27,14 +28,14 @@ namespace corotet
   }
 
   /**
-   * Between values at the nodes of the element of degree p and Bernstein
-   * coefficients, of n_lanes<T> cells.
+   * Changes between values at the nodes of the element of degree p and
+   * Bernstein coefficients, for n_lanes<T> cells.
    *
-   * At degree 3 what an edge gets from its vertices and nodes is divided into
-   * the part that is even when the edge is turned around and the part that is
+   * At degree 3 the contribution of an edge's vertices and nodes is divided
+   * into the part that is even when the edge is reversed and the part that is
    * odd, and faces share the sums of edges: 36 products and 48 sums in place of
-   * 88 products with sums, entry by entry of bernstein::from_lagrange. Degree
-   * 2 takes the entries.
+   * 88 products with sums for the entries of bernstein::from_lagrange. Degree 2
+   * uses these entries.
    */
   template <int p, typename T>
   struct BasisChange
@@ -86,7 +87,7 @@ namespace corotet
         }
     }
 
-    /// The transpose of that.
+    /// The transpose of to_bernstein().
     static COROTET_ALWAYS_INLINE void
     to_lagrange_transposed(V (&v)[n_nodes])
     {
@@ -108,8 +109,8 @@ namespace corotet
         }
       if constexpr (p == 3)
         {
-          // Of vertices: the even and the odd parts of their edges, and their
-          // faces; of edges: their faces.
+          // Sums for each vertex: the even and the odd parts of its edges, and
+          // its faces. Sums for each edge: its faces.
           V even[4] = {}, odd[4] = {}, faces[4] = {}, faces_of_edges[6] = {};
           static_for<4>([&](auto f) {
             V &c = v[16 + f];
@@ -149,9 +150,9 @@ namespace corotet
       return 4 + 2 * e;
     }
 
-    /// Of degree 3: shares of an edge's vertices and nodes in its coefficients,
-    /// even and odd. Those in the first coefficient are their sums, those in
-    /// the second one their differences.
+    /// At degree 3, the even and odd shares of an edge's vertices and nodes in
+    /// its coefficients. Shares in the first coefficient are their sums, shares
+    /// in the second one their differences.
     struct OfEdge
     {
       T even_vertex, odd_vertex, even_edge, odd_edge;
@@ -166,8 +167,8 @@ namespace corotet
                     T((row[4] - row[5]) / 2)};
     }();
 
-    /// Of degree 3: shares of a face's vertices, nodes on edges and node in its
-    /// coefficient.
+    /// At degree 3, the shares of a face's vertices, nodes on edges and node in
+    /// its coefficient.
     struct OfFace
     {
       T vertex, edge, face;

@@ -9,7 +9,7 @@
 
 namespace corotet
 {
-  /// Asks for the cache lines of an object that will be read soon.
+  /// Prefetches the cache lines of an object that will be read soon.
   template <typename Object>
   COROTET_ALWAYS_INLINE void
   fetch_object(const Object *object)
@@ -31,10 +31,10 @@ namespace corotet
    *     the operation has a member ignores_curvature;
    *   - fetch(data, batch), if it wants to: asks for what it reads of cells.
    *
-   * Where that is larger than the caches, what the next but one batch needs is
-   * on its way while a batch is worked on. One batch ahead is too late for
-   * short work. For long work it is early enough, and two cost up to half the
-   * time more: operations with a member works_long get one.
+   * Where the data are larger than the caches, those of the next but one batch
+   * are prefetched while a batch is worked on. For short work one batch ahead
+   * would be too late. For long work it is early enough, and two take up to
+   * half the time more: operations with a member works_long prefetch one.
    */
   template <typename Operation>
   class BatchSweep
@@ -68,8 +68,8 @@ namespace corotet
     static constexpr unsigned int n_batches_ahead =
       (works_long ? 1 : 2) * Operation::n_batches;
 
-    // Flat: what it calls becomes one piece of code with constants for counters
-    // and registers for arrays; with calls it is six times slower.
+    // The function is flattened: all calls are inlined, so that counters are
+    // constants and arrays are registers; with calls it is six times slower.
     template <typename IsCurved>
     static __attribute__((flatten)) void
     run_batches(const IsCurved     is_curved,

@@ -15,17 +15,17 @@
 namespace corotet
 {
   /**
-   * Where a distributed square matrix has 3 x 3 blocks: node n has the rows and
-   * columns 3n, 3n+1, 3n+2.
+   * The pattern of a distributed square matrix of 3 x 3 blocks: node n has the
+   * rows and columns 3n, 3n+1, 3n+2.
    *
    * Columns have local numbers, see NodeNumbers; the ghosts are nodes of other
-   * ranks that owned rows have a column of.
+   * ranks that are columns of owned rows.
    */
   class BlockPattern
   {
   public:
-    /// @p rows: those of the owned nodes, whose columns have global numbers;
-    /// each has its diagonal block. Collective.
+    /// @p rows are those of the owned nodes, with global column numbers; each
+    /// must have its diagonal block. Collective.
     BlockPattern(const NodeGraph &rows, const MPI_Comm comm);
 
     MPI_Comm
@@ -34,7 +34,7 @@ namespace corotet
       return comm;
     }
 
-    /// Columns have local numbers.
+    /// The graph of the blocks; columns have local numbers.
     const NodeGraph &
     graph() const
     {
@@ -53,15 +53,15 @@ namespace corotet
       return numbers.n_owned();
     }
 
-    /// Of what owned nodes have to where they are ghosts.
+    /// Exchanges values of owned nodes with the ranks where they are ghosts.
     const GhostExchange &
     exchange() const
     {
       return ghost_exchange;
     }
 
-    /// Where row @p node has a block: the place of @p column among its columns,
-    /// which must be there.
+    /// The place of @p column among the columns of row @p node, which must have
+    /// it.
     int
     place(const int node, const int column) const;
 
@@ -73,31 +73,31 @@ namespace corotet
   };
 
   /**
-   * A distributed square matrix of 3 x 3 blocks. Each of the three rows of a
-   * node has its values one after the other, three of each block, and all rows
-   * follow each other: compressed rows.
+   * A distributed square matrix of 3 x 3 blocks in compressed rows: each of the
+   * three rows of a node has its values one after the other, three of each
+   * block, and all rows follow each other.
    */
   class BlockMatrix
   {
   public:
-    /// All zero.
+    /// Makes a matrix of zeros.
     explicit BlockMatrix(const std::shared_ptr<const BlockPattern> &pattern);
 
-    /// Values are not to have two owners by mistake.
+    /// Copies are forbidden, so that values do not have two owners by mistake.
     BlockMatrix(const BlockMatrix &) = delete;
     BlockMatrix &
     operator=(const BlockMatrix &) = delete;
     ~BlockMatrix()                 = default;
 
-    /// Shared by all who keep what depends on it, for matrices with the same
-    /// one.
+    /// The pattern; it is shared with all objects that depend on it and with
+    /// other matrices of the same pattern.
     const std::shared_ptr<const BlockPattern> &
     pattern() const
     {
       return the_pattern;
     }
 
-    /// Columns, and so values, of each row of an owned node.
+    /// Number of columns, and so of values, of each row of an owned node.
     int
     row_length(const int node) const
     {
@@ -151,7 +151,7 @@ namespace corotet
     double
     diagonal(const int row) const;
 
-    /// All of this rank.
+    /// The values of all rows of this rank.
     const double *
     values_begin() const
     {
@@ -164,7 +164,7 @@ namespace corotet
       return values.size();
     }
 
-    /// The largest absolute one of this rank; 0 if it has none.
+    /// The largest absolute value of this rank; 0 if it has none.
     double
     largest_value() const;
 
@@ -199,7 +199,8 @@ namespace corotet
 
     std::shared_ptr<const BlockPattern> the_pattern;
     std::vector<double>                 values;
-    /// What is multiplied, with the entries of ghosts; without ghosts unused.
+    /// The vector that is multiplied, with the entries of ghosts; unused
+    /// without ghosts.
     mutable std::vector<double> source;
   };
 } // namespace corotet

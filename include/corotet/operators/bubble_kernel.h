@@ -10,20 +10,21 @@
 namespace corotet
 {
   /**
-   * What FactoredKernel does, for the quadratic element with bubbles. Mass is
-   * by quadrature at the nodes, so diagonal. Stiffness is what the rule of
-   * bubbles.h makes of it, without the points:
+   * The functions of FactoredKernel for the quadratic element with bubbles.
+   * Mass is by quadrature at the nodes, so diagonal. Stiffness equals that by
+   * the rule of bubbles.h, but is computed without its points:
    *
    * Quadratic functions and the bubbles of faces are cubic, u = q + b B with
-   * the bubble B of the cell, and the kernel of degree 3 does q. As B vanishes
-   * on the surface and its mean times a linear function is its mean times the
-   * function's value at the centre,
+   * the bubble B of the cell, and the kernel of degree 3 computes the part of
+   * q. As B vanishes on the surface, and its mean times a linear function is
+   * its mean times the function's value at the centre,
    *
    *   int dB/dlambda_v B_beta = -int B dB_beta/dlambda_v,
    *
-   * for quadratic B_beta, is one number for each vertex of beta: that couples
-   * b to the coefficients of stress and strain. For these terms the rule is
-   * exact; it is not for products of B with itself, which get its number.
+   * for quadratic B_beta, is one number for each vertex of beta, which couples
+   * b to the coefficients of stress and strain. The rule is exact for these
+   * terms, but not for products of B with itself; for those the kernel uses the
+   * value by the rule.
    */
   template <typename T>
   class BubbleKernel : private FactoredKernel<3, T>
@@ -34,7 +35,7 @@ namespace corotet
     static constexpr int n_nodes = bubbles::n_nodes;
 
     using NodalValues = V[n_nodes][3];
-    /// xx, yy, zz, yz, xz, xy.
+    /// Components xx, yy, zz, yz, xz, xy.
     using Strain = V[6];
 
     using FactoredKernel<3, T>::stiffness_scale;
@@ -42,7 +43,7 @@ namespace corotet
     static constexpr double mass_scale        = 1;
     static constexpr auto  &diagonal_products = bubbles::diagonal_products;
 
-    /// As FactoredKernel::apply(), but @p u remains.
+    /// The same as FactoredKernel::apply(), but @p u is not overwritten.
     template <bool with_stiffness, bool with_mass, bool with_offset = false>
     static COROTET_ALWAYS_INLINE void
     apply(const CellCoefficients<T> *cell,
@@ -62,7 +63,7 @@ namespace corotet
         });
     }
 
-    /// As FactoredKernel::centre_gradient().
+    /// The same as FactoredKernel::centre_gradient().
     static COROTET_ALWAYS_INLINE void
     centre_gradient(const NodalValues &u, V (&gradient)[3][3])
     {
@@ -83,7 +84,7 @@ namespace corotet
 
     // In the units of the kernel of degree 3: the integral of dB/dlambda_v
     // B_beta for a vertex of beta, from the mean 32/105 of B, and that of
-    // dB/dlambda_v dB/dlambda_v less that of dB/dlambda_v dB/dlambda_w.
+    // dB/dlambda_v dB/dlambda_v minus that of dB/dlambda_v dB/dlambda_w.
     static constexpr double coupling =
       -0.5 * bubbles::node_weights[14] / (3 * bernstein::mass_scale(2));
     static constexpr double square =
@@ -137,7 +138,7 @@ namespace corotet
       from_coefficients(c, f, v);
     }
 
-    // In units of mu, of the gradient b (x) g.
+    // The stress of the gradient b (x) g, in units of mu.
     static COROTET_ALWAYS_INLINE void
     stress_of_product(const V (&b)[3],
                       const V (&g)[3],
@@ -187,7 +188,8 @@ namespace corotet
       });
     }
 
-    // The transpose of that, of coefficients c and f of a linear form.
+    // The transpose of to_coefficients(), for coefficients c and f of a linear
+    // form.
     static COROTET_ALWAYS_INLINE void
     from_coefficients(const typename Cubic::NodalValues &c,
                       const V (&f)[3],

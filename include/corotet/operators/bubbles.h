@@ -10,16 +10,17 @@
 #include <utility>
 
 /**
- * The quadratic tetrahedron with bubbles, as tables for the compiler. Its 15
- * nodes are the vertices, the middles of edges, the centres of faces and that
- * of the cell, numbered as FE_SimplexP_Bubbles(2) does.
+ * The quadratic tetrahedron with bubbles, as compile-time tables. Its 15 nodes
+ * are the vertices, the middles of edges, the centres of faces and that of the
+ * cell, in the order of FE_SimplexP_Bubbles(2).
  */
 namespace corotet::bubbles
 {
   inline constexpr int n_nodes = 15;
 
-  /// Means of the shape functions: weights of the quadrature at the nodes,
-  /// exact for all functions of the element, and so for degree 3.
+  /// Means of the shape functions. They are the weights of the quadrature at
+  /// the nodes, which is exact for all functions of the element, and so for
+  /// degree 3.
   inline constexpr auto node_weights = [] {
     std::array<double, n_nodes> result{};
     for (int i = 0; i < n_nodes; ++i)
@@ -36,8 +37,8 @@ namespace corotet::bubbles
     return result;
   }();
 
-  /// A point in barycentric coordinates, with the weight as a fraction of the
-  /// cell.
+  /// A quadrature point in barycentric coordinates; its weight is a fraction of
+  /// the cell.
   struct Point
   {
     std::array<double, 4> lambda;
@@ -47,8 +48,8 @@ namespace corotet::bubbles
   inline constexpr int n_points = 14;
 
   /**
-   * The rule of degree 5 for the stiffness (Walkington 2000), the choice of
-   * Geevers, Mulder, van der Vegt 2019, @cite geevers2019. Full order takes
+   * The rule of degree 5 for the stiffness (Walkington 2000), as chosen by
+   * Geevers, Mulder, van der Vegt 2019, @cite geevers2019. Full order requires
    * exactness for linear functions times gradients of shape functions, which
    * are cubic: degree 4.
    */
@@ -57,7 +58,7 @@ namespace corotet::bubbles
   {
     std::array<Point, n_points> rule{};
     int                         q = 0;
-    // Points near the faces, near the vertices, near the edges.
+    // Points near the faces and near the vertices; then those near the edges.
     for (const auto &[distance, weight] :
          {std::pair(0.31088591926330060980, 0.11268792571801585080),
           std::pair(0.092735250310891226402, 0.073493043116361949544)})
@@ -80,19 +81,20 @@ namespace corotet::bubbles
   inline constexpr std::array<Point, n_points> stiffness_rule =
     make_stiffness_rule();
 
-  /// [node][k - 1]: d N_i by lambda_k - lambda_0.
+  /// [node][k - 1]: derivative of N_i by lambda_k - lambda_0.
   using Derivatives = std::array<std::array<double, 3>, n_nodes>;
 
-  /// At a point. From quadratic Lagrange polynomials and bubbles
-  /// 27 lambda_a lambda_b lambda_c, 256 lambda_0 lambda_1 lambda_2 lambda_3,
-  /// each less what it has at the nodes of those that follow.
+  /// The derivatives at a point. The shape functions are quadratic Lagrange
+  /// polynomials and the bubbles 27 lambda_a lambda_b lambda_c and 256 lambda_0
+  /// lambda_1 lambda_2 lambda_3, each minus its values at the nodes of the
+  /// functions that follow.
   constexpr Derivatives
   derivatives(const std::array<double, 4> &lambda)
   {
     constexpr const auto &edges  = tetrahedron::edges;
     constexpr const auto &faces  = tetrahedron::faces;
     const auto            one_if = [](const bool is) { return is ? 1. : 0.; };
-    // By the four lambda as if they were independent.
+    // The derivatives by the four lambda as if they were independent.
     double d[n_nodes][4] = {};
     for (int k = 0; k < 4; ++k)
       {
@@ -139,7 +141,7 @@ namespace corotet::bubbles
   inline constexpr Derivatives centre_derivatives =
     derivatives({{0.25, 0.25, 0.25, 0.25}});
 
-  /// At the points of the rule.
+  /// The derivatives at the points of the rule.
   inline constexpr auto point_derivatives = [] {
     std::array<Derivatives, n_points> result{};
     for (int q = 0; q < n_points; ++q)
@@ -148,7 +150,7 @@ namespace corotet::bubbles
   }();
 
   /// Means, by the rules, of squares of shape functions and of products of
-  /// their derivatives, as bernstein::DiagonalProducts has them.
+  /// their derivatives, in the form of bernstein::DiagonalProducts.
   struct DiagonalProducts
   {
     std::array<double, n_nodes>                mass = node_weights;

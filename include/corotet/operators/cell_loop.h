@@ -17,8 +17,8 @@ namespace corotet
 {
   namespace internal
   {
-    /// Numbers in threes, from the start of a register on, as fours; the fourth
-    /// belongs to the next three.
+    /// Rearranges groups of three numbers, from the start of a register on,
+    /// into groups of four; the fourth number is that of the next group.
     template <typename V, int... l>
     COROTET_ALWAYS_INLINE V
     threes_to_fours(const V a, std::integer_sequence<int, l...>)
@@ -63,7 +63,8 @@ namespace corotet
       {
         const T *const node =
           vector + 3 * static_cast<std::size_t>(open[k].node);
-        // They ascend: all but the last have a fourth number behind them.
+        // Open nodes ascend: all but the last one have a fourth number behind
+        // them.
         if (k + 1 < open.size())
           store_aligned(load_unaligned<4>(node), values);
         else
@@ -71,7 +72,7 @@ namespace corotet
       }
   }
 
-  /// target += source, of four numbers; the source is zero afterwards.
+  /// target += source, for four numbers; the source is zero afterwards.
   template <typename T>
   COROTET_ALWAYS_INLINE void
   move_sum(T *source, T *target)
@@ -82,11 +83,11 @@ namespace corotet
 
   /**
    * Sweeps over the cells, chunk by chunk, whose contributions to nodes are
-   * summed up, over all ranks. Values of ghosts travel to the ranks that need
+   * summed up over all ranks. Values of ghosts travel to the ranks that need
    * them, and contributions to ghosts back to their owners, while cells without
    * ghosts are worked on. Sums are handed on, chunk by chunk, as soon as they
-   * are complete; those of nodes that other chunks have, too, are kept until
-   * then.
+   * are complete; those of nodes that belong to other chunks, too, are kept
+   * until then.
    *
    * @p nodes must outlive this object.
    */
@@ -108,9 +109,9 @@ namespace corotet
     /**
      * Runs over all owned cells.
      *
-     * @p add(chunk, source, sums) adds what the batches of a chunk contribute
-     * to its array sums; source is the array of its values of @p src. @p
-     * take(i, y) gets the sum y of the owned unknown i, or those of several
+     * @p add(chunk, source, sums) adds the contributions of a chunk's batches
+     * to its array sums; source is the array of its values of @p src.
+     * @p take(i, y) gets the sum y of the owned unknown i, or those of several
      * from i on (see take_sums()); it may change @p src there. Ghost entries of
      * @p src are brought up to date if they are not in use, and left as they
      * came. Collective.
@@ -177,8 +178,9 @@ namespace corotet
     }
 
   private:
-    /// Of nodes that other chunks have, too: takes what these have contributed
-    /// to final ones, and gives what this one has contributed to others.
+    /// For nodes that also belong to other chunks: adds what these have
+    /// contributed to final sums, and stores this chunk's contributions for
+    /// others.
     void
     keep_partial_sums(const CellBatches::Chunk &chunk) const
     {
@@ -195,7 +197,7 @@ namespace corotet
                  sums + 4 * static_cast<std::size_t>(continued.node));
     }
 
-    /// Of owned nodes that are shared, and then of ghosts.
+    /// The partial sum of a node: shared owned nodes come first, then ghosts.
     T *
     partial_sum(const unsigned int node) const
     {
@@ -232,7 +234,8 @@ namespace corotet
           }
     }
 
-    /// Loops over the same cells take turns. All numbers are fours.
+    /// Work space, which loops over the same cells use in turn. Each node has
+    /// four numbers.
     struct Space
     {
       explicit Space(const Nodes &nodes)
@@ -245,14 +248,14 @@ namespace corotet
           nodes.initialize_vector(exchange);
       }
 
-      /// Of the nodes of the chunk that is worked on.
+      /// Values of the nodes of the present chunk.
       dealii::AlignedVector<T> values;
-      /// The same; all zero between chunks.
+      /// Sums of the nodes of the present chunk; all zero between chunks.
       dealii::AlignedVector<T> sums;
-      /// See CellBatches; all zero between sweeps.
+      /// Partial sums, see CellBatches; all zero between sweeps.
       dealii::AlignedVector<T> partial_sums;
-      /// Owned entries are zero but between receiving and handing on. Empty on
-      /// one rank.
+      /// Vector for the exchange of ghosts. Owned entries are zero except
+      /// between receiving and handing on. Empty on one rank.
       VectorType exchange;
     };
 

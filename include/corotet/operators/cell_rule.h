@@ -7,10 +7,10 @@
 #include <corotet/discretization/curved_batches.h>
 
 /**
- * Where the quadrature kernel evaluates a batch of cells: for straight cells at
- * the points of a ReferenceElement::PointValues, for curved ones at those of a
- * CurvedRule. In both, gradients by xi become those by the coordinates that the
- * cell has at its centre.
+ * The points where the quadrature kernel evaluates a batch of cells: for
+ * straight cells those of a ReferenceElement::PointValues, for curved ones
+ * those of a CurvedRule. In both, derivatives by xi become those by the
+ * coordinates that the cell has at its centre.
  */
 namespace corotet
 {
@@ -18,7 +18,7 @@ namespace corotet
   struct CurvedRule
   {
     const ReferenceElement::PointValues &shapes;
-    /// CurvedBatches::numbers().
+    /// The numbers of CurvedBatches::numbers().
     const double *numbers;
 
     COROTET_ALWAYS_INLINE Simd<double>
@@ -30,13 +30,13 @@ namespace corotet
   };
 
   /// Whether gradients of the coordinates, and weights, are the same in all
-  /// cells and points but for a factor.
+  /// cells and points except for a factor.
   template <typename Rule>
   inline constexpr bool is_of_straight_cells =
     std::is_same_v<Rule, ReferenceElement::PointValues>;
 
-  /// The rule of a batch, of the kind that is_curved (std::true_type or
-  /// std::false_type) says.
+  /// The rule of a batch; is_curved (std::true_type or std::false_type) tells
+  /// which kind.
   template <typename IsCurved>
   COROTET_ALWAYS_INLINE decltype(auto)
   cell_rule(const IsCurved,
@@ -63,7 +63,7 @@ namespace corotet
     return rule.shapes.weights.size();
   }
 
-  /// Share of the volume that point @p q has.
+  /// Share of point @p q in the volume.
   COROTET_ALWAYS_INLINE double
   weight_at(const ReferenceElement::PointValues &rule, const unsigned int q)
   {
@@ -123,7 +123,7 @@ namespace corotet
     static_for<9>([&](auto i) { by_xi[i / 3][i % 3] = result[i / 3][i % 3]; });
   }
 
-  /// The transpose of that.
+  /// The transpose of to_centre().
   COROTET_ALWAYS_INLINE void
   from_centre(const ReferenceElement::PointValues &,
               const unsigned int,

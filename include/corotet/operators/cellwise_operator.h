@@ -13,13 +13,12 @@
 namespace corotet
 {
   /**
-   * The operator A = c_K K + c_M M of one element, applied cell by cell without
-   * a matrix, in numbers of type T, and a matrix of the surface, if there is
-   * one. Rows and columns of prescribed unknowns are those of a diagonal
-   * matrix.
+   * The operator A = c_K K + c_M M of one element, plus a matrix of the surface
+   * if there is one, applied cell by cell without a matrix in numbers of type
+   * T. Rows and columns of prescribed unknowns are those of a diagonal matrix.
    *
    * Vectors are those of the nodes. Ghost entries of sources are brought up to
-   * date where they are not in use, and left as they came. Everything that the
+   * date where they are not in use, and left as they came. All objects that the
    * constructor and set_*() get by reference or pointer must outlive this
    * object. Members but those marked are collective.
    */
@@ -29,13 +28,13 @@ namespace corotet
   public:
     using VectorType = dealii::LinearAlgebra::distributed::Vector<T>;
 
-    /// @p prescribed: local unknowns, ghosts included.
+    /// @p prescribed has the prescribed local unknowns, with ghosts.
     CellwiseOperator(const Nodes &nodes, std::vector<unsigned int> prescribed);
 
     /**
-     * Sets A = c_K K + c_M M with c_K > 0. With @p lumped_mass that vector is
-     * the diagonal of M; otherwise the mass is that of @p masses, consistent.
-     * Not collective.
+     * Sets A = c_K K + c_M M with c_K > 0. If @p lumped_mass is given, it is
+     * the diagonal of M; otherwise M is the consistent mass of @p masses. Not
+     * collective.
      */
     void
     set_terms(const double               c_K,
@@ -44,23 +43,24 @@ namespace corotet
               const CellMasses<T>       *masses,
               const VectorType          *lumped_mass);
 
-    /// Adds that matrix to A; none if it is null. Not collective.
+    /// Adds the matrix to A; removes it if @p surface is null. Not collective.
     void
     set_surface(const SurfaceOperator<T> *surface);
 
-    /// Computes the diagonal of A. To be called after set_*() if anything
-    /// of the following is.
+    /// Computes the diagonal of A. To be called after set_*() if any of the
+    /// following members is used.
     void
     compute_diagonal();
 
-    /// Empty before compute_diagonal().
+    /// The diagonal of A; empty before compute_diagonal().
     const VectorType &
     diagonal() const
     {
       return diagonal_of_A;
     }
 
-    /// dst = A src; before compute_diagonal() zero at prescribed unknowns.
+    /// dst = A src; before compute_diagonal() dst is zero at prescribed
+    /// unknowns.
     void
     vmult(VectorType &dst, const VectorType &src) const;
 
@@ -70,7 +70,7 @@ namespace corotet
 
     /**
      * d = beta d + alpha D^{-1} (b - A x), then x += d, in one sweep. Where
-     * @p inverse_diagonal is zero, x remains: it must be zero there.
+     * @p inverse_diagonal is zero, x must be zero and does not change.
      */
     void
     chebyshev_step(VectorType       &x,
@@ -86,7 +86,7 @@ namespace corotet
       return cell_loop.get_nodes();
     }
 
-    /// Local unknowns, ghosts included.
+    /// The prescribed local unknowns, with ghosts.
     const std::vector<unsigned int> &
     prescribed_unknowns() const
     {
@@ -94,7 +94,7 @@ namespace corotet
     }
 
   protected:
-    /// For what derived classes add.
+    /// The diagonal; derived classes may add to it.
     VectorType diagonal_of_A;
 
   private:
@@ -115,7 +115,8 @@ namespace corotet
     const VectorType *lumped_mass = nullptr;
 
     const SurfaceOperator<T> *surface = nullptr;
-    /// Its product with the source; zero everywhere else.
+    /// The product of the surface's matrix and the source; zero at other
+    /// entries.
     mutable VectorType surface_product;
   };
 } // namespace corotet

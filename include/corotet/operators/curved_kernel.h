@@ -10,10 +10,10 @@
 namespace corotet
 {
   /**
-   * What FactoredKernel does, for n_lanes<T> curved cells with n nodes, by
-   * quadrature: with the rotated gradients of the coordinates of the centre,
-   * and the matrices of CurvedBatches, which turn derivatives by xi into those
-   * by these coordinates.
+   * The functions of FactoredKernel for n_lanes<T> curved cells with n nodes,
+   * by quadrature: with the rotated gradients of the centre's coordinates, and
+   * the matrices of CurvedBatches, which turn derivatives by xi into
+   * derivatives by these coordinates.
    */
   template <int n, typename T>
   class CurvedKernel
@@ -147,7 +147,8 @@ namespace corotet
     }
 
   private:
-    // From derivatives of u by xi those of the energy by them, [component][k].
+    // From derivatives of u by xi computes those of the energy by them,
+    // [component][k].
     static COROTET_ALWAYS_INLINE void
     stress(const Point               &point,
            const CellCoefficients<T> &cell,

@@ -10,8 +10,8 @@
 
 namespace corotet
 {
-  /// Derivatives by the reference coordinates, [3 component + k], from those of
-  /// the n shape functions at a point, [node][k], and nodal values.
+  /// Computes derivatives by the reference coordinates, [3 component + k], from
+  /// those of the n shape functions at a point, [node][k], and nodal values.
   template <int n>
   COROTET_ALWAYS_INLINE void
   derivatives_of(const double *dN,
@@ -26,7 +26,7 @@ namespace corotet
     static_for<9>([&](auto ak) { result[ak] = sum[ak]; });
   }
 
-  /// Adds to nodal values what derivatives_of() makes of them, transposed.
+  /// The transpose of derivatives_of(): adds to nodal values.
   template <int n>
   COROTET_ALWAYS_INLINE void
   add_transposed(const double *dN,
@@ -41,14 +41,14 @@ namespace corotet
 
   /**
    * Derivatives of nodal values by the reference coordinates at quadrature
-   * points, and the transpose of that; one cell per lane, for elements of n
+   * points, and the transposed operation; one cell per lane, for elements of n
    * nodes. A Rule is one of cell_rule.h.
    *
-   * Derivatives have a form of their own, with coefficients
-   * [polynomial][3 component + k] that are made once for all points: those of a
-   * polynomial of degree p are, in Bernstein form, differences of its
-   * coefficients, of degree p - 1 (see FactoredKernel), and their values at the
-   * points of an orbit share most of their sums (see OrbitSums).
+   * Derivatives have coefficients [polynomial][3 component + k] that are
+   * computed once for all points: in Bernstein form, those of a polynomial of
+   * degree p are differences of its coefficients, of degree p - 1 (see
+   * FactoredKernel), and their values at the points of an orbit share most of
+   * their sums (see OrbitSums).
    */
   template <int n>
   class DerivativeForm
@@ -67,13 +67,13 @@ namespace corotet
   public:
     static constexpr int n_polynomials = bernstein::size<degree - 1>;
     static constexpr int max_points = ReferenceElement::max_stiffness_points(n);
-    /// Whether coefficients are derivatives, too.
+    /// Whether the coefficients are those of derivatives, and not nodal values.
     static constexpr bool has_coefficients = true;
 
     using NodalValues  = V[n][3];
     using Coefficients = V[n_polynomials][9];
 
-    /// From nodal values.
+    /// Computes coefficients from nodal values.
     static COROTET_ALWAYS_INLINE void
     from_nodes(const NodalValues &u, Coefficients &c)
     {
@@ -89,7 +89,7 @@ namespace corotet
       });
     }
 
-    /// Adds to nodal values what from_nodes() makes of them, transposed.
+    /// The transpose of from_nodes(): adds to nodal values.
     static COROTET_ALWAYS_INLINE void
     add_to_nodes(const Coefficients &c, NodalValues &f)
     {
@@ -134,8 +134,8 @@ namespace corotet
           }
     }
 
-    /// What evaluate() makes of coefficients, transposed; with the weights of
-    /// the points if @p weighted.
+    /// The transpose of evaluate(); with the weights of the points if
+    /// @p weighted.
     template <bool weighted, typename Rule>
     static COROTET_ALWAYS_INLINE void
     sum_up(const Rule &rule,
@@ -171,8 +171,8 @@ namespace corotet
     }
   };
 
-  /// The quadratic element with bubbles: its derivatives have no form that is
-  /// shorter than its nodal values.
+  /// The form of the quadratic element with bubbles: its derivatives have no
+  /// coefficients that are fewer than its nodal values.
   template <>
   class DerivativeForm<15>
   {

@@ -19,13 +19,13 @@ namespace corotet
 
   /**
    * The linear operator of implicit steps, A = c_K K + c_M M + S: a
-   * CellwiseOperator with the numbers of a body and the dilatation of its
-   * vertices, if it has that, with the frozen rotations that the elasticity has
-   * at the moment of update(), and a matrix S of the surface, if there is one.
-   * A is symmetric and positive definite if c_M > 0
-   * or if enough is prescribed or supported by S.
+   * CellwiseOperator with the coefficients of a body and the dilatation of its
+   * vertices, if it has that, with the rotations of the elasticity at the last
+   * update(), and a matrix S of the surface, if there is one. A is symmetric,
+   * and positive definite if c_M > 0 or if enough is prescribed or supported by
+   * S.
    *
-   * A is assembled for those who ask for the matrix. The arguments of the
+   * A is assembled only if its matrix is asked for. The arguments of the
    * constructor must outlive this object.
    */
   class EffectiveOperator : private CellwiseOperator<double>
@@ -34,8 +34,8 @@ namespace corotet
     using CellwiseOperator<double>::diagonal;
     using CellwiseOperator<double>::prescribed_unknowns;
 
-    /// @p is_prescribed: for each local unknown, ghosts included. @p surface:
-    /// S, null if there is none. Collective.
+    /// @p is_prescribed has an entry for each local unknown, with ghosts.
+    /// @p surface is S; null if there is none. Collective.
     EffectiveOperator(const Discretization             &discretization,
                       const Elasticity                 &elasticity,
                       const Mass                       &mass,
@@ -44,8 +44,8 @@ namespace corotet
 
     ~EffectiveOperator();
 
-    /// Takes the coefficients, c_K > 0, the rotations, and the numbers of the
-    /// surface's matrix. Collective.
+    /// Takes over the coefficients, c_K > 0, the rotations, and the values of
+    /// the surface's matrix. Collective.
     void
     update(const double c_K, const double c_M);
 
@@ -53,17 +53,17 @@ namespace corotet
     void
     vmult(Vector &dst, const Vector &src) const;
 
-    /// A with the numbers of the last update(); they are computed by the first
-    /// call after it. Collective.
+    /// The matrix of A at the last update(); its values are computed by the
+    /// first call after that. Collective.
     const BlockMatrix &
     matrix() const;
 
-    /// The same for one who leaves it without numbers: the next call of
-    /// matrix() computes them again. Collective.
+    /// The same for a caller who removes the values: the next call of matrix()
+    /// computes them again. Collective.
     BlockMatrix &
     matrix_to_take() const;
 
-    /// Gives back the memory of the matrix' numbers until the next call of
+    /// Gives back the memory of the matrix' values until the next call of
     /// matrix() or other_matrix().
     void
     release_matrix() const
@@ -74,9 +74,9 @@ namespace corotet
     }
 
     /**
-     * The matrix of cells that @p update writes to the object that is behind
-     * matrix(), and @p stiffness_factor times the stiffness of the vertices'
-     * dilatation: gone when matrix() is called again. Collective.
+     * The matrix of cells that @p update writes, plus @p stiffness_factor times
+     * the stiffness of the vertices' dilatation. It uses the memory of matrix()
+     * and is valid until that is called again. Collective.
      */
     const BlockMatrix &
     other_matrix(const std::function<void(AssembledMatrix &)> &update,
@@ -90,21 +90,21 @@ namespace corotet
         surface_operator->add(f, v);
     }
 
-    /// Null if there is none.
+    /// The matrix S; null if there is none.
     const SurfaceMatrix *
     surface() const
     {
       return surface_matrix;
     }
 
-    /// Its numbers since the last update(); null if there is none.
+    /// The values of S since the last update(); null if there is none.
     const SurfaceOperator<double> *
     surface_numbers() const
     {
       return surface_operator.get();
     }
 
-    /// Its SurfaceMatrix::size() over c_K at the last update [N/m].
+    /// SurfaceMatrix::size() of S over c_K at the last update [N/m].
     double
     surface_size() const
     {
@@ -135,13 +135,13 @@ namespace corotet
       return *noise;
     }
 
-    /// Where the nodes are whose rigid motions K does not resist: displaced, or
-    /// at rest if the law is linear [m]. Owned entries.
+    /// The node positions for which K does not resist rigid motions: displaced
+    /// ones, or those at rest if the law is linear [m]. Owned entries.
     Vector
     positions(const Vector &displacement) const;
 
-    /// What round-off may make of A v, or of J v with another tangent than A's,
-    /// as a Euclidean norm [N]; that of M v is far below. Collective.
+    /// The round-off that A v may have, or J v with another tangent than that
+    /// of A, as a Euclidean norm [N]; that of M v is far smaller. Collective.
     double
     round_off(const Vector &v) const;
 
@@ -151,7 +151,7 @@ namespace corotet
       return prescribed;
     }
 
-    /// Of the last update.
+    /// c_K of the last update.
     double
     stiffness_factor() const
     {
@@ -190,8 +190,8 @@ namespace corotet
     std::unique_ptr<const ForceRoundOff>     noise;
     mutable std::unique_ptr<AssembledMatrix> assembled;
     mutable bool                             is_assembled = false;
-    /// What is multiplied, without prescribed entries; empty without a
-    /// dilatation of the vertices.
+    /// The vector that is multiplied, without prescribed entries; empty without
+    /// a dilatation of the vertices.
     mutable Vector source;
 
     const SurfaceMatrix                     *surface_matrix  = nullptr;
@@ -199,7 +199,7 @@ namespace corotet
     std::unique_ptr<SurfaceOperator<double>> surface_operator;
   };
 
-  /// Numbers of those unknowns that are marked.
+  /// Numbers of the unknowns that are marked.
   std::vector<unsigned int>
   marked_unknowns(const std::vector<unsigned char> &marks);
 } // namespace corotet

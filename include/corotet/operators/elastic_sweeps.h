@@ -10,12 +10,12 @@
 
 namespace corotet
 {
-  /// How many numbers a linearization keeps.
+  /// The count of numbers that a linearization keeps.
   struct LinearizationSize
   {
     unsigned int per_cell  = 0;
     unsigned int per_point = 0;
-    /// Straight cells keep none of their points.
+    /// Whether straight cells keep no numbers of their points.
     bool only_curved_have_points = false;
 
     constexpr std::size_t
@@ -30,14 +30,14 @@ namespace corotet
       return of_curved_cell(only_curved_have_points ? 0 : n_points);
     }
 
-    /// Those of all batches.
+    /// The count for all batches.
     std::size_t
     of_batches(const ReferenceElement &reference,
                const CellBatches      &batches) const;
   };
 
-  /// First number of a batch. Those of curved ones follow those of all as if
-  /// they were straight.
+  /// Place of the first number of a batch. The numbers of curved batches follow
+  /// those of all batches, which are placed as if they were straight.
   template <bool is_curved>
   inline std::size_t
   linearization_start(const ElasticData      &data,
@@ -57,10 +57,10 @@ namespace corotet
   }
 
   /**
-   * A tangent that varies inside a cell: a first sweep keeps what it needs of
-   * the displacement, a second one adds (K_T + (frozen_factor - 1) K_frozen +
-   * mass_factor M) source to the sums. Null where the tangent is that of the
-   * cells' frozen rotations.
+   * A tangent that varies inside a cell: a first sweep keeps numbers that
+   * depend on the displacement, a second one adds (K_T + (frozen_factor - 1)
+   * K_frozen + mass_factor M) source to the sums. Null where the tangent is
+   * that of the cells' frozen rotations.
    */
   struct TangentSweeps
   {
@@ -72,21 +72,21 @@ namespace corotet
   };
 
   /**
-   * The work that a law has on cells, for one element. Sources are
-   * displacements but for TangentSweeps::apply.
+   * The loops of a law over cells, for one element. Sources are displacements,
+   * except that of TangentSweeps::apply.
    */
   struct ElasticSweeps
   {
     /// The internal force, in units of force_scale.
     ElasticSweep force       = nullptr;
     double       force_scale = 1;
-    /// Whether it takes the cells' rotations, too.
+    /// Whether the force sweep computes the cells' rotations, too.
     bool force_rotates = false;
-    /// Elastic energy and det F. There are no sums.
+    /// Computes the elastic energy and det F. It has no sums.
     ElasticSweep  state      = nullptr;
     TangentSweeps consistent = {};
     TangentSweeps frozen     = {};
-    /// What ElasticData::law is to be.
+    /// The value for ElasticData::law.
     const void *law = nullptr;
 
     const TangentSweeps &

@@ -28,25 +28,25 @@ namespace corotet
    */
   struct ElasticState
   {
-    /// In J.
+    /// Elastic energy [J].
     double energy = 0;
     /// Smallest det F at the points of the stiffness rule and the centres [-].
     double min_det_F = 1;
     /// Cells where det F is negative at one of these points.
     unsigned int inverted_cells = 0;
     /// Cells that the last rotation update found collapsed to a plane, a line
-    /// or a point where the law takes rotations.
+    /// or a point, where the law has rotations.
     unsigned int degenerate_cells = 0;
     /// Cells whose rotation the fast algorithm left to the robust one.
     unsigned int robust_rotations = 0;
 
-    /// What makes the state of the body of those of its ranks.
+    /// Makes the state of the body from those of the ranks.
     void
     reduce(JointReduction &reduction);
   };
 
   /**
-   * Cell data of one state: a value per locally owned cell, at its centre.
+   * Cell data of one state: a value at the centre of each locally owned cell.
    */
   struct CellResults
   {
@@ -62,21 +62,21 @@ namespace corotet
    * Internal force f(u) of a law of elasticity, f_i = sum_q w_q P(F_q) grad N_i
    * [seed, 2.73 to 2.76], and its tangents.
    *
-   * Unless the law is linear, cells have rotations R, those of their centres;
-   * corotational laws take them, and K, the tangent of linear elasticity with
-   * these rotations, R K0 R^T, is what preconditioners know of any law. They
-   * change only in update_rotations() and update_rotations_and_force().
-   * Tangents that need more are prepared by linearize(). Vectors are those of
-   * the discretization; input vectors need ghost entries up to date unless told
-   * otherwise, results are complete on owned entries. @p discretization and
-   * @p reference must outlive this object. All members but those marked are
-   * collective.
+   * Unless the law is linear, cells have rotations R, those of their centres.
+   * Corotational laws use them, and so do preconditioners for all laws: their K
+   * is the tangent of linear elasticity with these rotations, R K0 R^T.
+   * Rotations change only in update_rotations(), update_rotations_and_force()
+   * and explicit_step(). Tangents that need more are prepared by linearize().
+   * Vectors are those of the discretization; input vectors need ghost entries
+   * up to date unless told otherwise, results are complete on owned entries.
+   * @p discretization and @p reference must outlive this object. All members
+   * but those marked are collective.
    */
   class Elasticity
   {
   public:
-    /// @p materials by region id. @p dilatation: that of vertices is for linear
-    /// and corotational laws and elements of degree 1.
+    /// @p materials are given by region id. @p dilatation may be that of
+    /// vertices for linear and corotational laws and elements of degree 1.
     Elasticity(const Discretization                            &discretization,
                const ReferenceElement                          &reference,
                const std::map<unsigned int, IsotropicMaterial> &materials,
@@ -85,18 +85,18 @@ namespace corotet
 
     ~Elasticity();
 
-    /// Takes the rotation of every local cell from the displacement @p u. For
-    /// linear elasticity it does nothing.
+    /// Computes the rotation of every local cell from the displacement @p u.
+    /// Does nothing for linear elasticity.
     void
     update_rotations(const Vector &u);
 
-    /// f = internal force of the displacement @p u at the present rotations of
-    /// the cells, whatever the law: of linear elasticity rotated with these.
+    /// f = internal force of the displacement @p u by linear elasticity with
+    /// the present rotations of the cells, whatever the law.
     void
     internal_force(Vector &f, const Vector &u) const;
 
-    /// New rotations of the cells and the internal force of @p u, in one sweep
-    /// over the cells.
+    /// Computes new rotations of the cells and the internal force of @p u, in
+    /// one sweep over the cells.
     void
     update_rotations_and_force(Vector &f, const Vector &u);
 
@@ -118,14 +118,14 @@ namespace corotet
     void
     apply_tangent(Vector &f, const Vector &v) const;
 
-    /// The same by quadrature, the way of laws that are not constant in a cell:
-    /// to compare with.
+    /// The same by quadrature, as for laws whose stress varies in a cell: for
+    /// comparisons.
     void
     apply_tangent_by_quadrature(Vector &f, const Vector &v) const;
 
     /**
-     * Prepares the tangent at @p u, where the cells' rotations must have been
-     * taken. Returns in how many cells, over all ranks, the derivative of a
+     * Prepares the tangent at @p u, to which the cells' rotations must belong.
+     * Returns the number of cells, over all ranks, where the derivative of a
      * rotation was clamped.
      */
     unsigned int
@@ -133,8 +133,8 @@ namespace corotet
 
     /**
      * f = (K_T + (frozen_factor - 1) K_frozen + c_M M) v with the tangent of
-     * the last linearize(). M is that of @p masses, none if null, and @p
-     * lumped_mass the diagonal of a lumped one, or null. Ghost entries of @p v
+     * the last linearize(). M is the consistent mass of @p masses, or has the
+     * diagonal @p lumped_mass; null if it is not used. Ghost entries of @p v
      * are brought up to date where they are not in use.
      */
     void
@@ -145,9 +145,9 @@ namespace corotet
                         const CellMasses<double> *masses,
                         const Vector             *lumped_mass) const;
 
-    /// Gets the matrices of the cells of a batch, by columns: entry
-    /// [3 j + b][lane][i][a] belongs to rows 3 i + a and columns 3 j + b. There
-    /// is a fourth a without meaning.
+    /// Gets the matrices of the cells of a batch, by columns: entry [3 j +
+    /// b][lane][i][a] belongs to row 3 i + a and column 3 j + b. There is a
+    /// fourth a without meaning.
     using TakeCellMatrices =
       std::function<void(const unsigned int batch, const double *columns)>;
 
@@ -163,8 +163,8 @@ namespace corotet
                   const CellMasses<double> *masses,
                   const TakeCellMatrices   &take);
 
-    /// f = K v with that tangent, which must be the last one prepared if it is
-    /// not by cell.
+    /// f = K v with that tangent. It must be the last one prepared if it is not
+    /// by cell.
     void
     apply_stiffness(Vector &f, const Vector &v, const Tangent tangent) const
     {
@@ -174,23 +174,23 @@ namespace corotet
         apply_linearization(f, v, 1., 0., nullptr, nullptr);
     }
 
-    /// The part of the law that is of the vertices' dilatation, not of the
-    /// cells; null if there is none. It takes the present rotations.
-    /// explicit_step() and coefficients() know nothing of it.
+    /// The part of the law that belongs to the vertices' dilatation; null if
+    /// there is none. It uses the present rotations. explicit_step() and
+    /// coefficients() do not include it.
     VertexDilatation *
     vertex_dilatation() const
     {
       return dilatation.get();
     }
 
-    /// What that part reads of the cells.
+    /// The data of the cells for the vertices' dilatation.
     ElasticData
     elastic_data() const;
 
     ElasticState
     state(const Vector &u) const;
 
-    /// The same of this rank's cells. Not collective.
+    /// The state of this rank's cells. Not collective.
     ElasticState
     local_state(const Vector &u) const;
 
@@ -203,7 +203,7 @@ namespace corotet
       return materials.at(discretization.region(cell));
     }
 
-    /// Of all materials [-].
+    /// The largest Poisson's ratio of all materials [-].
     double
     largest_poissons_ratio() const
     {
@@ -216,15 +216,15 @@ namespace corotet
     dealii::Tensor<2, 3>
     rotation(const unsigned int cell) const;
 
-    /// What the factored kernel needs of the cells, with the present rotations:
-    /// for the operators that share them.
+    /// The cells' data for the factored kernel, with the present rotations;
+    /// operators share them.
     const dealii::AlignedVector<CellCoefficients<double>> &
     coefficients() const
     {
       return cell_coefficients;
     }
 
-    /// Of the last rotation update, on this rank.
+    /// Counts of the last rotation update on this rank.
     const RotationCounts &
     rotation_counts() const
     {
@@ -244,8 +244,7 @@ namespace corotet
     }
 
     /// Whether that tangent is the one of the cells' frozen rotations, which
-    /// apply_tangent() and the effective operator know without linearize():
-    /// then there is no linearization to apply.
+    /// apply_tangent() and the effective operator apply without linearize().
     bool
     is_by_cell(const Tangent tangent) const
     {
@@ -264,7 +263,7 @@ namespace corotet
   private:
     void
     set_up_cells();
-    /// elastic_data() for sweeps that rotate.
+    /// elastic_data() for sweeps that change the rotations.
     ElasticData
     rotating_data();
     /// grad u at the centre of a cell.
@@ -276,7 +275,7 @@ namespace corotet
                const std::vector<CellBatches::Chunk> &chunks,
                ElasticData                           &data,
                const Vector                          &u) const;
-    /// f = scale times what @p sweep makes of @p u and @p data.
+    /// f = scale times the sums that @p sweep makes from @p u and @p data.
     template <typename Data>
     void
     cell_sweep(Vector       &f,
@@ -293,22 +292,23 @@ namespace corotet
     const ReferenceElement            &reference;
     std::shared_ptr<const MaterialLaw> material_law;
     ElasticSweeps                      sweeps;
-    /// By region.
+    /// Materials by region.
     std::map<unsigned int, IsotropicMaterial> materials;
     CellLoop<double>                          cell_loop;
 
-    // In the batches of the discretization. Gradients among the coefficients
-    // are rotated: that is how rotations are stored. Without rotations they are
-    // those at rest, and at_rest is empty.
+    // Data of the cells in the discretization's batches. Gradients among the
+    // coefficients are rotated: that is how rotations are stored. Without
+    // rotations they are those at rest, and at_rest is empty.
     dealii::AlignedVector<CellConstants>            constants;
     dealii::AlignedVector<CellGeometryAtRest>       at_rest;
     dealii::AlignedVector<CellCoefficients<double>> cell_coefficients;
 
-    /// Of the last linearize(); see TangentSweeps.
+    /// Numbers of the last linearize(); see TangentSweeps.
     dealii::AlignedVector<double> linearization;
-    /// Where it was made, with ghosts, if the sweeps need it.
+    /// The displacement of the linearization, with ghosts, if the sweeps need
+    /// it.
     dealii::AlignedVector<double> linearized_displacement;
-    /// That of the chunk of cells that is worked on.
+    /// The part of it for the present chunk of cells.
     mutable dealii::AlignedVector<double> chunk_displacement;
     Tangent linearized_tangent = Tangent::frozen_rotation;
 

@@ -25,8 +25,8 @@ namespace corotet
     /// sqrt(int |grad v|^2), the seminorm [m^{3/2}].
     double H1 = 0;
     /// sqrt(int eps : C : eps) with eps = sym(grad v) [J^{1/2}]: the energy
-    /// norm of linear elasticity, whatever the material's law; of an error with
-    /// the dilatation of vertices, if error_norms() gets one.
+    /// norm of linear elasticity, whatever the material's law. An error has the
+    /// dilatation of vertices if error_norms() gets one.
     double energy = 0;
   };
 
@@ -49,9 +49,9 @@ namespace corotet
 
   /**
    * Norms of u - reference, by a rule that is exact for polynomials of degree
-   * 9, with @p u's ghosts up to date. Collective; @p reference is called for
-   * points of the body at rest. @p dilatation: that of the vertices of @p u,
-   * null if it is that of cells.
+   * 9. Ghost entries of @p u must be up to date. Collective; @p reference is
+   * called for points of the body at rest. @p dilatation is that of the
+   * vertices for @p u; null if the law has the dilatation of cells.
    */
   ErrorNorms
   error_norms(

@@ -10,11 +10,11 @@
 namespace corotet
 {
   /**
-   * What the factored kernel knows of n_lanes<T> cells.
+   * The data of n_lanes<T> cells for the factored kernel.
    *
-   * An isotropic law does not care about the directions that strains are
-   * measured in, so R K0(grad lambda) R^T = K0(R grad lambda): the rotation of
-   * a cell costs nothing once the gradients of its barycentric coordinates are
+   * An isotropic law does not depend on the directions in which strains are
+   * measured, so R K0(grad lambda) R^T = K0(R grad lambda): the rotation of a
+   * cell costs nothing once the gradients of its barycentric coordinates are
    * rotated. Lanes without a cell have zeros.
    */
   template <typename T>
@@ -64,19 +64,19 @@ namespace corotet
     using V = Simd<T>;
 
     static constexpr int n_nodes = bernstein::size<p>;
-    /// Bernstein polynomials of the gradient.
+    /// Number of Bernstein polynomials of the gradient.
     static constexpr int n_gradients = bernstein::size<p - 1>;
 
     using NodalValues = V[n_nodes][3];
-    /// xx, yy, zz, yz, xz, xy.
+    /// Components xx, yy, zz, yz, xz, xy.
     using Strain = V[6];
 
     /// The stiffness form comes out divided by this number.
     static constexpr double stiffness_scale =
       p * p * bernstein::mass_scale(p - 1);
-    /// And the mass form by this one.
+    /// The mass form comes out divided by this number.
     static constexpr double mass_scale = bernstein::mass_scale(p);
-    /// Of offsets: their unit is sqrt(mu volume) times this number.
+    /// The unit of offsets is sqrt(mu volume) times this number.
     static constexpr double strain_scale = 1. / p;
 
     static constexpr auto &diagonal_products = bernstein::diagonal_products<p>;
@@ -86,8 +86,8 @@ namespace corotet
      * @p u is overwritten; @p masses are those of the cells, @p cell is not
      * used without stiffness.
      *
-     * With @p offset, that strain is added to the one of u; both are
-     * sqrt(mu volume) strain_scale times strain, with twice the shear strain.
+     * @p offset is a strain that is added to that of u; both are sqrt(mu
+     * volume) strain_scale times strain, with twice the shear strain.
      */
     template <bool with_stiffness, bool with_mass, bool with_offset = false>
     static COROTET_ALWAYS_INLINE void
@@ -156,12 +156,12 @@ namespace corotet
           V c[n_nodes];
           static_for<n_nodes>([&](auto i) { c[i] = u[i][a]; });
           BasisChange<p, T>::to_bernstein(c);
-          // Those at the vertices are the values there.
+          // Coefficients at the vertices are the values there.
           static_for<n_nodes - 4>([&](auto i) { u[i + 4][a] = c[i + 4]; });
         });
     }
 
-    /// The transpose of that.
+    /// The transpose of to_bernstein().
     static COROTET_ALWAYS_INLINE void
     to_lagrange_transposed(NodalValues &v)
     {

@@ -10,14 +10,14 @@
 namespace corotet
 {
   /**
-   * The exact tangent of one rotation per cell, of straight-sided cells of
-   * degree p, without quadrature: a change w of the rotation, one vector for
-   * the whole cell, leaves B = F R^T and the stress polynomials of degree
-   * p - 1, so that all steps of FactoredKernel are the same.
+   * The exact tangent of one rotation per cell, for straight-sided cells of
+   * degree p, without quadrature: with a change w of the rotation, one vector
+   * for the whole cell, B = F R^T and the stress are still polynomials of
+   * degree p - 1, so that all steps of FactoredKernel are the same.
    *
    * The coefficients of B are computed from the displacement in each
    * application: at degree 3 these are 90 numbers, and reading them would take
-   * longer. At degree 1 there is one, and it is kept.
+   * longer. At degree 1 there is one coefficient, and it is kept.
    */
   template <int p>
   class FactoredTangent : private FactoredKernel<p, double>
@@ -31,23 +31,23 @@ namespace corotet
 
     /// f comes out divided by this number.
     static constexpr double scale = Base::stiffness_scale;
-    /// Of masses.
+    /// The factor of masses.
     static constexpr double mass_scale = Base::mass_scale / scale;
-    /// Of coefficients of gradients: their unit is sqrt(mu volume) times this
+    /// The unit of coefficients of gradients is sqrt(mu volume) times this
     /// number.
     static constexpr double gradient_scale = Base::strain_scale;
 
-    /// Whether B is kept, so that there is no need of the displacement.
+    /// Whether B is kept, so that the displacement is not needed.
     static constexpr bool keeps_B = p == 1;
 
-    /// What is known of n_lanes<double> cells.
+    /// The data of n_lanes<double> cells.
     struct Cells
     {
       /// sqrt(mu volume) R grad lambda_k for k = 1, 2, 3.
       V gradients[9];
       /// lambda / mu [-].
       V lame_ratio;
-      /// sqrt(mu volume) gradient_scale.
+      /// The product sqrt(mu volume) gradient_scale.
       V size;
       /// B without grad u, which is R^T, times size; all of B if it is kept.
       V B[3][3];
@@ -109,7 +109,7 @@ namespace corotet
   private:
     using Base::n_gradients;
 
-    /// H += coefficient b of grad u.
+    /// H += coefficient b of grad u, rotated.
     static COROTET_ALWAYS_INLINE void
     add_gradient(const Cells       &cells,
                  const int          b,
@@ -127,7 +127,7 @@ namespace corotet
       });
     }
 
-    /// @p w: G w = a(grad v) at the centre.
+    /// Computes @p w with G w = a(grad v) at the centre.
     static COROTET_ALWAYS_INLINE void
     change_of_rotation(const Cells &cells, const NodalValues &v, V (&w)[3])
     {
@@ -213,7 +213,7 @@ namespace corotet
     }
   };
 
-  /// Of a cell kernel that is a FactoredKernel; 0 of others.
+  /// The degree of a cell kernel that is a FactoredKernel; 0 for others.
   template <typename CellKernel>
   inline constexpr int degree_of_factored_kernel = 0;
 

@@ -11,16 +11,15 @@
 namespace corotet
 {
   /**
-   * What round-off may make of elastic forces: a residual below it means
+   * The round-off that elastic forces may have: residuals below it mean
    * nothing.
    *
    * Displacements are stored with a relative precision eps, so their gradient
-   * is uncertain by some eps |u| / h: a body that has moved far compared with
-   * the size h of its cells knows its strain less well. Corotational strain is
-   * moreover a difference of numbers of size 1 and uncertain by some eps,
-   * wherever the body is, if it has turned. A strain of that size has a stress,
-   * and the stress forces at the nodes, which are independent from cell to
-   * cell: their squares add up.
+   * has an error of some eps |u| / h: it is larger for a body that has moved
+   * far compared with the size h of its cells. Corotational strain is moreover
+   * a difference of numbers of size 1 and has an error of some eps wherever the
+   * body is, if it has turned. These errors cause stress and forces at the
+   * nodes, which are independent from cell to cell: their squares add up.
    */
   class ForceRoundOff
   {
@@ -28,14 +27,14 @@ namespace corotet
     ForceRoundOff(const Discretization &discretization,
                   const Elasticity     &elasticity);
 
-    /// Of the internal force of the displacement @p u, or of K u with any of
-    /// the tangents K, for what u is known to [N]. Collective.
+    /// Error of the internal force of the displacement @p u, or of K u with any
+    /// of the tangents K, due to that of u [N]. Collective.
     double
     of_displacement(const Vector &u) const;
 
-    /// Of the internal force, for what rotations are known to [N]; 0 for linear
-    /// laws. An upper bound: bodies that have hardly turned, above all thin
-    /// ones, may have a thousandth of it.
+    /// Error of the internal force due to that of rotations [N]; 0 for linear
+    /// laws. It is an upper bound: in bodies that have hardly turned, above all
+    /// thin ones, the error may be a thousandth of it.
     double
     of_rotations() const
     {
@@ -43,9 +42,9 @@ namespace corotet
     }
 
   private:
-    /// By owned node: sum of the squares of the forces that cells exert if the
-    /// displacements of their nodes are independent of each other, 1 m each
-    /// [N^2/m^2].
+    /// For each owned node, the sum of the squares of the forces that cells
+    /// exert if the displacements of their nodes are independent of each other,
+    /// 1 m each [N^2/m^2].
     std::vector<double> by_displacement;
     double              by_rotations = 0;
   };

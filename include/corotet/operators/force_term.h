@@ -12,23 +12,23 @@ namespace corotet
   class SurfaceMatrix;
 
   /**
-   * Where and when forces are asked for.
+   * The time and the motion for which forces are asked for.
    */
   struct Motion
   {
-    /// [s].
+    /// Time [s].
     double time;
-    /// Displacement [m] and velocity [m/s], with ghosts. The velocity is that
-    /// of this time only if a term says that it depends on it, and zero in
-    /// statics; if no term depends on displacement or velocity, it may be
-    /// empty.
+    /// Displacement [m] and velocity [m/s], with ghosts. The velocity belongs
+    /// to this time only if a term says that it depends on it. It is zero in
+    /// statics, and may be empty if no term depends on displacement or
+    /// velocity.
     const Vector &u;
     const Vector &v;
   };
 
   /**
-   * A derivative of forces that consists of the body's own matrices:
-   * c_K K + c_M M, with K's rotations frozen.
+   * A derivative of forces that consists of the body's own matrices: c_K K +
+   * c_M M, with the rotations of K frozen.
    */
   struct MatrixShares
   {
@@ -43,28 +43,27 @@ namespace corotet
    *   M a + f_int(u) = sum of f(t, u, v).
    *
    * A force that depends on neither displacement nor velocity needs add_force()
-   * and depends_on_time() only. One that depends on them says so, whether it is
-   * linear, and has its derivative, by one of three ways: damping_shares(),
+   * and depends_on_time() only. Any other force says so, and whether it is
+   * linear, and has its derivative in one of three forms: damping_shares(),
    * add_surface_matrix(), or linearize() with add_linearized(). Preconditioners
-   * and assembled matrices have the first two; what is stiff must be there.
-   * Forces of programs that use the library have the first and the last one, as
-   * the matrix of the surface is not installed: modes, stable steps and what
-   * holds a body in statics know nothing of their stiffness, and stiff ones
-   * take more iterations.
+   * and assembled matrices include the first two, which stiff forces need.
+   * Forces of programs that use the library can have the first and the last
+   * form, as the matrix of the surface is not installed: so their stiffness is
+   * not included in modes, stable steps and the check of supports in statics,
+   * and stiff ones take more iterations.
    *
-   * Forces are functions of the motion alone, without a memory. They are asked
-   * for in any order, also before a run, at its end time and at displacements
-   * that no step has, and of steps that are made again. A collective member
-   * that throws must do so on all ranks.
+   * Forces must be functions of the motion alone, without a memory. They are
+   * evaluated in any order, also before a run, at its end time, at
+   * displacements that no step has, and again for steps that are repeated. A
+   * collective member that throws must do so on all ranks.
    */
   class ForceTerm
   {
   public:
     /// The work of loads and supports is external work, that of damping is
-    /// dissipated energy, and elastic forces are those of an energy() that
-    /// counts as elastic energy: what they do is no work from outside, but that
-    /// of a change of their energy in time is. Static load steps scale loads
-    /// only.
+    /// dissipated energy. Elastic forces have an energy() that counts as
+    /// elastic energy: their work is not external, but that of a change of
+    /// their energy in time is. Static load steps scale loads only.
     enum class Role
     {
       load,
@@ -97,14 +96,14 @@ namespace corotet
     }
 
     /// Whether the force is linear (or affine) in displacement and velocity, so
-    /// that one linear solve is all that a step of a linear body takes.
+    /// that a step of a linear body takes only one linear solve.
     virtual bool
     is_linear() const
     {
       return !depends_on_displacement() && !depends_on_velocity();
     }
 
-    /// Of elastic forces [J]: the force is minus its derivative by the
+    /// Energy of elastic forces [J]: the force is minus its derivative by the
     /// displacement. Collective.
     virtual double
     energy(const Motion & /*motion*/) const
@@ -112,13 +111,13 @@ namespace corotet
       return 0;
     }
 
-    /// Adds the force to @p f, in any local entries: who calls compresses the
+    /// Adds the force to @p f, in any local entries: the caller compresses the
     /// sum. Collective.
     virtual void
     add_force(Vector &f, const Motion &motion) const = 0;
 
-    /// - df/dv, where it consists of the body's matrices: an implicit step
-    /// multiplies it by its velocity factor, and the preconditioner has it.
+    /// - df/dv, if it consists of the body's matrices: implicit steps multiply
+    /// it by their velocity factor, and the preconditioner includes it.
     virtual MatrixShares
     damping_shares() const
     {
@@ -132,11 +131,11 @@ namespace corotet
       return false;
     }
 
-    /// Adds - (@p c_u df/du + @p c_v df/dv) to @p S, where it is a symmetric,
-    /// positive semi-definite matrix of the surface that depends on nothing but
-    /// time: in steps of all kinds, preconditioners, stable steps, modes, and
-    /// in what holds a body in statics. Forces of elastic terms and of dampers
-    /// only. Throws ComputationError. Collective.
+    /// Adds - (@p c_u df/du + @p c_v df/dv) to @p S, if it is a symmetric,
+    /// positive semi-definite matrix of the surface that depends on time only.
+    /// It is included in steps of all kinds, preconditioners, stable steps,
+    /// modes, and the check of supports in statics. Only for elastic terms and
+    /// dampers. Throws ComputationError. Collective.
     virtual void
     add_surface_matrix(SurfaceMatrix & /*S*/,
                        const double /*time*/,
@@ -158,15 +157,16 @@ namespace corotet
     {}
 
     /// Adds (df/du + @p velocity_factor df/dv) w to @p f, in any local entries,
-    /// but for damping_shares() and add_surface_matrix(). w's ghosts are up to
-    /// date. Not collective.
+    /// without the parts of damping_shares() and add_surface_matrix(). Ghost
+    /// entries of w are up to date. Not collective.
     virtual void
     add_linearized(Vector & /*f*/,
                    const Vector & /*w*/,
                    const double /*velocity_factor*/) const
     {}
 
-    /// Whether that is symmetric. Frozen tangents have symmetric ones only.
+    /// Whether this derivative is symmetric. Tangents with frozen rotations
+    /// leave out derivatives that are not.
     virtual bool
     is_symmetric() const
     {
@@ -181,8 +181,8 @@ namespace corotet
       return true;
     }
 
-    /// What round-off may make of the force [N], as a Euclidean norm;
-    /// @p size is that of all loads and supports, @p noise tells that of K v.
+    /// The round-off that the force may have [N], as a Euclidean norm; @p size
+    /// is that of all loads and supports, @p noise gives that of K v.
     /// Collective.
     virtual double
     round_off(const Motion & /*motion*/,

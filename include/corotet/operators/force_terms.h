@@ -32,22 +32,22 @@ namespace corotet
     void
     add(std::unique_ptr<ForceTerm> term, const std::string &name = "");
 
-    /// For statics and modes: terms of damping go, but for their names.
+    /// Removes damping terms, for statics and modes, but keeps their names.
     void
     leave_out_damping();
 
-    /// f = load_factor times the loads, and the forces of supports and of those
+    /// f = load_factor times the loads, plus the forces of supports and of the
     /// elastic terms that depend on time.
     void
     external_force(Vector       &f,
                    const Motion &motion,
                    const double  load_factor) const;
 
-    /// Whether that depends on neither time nor motion.
+    /// Whether the external force depends on neither time nor motion.
     bool
     is_constant() const;
 
-    /// Whether that depends on the motion.
+    /// Whether the external force depends on the motion.
     bool
     follows_motion() const;
 
@@ -55,15 +55,15 @@ namespace corotet
     void
     elastic_force(Vector &f, const Motion &motion) const;
 
-    /// Whether there are such terms.
+    /// Whether elastic_force() has any terms.
     bool
     has_elastic() const;
 
-    /// Of all elastic terms [J].
+    /// Energy of all elastic terms [J].
     double
     energy(const Motion &motion) const;
 
-    /// Of those that depend on time.
+    /// Energy of the elastic terms that depend on time [J].
     double
     changing_energy(const Motion &motion) const;
 
@@ -78,20 +78,20 @@ namespace corotet
     bool
     depends_on_velocity() const;
 
-    /// Whether velocities may change far within a step by damping: whether any
-    /// term but those that are proportional to the mass depends on them.
+    /// Whether damping may change velocities far within a step: whether any
+    /// term depends on them that is not proportional to the mass.
     bool
     has_stiff_damping() const;
 
-    /// What the terms' - df/dv has of the body's matrices.
+    /// The parts of the terms' - df/dv that consist of the body's matrices.
     MatrixShares
     damping_shares() const;
 
-    /// Whether surface_matrix() has anything.
+    /// Whether surface_matrix() has any terms.
     bool
     has_surface_matrix() const;
 
-    /// Whether it has for the velocity.
+    /// Whether surface_matrix() has terms that depend on the velocity.
     bool
     has_surface_damping() const;
 
@@ -107,24 +107,24 @@ namespace corotet
                    const double   c_v) const;
 
     /// The springs of all terms at a time, as a matrix of the surface; null if
-    /// they have no such matrix.
+    /// no term has such a matrix.
     std::unique_ptr<SurfaceMatrix>
     springs(const ReferenceElement &reference, const double time) const;
 
-    /// Names of the terms whose forces act on unknowns that supports
-    /// prescribe, and on no other, in all of these motions, which should move
-    /// every node. Those after the second are for loads that depend on time.
-    /// Without a name a term is left out.
+    /// Names of the terms whose forces act on no unknowns but those that
+    /// supports prescribe, in all of these motions, which should move every
+    /// node. Motions after the second one are for loads that depend on time.
+    /// Terms without a name are left out.
     std::vector<std::string>
     names_without_effect(const std::vector<Motion> &motions,
                          const PrescribedMotion    &supports) const;
 
-    /// Names of the terms that resist motion, if they have one; also of those
+    /// Names of the terms that resist motion, if they have names; also of those
     /// left out.
     std::vector<std::string>
     names_of_damping() const;
 
-    /// Names of the loads that depend on time, if they have one.
+    /// Names of the loads that depend on time, if they have names.
     std::vector<std::string>
     names_of_loads_in_time() const;
 
@@ -132,8 +132,8 @@ namespace corotet
     bool
     is_linear() const;
 
-    /// Whether there are derivatives, besides these shares, that belong to that
-    /// tangent.
+    /// Whether there are derivatives that belong to that tangent, besides those
+    /// in matrices.
     bool
     has_linearization(const Tangent tangent) const;
 
@@ -141,9 +141,9 @@ namespace corotet
     void
     linearize(const Motion &motion, const Tangent tangent);
 
-    /// f -= (df/du + velocity_factor df/dv) w, loads times @p load_factor, as
-    /// linearize() has prepared it. w's ghosts are up to date, f's must not be
-    /// in use.
+    /// f -= (df/du + velocity_factor df/dv) w, with loads times @p load_factor,
+    /// as linearize() has prepared it. Ghost entries of w must be up to date,
+    /// those of f must not be in use.
     void
     subtract_linearized(Vector       &f,
                         const Vector &w,
@@ -158,7 +158,7 @@ namespace corotet
     bool
     has_potential() const;
 
-    /// What round-off may make of the sum [N]; arguments as those of
+    /// The round-off that the sum may have [N]; the arguments are those of
     /// ForceTerm::round_off().
     double
     round_off(const Motion        &motion,
@@ -166,15 +166,15 @@ namespace corotet
               const ForceRoundOff &noise) const;
 
   private:
-    /// For one sum at a time.
+    /// A zero vector, used for one sum at a time.
     Vector &
     zero_vector() const;
 
     const Discretization                   &discretization;
     std::vector<std::unique_ptr<ForceTerm>> terms;
-    /// Of each term, or empty.
+    /// The name of each term, or an empty text.
     std::vector<std::string> names;
-    /// Of terms of damping that have been left out.
+    /// Names of the damping terms that have been left out.
     std::vector<std::string> names_left_out;
     /// Sum of the loads that depend on neither time nor motion.
     Vector constant_load;

@@ -34,8 +34,8 @@ namespace corotet
       , reference(ReferenceElement::of(nodes.element()))
     {}
 
-    /// Calls @p function(first cell, how many) for the local cells of each
-    /// batch, ghost cells included.
+    /// Calls @p function(first cell, number of cells) for the local cells of
+    /// each batch, with ghost cells.
     template <typename Function>
     void
     for_each_batch(const Function &function) const
@@ -47,8 +47,8 @@ namespace corotet
     }
 
     /// Calls @p function(i, j, K, m) for all pairs of nodes i <= j of the cells
-    /// from @p first on, those of a batch: the block of stiffness, and the mass
-    /// on the diagonal of the block of mass, in terms of @p coefficients and
+    /// of a batch, from @p first on: K is the block of the stiffness, m the
+    /// diagonal entry of the block of mass, computed with @p coefficients and
     /// @p masses.
     template <typename Function>
     void
@@ -66,7 +66,7 @@ namespace corotet
     }
 
   private:
-    // mu (lambda / mu D + D^T + tr D I).
+    // K = mu (lambda / mu D + D^T + tr D I).
     static COROTET_ALWAYS_INLINE void
     isotropic_block(const Block &D, const V lame_ratio, Block &K)
     {
@@ -80,7 +80,7 @@ namespace corotet
     }
 
     // The block of nodes i, j, with D the integral of grad N_i (x) grad N_j,
-    // from the means of products of derivatives of N_i and N_j and from the
+    // computed from the means of products of derivatives of N_i and N_j and the
     // gradients of the kernel.
     static COROTET_ALWAYS_INLINE void
     stiffness_block(const double *products,
@@ -173,7 +173,7 @@ namespace corotet
     const Nodes            &nodes;
     const ReferenceElement &reference;
 
-    /// Of the curved batch at hand, [point][node] and [point].
+    /// Data of the present curved batch, [point][node] and [point].
     dealii::AlignedVector<std::array<V, 3>> point_gradients;
     dealii::AlignedVector<V>                point_weights;
   };

@@ -9,12 +9,12 @@
 #include <type_traits>
 
 /**
- * Between arrays of the nodes of a chunk of cells (CellBatches) and registers
- * with one cell per lane.
+ * Moves values between arrays of the nodes of a chunk of cells (CellBatches)
+ * and registers with one cell per lane.
  *
- * The arrays have four numbers for each node, of which three count: reading a
- * node is one load, adding to it one load, one addition and one store, none of
- * which crosses cache lines. Registers of nodes are transposed.
+ * The arrays have four numbers for each node, of which three are used: reading
+ * a node is one load, adding to it one load, one addition and one store, none
+ * of which crosses cache lines. Registers of nodes are transposed.
  */
 namespace corotet
 {
@@ -27,7 +27,8 @@ namespace corotet
       return __builtin_shufflevector(a, b, i...);
     }
 
-    /// The fours node(4 b + r) for b = first, first + 1, ..
+    /// The values node(4 b + r), four numbers each, for b = first, first + 1,
+    /// ..
     template <int n_blocks, typename Node>
     COROTET_ALWAYS_INLINE auto
     row(const Node &node, const int r, const int first = 0)
@@ -40,7 +41,8 @@ namespace corotet
                            std::make_integer_sequence<int, 4 * n_blocks>());
     }
 
-    /// In each block of four lanes those of a (0 to 3) and b (4 to 7).
+    /// Permutes the lanes of a (0 to 3) and b (4 to 7) in each block of four
+    /// lanes.
     template <int i0, int i1, int i2, int i3, typename V, int... l>
     COROTET_ALWAYS_INLINE V
     shuffle(const V a, const V b, std::integer_sequence<int, l...>)
@@ -66,7 +68,8 @@ namespace corotet
       return __builtin_shufflevector(a, a, (4 * b + l)...);
     }
 
-    /// Place of @p lane's number among those of a node in batches of n_nodes.
+    /// The place of @p lane's number among those of a node in batches of
+    /// n_nodes.
     template <int n_nodes>
     constexpr int
     place_in_batches(const int lane)
@@ -76,8 +79,8 @@ namespace corotet
     }
   } // namespace internal
 
-  /// Values at the nodes of the register of cells that starts with @p batch,
-  /// of an array @p source of its chunk.
+  /// Gathers the values at the nodes of the register of cells that starts with
+  /// @p batch, from an array @p source of its chunk.
   template <int n_nodes, typename T>
   COROTET_ALWAYS_INLINE void
   gather_batch(const CellBatches &batches,
@@ -94,7 +97,7 @@ namespace corotet
             source + 4 * static_cast<std::size_t>(
                            numbers[internal::place_in_batches<n_nodes>(lane)]));
         };
-        // Transposed blocks of 4 x 4, of which nobody wants the last row.
+        // Blocks of 4 x 4 are transposed; their last rows are not used.
         constexpr int n_blocks = n_lanes<T> / 4;
         const Simd<T> r0       = internal::row<n_blocks>(node, 0);
         const Simd<T> r1       = internal::row<n_blocks>(node, 1);
@@ -109,8 +112,8 @@ namespace corotet
       }
   }
 
-  /// The same less the value at the first node: gradients do not see a
-  /// translation, and without it they do not lose digits to it.
+  /// The same minus the value at the first node: gradients do not depend on a
+  /// translation, and without it they do not lose digits.
   template <int n_nodes, typename T>
   COROTET_ALWAYS_INLINE void
   gather_differences(const CellBatches &batches,
@@ -162,9 +165,10 @@ namespace corotet
 
   namespace internal
   {
-    /// Of numbers of nodes in fours, which follow each other in registers of n,
-    /// the ones that count: register @p which of those that they fill without
-    /// the fourths. @p a and @p b are registers @p which and the next one.
+    /// Removes the fourth numbers of nodes, which follow each other in
+    /// registers of n numbers: returns register @p which of those that the
+    /// other numbers fill. @p a and @p b are registers @p which and the next
+    /// one.
     template <int which, int n, typename V, int... l>
     COROTET_ALWAYS_INLINE V
     without_fourths(const V a, const V b, std::integer_sequence<int, l...>)
@@ -175,7 +179,7 @@ namespace corotet
       return __builtin_shufflevector(a, b, place(which * n + l)...);
     }
 
-    /// take_sums() of as many nodes as a register of @p n numbers has.
+    /// take_sums() for as many nodes as a register of @p n numbers has.
     template <int n, typename T, typename Function>
     COROTET_ALWAYS_INLINE void
     take_sums_of(T *sums, const unsigned int first, const Function &function)
@@ -206,9 +210,10 @@ namespace corotet
             const unsigned int end,
             const Function    &function)
   {
-    // Numbers of double precision by four: what @p function loads would lie in
-    // two cache lines each with eight, which makes explicit steps 7 % slower.
-    // In single precision 16 make p-multigrid 5 % faster.
+    // In double precision numbers are taken by four: with eight, the numbers
+    // that @p function loads would lie in two cache lines each, which makes
+    // explicit steps 7 % slower. In single precision, 16 numbers make
+    // p-multigrid 5 % faster.
     constexpr unsigned int n_narrow = 4;
     constexpr unsigned int n_wide =
       std::is_same_v<T, float> ? n_lanes<T> : n_narrow;
@@ -225,7 +230,7 @@ namespace corotet
         }
   }
 
-  /// A number or a SimdVector from memory, as V says; and back.
+  /// These load a number or a SimdVector V from memory, and store it.
   template <typename V, typename T>
   COROTET_ALWAYS_INLINE V
   load_as(const T *source)

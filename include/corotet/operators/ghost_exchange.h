@@ -31,23 +31,23 @@ namespace corotet
   };
 
   /**
-   * Brings what owned nodes have to the ranks where they are ghosts, and back.
+   * Brings values of owned nodes to the ranks where they are ghosts, and back.
    */
   class GhostExchange
   {
   public:
-    /// Without ghosts.
+    /// An exchange without ghosts.
     GhostExchange() = default;
 
     /// Collective.
     GhostExchange(const MPI_Comm comm, const NodeNumbers &numbers);
 
-    /// Gives @p graph, which has the rows of owned nodes, those of the ghosts.
-    /// Returns the exchange of what its entries have. Collective.
+    /// Appends the rows of the ghosts to @p graph, which has the rows of owned
+    /// nodes. Returns the exchange for values of its entries. Collective.
     GhostExchange
     append_rows(NodeGraph &graph) const;
 
-    /// Nodes, owned and ghosts.
+    /// Number of owned nodes and ghosts.
     int
     n_items() const
     {
@@ -55,7 +55,7 @@ namespace corotet
     }
 
     /// Overwrites the values of ghosts; @p values has n per node. Allocates
-    /// only where one node has had less before. Collective.
+    /// memory only where n exceeds that of earlier calls. Collective.
     template <typename T>
     void
     update(T *values, const int n = 1) const
@@ -63,8 +63,8 @@ namespace corotet
       exchange(reinterpret_cast<char *>(values), n * sizeof(T));
     }
 
-    /// Adds the values of ghosts to those of the nodes at their owners; @p
-    /// values has n per node. Collective.
+    /// Adds the values of ghosts to those of the nodes at their owners;
+    /// @p values has n per node. Collective.
     template <typename T>
     void
     add(T *values, const int n = 1) const
@@ -86,8 +86,8 @@ namespace corotet
       int begin, end;
     };
 
-    /// What goes to a rank, among the items of @p sent, and which of the ghosts
-    /// it owns.
+    /// The items for a rank, as a range of @p sent, and the ghosts that it
+    /// owns.
     struct Neighbour
     {
       int   rank;
@@ -96,10 +96,11 @@ namespace corotet
 
     void
     exchange(char *values, const std::size_t size) const;
-    /// Into the buffer, in the order of @p sent.
+    /// Sends the values of ghosts to their owners, into the buffers there, in
+    /// the order of @p sent.
     void
     return_ghosts(const char *values, const std::size_t size) const;
-    /// Sends and receives those ranges of items of @p size bytes.
+    /// Sends and receives these ranges of items of @p size bytes.
     void
     transfer(const char *source,
              const Range Neighbour::*sent_range,

@@ -8,13 +8,13 @@
 #include <corotet/operators/point_operations.h>
 
 /**
- * The work that a law at points has on cells.
+ * The loops over cells for a law at points.
  */
 namespace corotet
 {
   namespace internal
   {
-    /// The law of a sweep. A copy, so that its parameters may stay in
+    /// The law of a sweep. It is a copy, so that its parameters may stay in
     /// registers.
     template <Law L>
     COROTET_ALWAYS_INLINE L
@@ -23,7 +23,7 @@ namespace corotet
       return *static_cast<const L *>(data.law);
     }
 
-    /// f_i = sum_q w_q P(F_q) grad N_i.
+    /// The force f_i = sum_q w_q P(F_q) grad N_i.
     template <Law L>
     struct ForceOfLaw
     {
@@ -154,9 +154,9 @@ namespace corotet
   } // namespace internal
 
   /**
-   * A Law as a MaterialLaw: with the kernels for all elements, which the
-   * compiler makes where this is instantiated. A law needs one instance, in one
-   * source.
+   * A Law as a MaterialLaw, with the kernels for all elements, which are
+   * compiled where this is instantiated. Each law should be instantiated once,
+   * in one source file.
    */
   template <Law L>
   class MaterialLawOf : public LawAtPoints<L>

@@ -18,7 +18,7 @@
 namespace corotet
 {
   /**
-   * How the mass matrix is made.
+   * The kinds of mass matrices.
    */
   enum class MassType
   {
@@ -29,7 +29,7 @@ namespace corotet
     diagonal_scaling,
     /// Diagonal: the row sums. Positive for degree 1 only.
     row_sum,
-    /// Diagonal: by quadrature at the nodes, of full order. For the quadratic
+    /// Diagonal: by quadrature at the nodes, with full order. For the quadratic
     /// element with bubbles only.
     nodal_quadrature
   };
@@ -41,7 +41,7 @@ namespace corotet
     {"nodal quadrature", MassType::nodal_quadrature}};
 
   /**
-   * Share of a cell's mass that each of its nodes gets when mass is lumped.
+   * Share of a cell's mass that each of its nodes gets when the mass is lumped.
    * Throws InputError, blamed on Discretization/Mass, if a share is not
    * positive.
    */
@@ -55,7 +55,7 @@ namespace corotet
   class Mass
   {
   public:
-    /// @p densities [kg/m^3] by region id. Collective.
+    /// @p densities [kg/m^3] are given by region id. Collective.
     Mass(const Discretization                 &discretization,
          const ReferenceElement               &reference,
          const std::map<unsigned int, double> &densities,
@@ -89,7 +89,7 @@ namespace corotet
       return masses[batch].mass[lane];
     }
 
-    /// Masses of all cells as kernels take them.
+    /// Masses of all cells, in the form that kernels use.
     const dealii::AlignedVector<CellMasses<double>> &
     cell_masses() const
     {
@@ -109,7 +109,7 @@ namespace corotet
 
     const Discretization &discretization;
     MassType              type;
-    /// Of the nodes of a straight cell in the diagonal, over its mass.
+    /// Shares of a straight cell's mass that its nodes have in the diagonal.
     std::vector<double>                       shares;
     CellLoop<double>                          cell_loop;
     dealii::AlignedVector<CellMasses<double>> masses;

@@ -17,10 +17,10 @@
 namespace corotet
 {
   /**
-   * The nodes of a discretization, one for each material that meets there: what
-   * functions have that are continuous within each material and jump from one
-   * to the next, as stress does. Numbers are local: owned ones first, then
-   * ghosts. A copy has the owner of the node.
+   * The nodes of a discretization, with a copy for each material that meets
+   * there: they are for functions that are continuous within each material and
+   * jump from one to the next, as stress does. Numbers are local: owned copies
+   * first, then ghosts. A copy has the owner of its node.
    *
    * @p discretization must outlive this object.
    */
@@ -35,8 +35,8 @@ namespace corotet
       const std::function<unsigned int(const unsigned int)> &material_of_cell);
 
     /// Throws InputError if @p n_copies nodes of all ranks, one for each
-    /// material, with six numbers each, have more numbers than deal.II's index
-    /// type counts.
+    /// material, with six numbers each, exceed the range of deal.II's index
+    /// type.
     static void
     check_number(const std::uint64_t n_copies);
 
@@ -54,19 +54,19 @@ namespace corotet
       return partitioner->locally_owned_size() / 6;
     }
 
-    /// Ghosts included.
+    /// Number of owned copies and ghosts.
     unsigned int
     n_local() const
     {
       return copies.size();
     }
 
-    /// Numbers of these nodes through all ranks; local ones are the same.
+    /// The numbers of these nodes on all ranks; local ones are the same.
     /// Collective.
     NodeNumbers
     numbers() const;
 
-    /// The discretization's node and the material of each, ghosts included.
+    /// The discretization's node and the material of each copy, with ghosts.
     struct Copy
     {
       unsigned int node;
@@ -82,7 +82,7 @@ namespace corotet
       return copies[n];
     }
 
-    /// Makes @p vector one of six numbers for each of these nodes (with ghost
+    /// Gives @p vector six numbers for each of these nodes (with ghost
     /// entries), all zero.
     void
     initialize_vector(Vector &vector) const

@@ -12,25 +12,25 @@
 namespace corotet
 {
   /**
-   * Numbers of nodes through all ranks, which own contiguous ranges of them, in
-   * ascending order; a rank may own none. Local numbers are those of the owned
-   * nodes, then those of ghosts, nodes of other ranks that are known here, both
-   * in the order of their global numbers.
+   * Global numbers of nodes: each rank owns a contiguous range of them, in
+   * ascending order; it may be empty. Local numbers are those of the owned
+   * nodes, then those of ghosts, which are nodes of other ranks that are known
+   * here, both in the order of their global numbers.
    */
   class NodeNumbers
   {
   public:
     NodeNumbers() = default;
 
-    /// Without ghosts. Collective.
+    /// Numbers without ghosts. Collective.
     NodeNumbers(const MPI_Comm comm, const int n_owned);
 
-    /// Those of other ranks among @p nodes, global numbers in any order, also
-    /// repeated, become the ghosts.
+    /// Sets the ghosts: the nodes of other ranks among @p nodes, which has
+    /// global numbers in any order, perhaps repeated.
     void
     set_ghosts(const std::vector<int> &nodes);
 
-    /// Global numbers, ascending.
+    /// Global numbers of the ghosts, ascending.
     const std::vector<int> &
     ghosts() const
     {
@@ -43,21 +43,21 @@ namespace corotet
       return end - first;
     }
 
-    /// Owned nodes and ghosts.
+    /// Number of owned nodes and ghosts.
     int
     n_local() const
     {
       return n_owned() + static_cast<int>(the_ghosts.size());
     }
 
-    /// Nodes of all ranks.
+    /// Number of nodes on all ranks.
     int
     n_global() const
     {
       return first_nodes.back();
     }
 
-    /// A global number.
+    /// Global number of the first owned node.
     int
     first_owned() const
     {
@@ -80,7 +80,7 @@ namespace corotet
       return local < n_owned() ? first + local : the_ghosts[local - n_owned()];
     }
 
-    /// Of a node that is owned or a ghost.
+    /// Local number of a node that is owned or a ghost.
     int
     local_node(const int global) const;
 
@@ -91,7 +91,7 @@ namespace corotet
       return global >= first && global < end;
     }
 
-    /// Of each rank; the last entry is the number of all nodes.
+    /// The first node of each rank; the last entry is the number of all nodes.
     std::vector<int> first_nodes{0};
     int              first = 0, end = 0;
     std::vector<int> the_ghosts;

@@ -11,15 +11,15 @@
 namespace corotet
 {
   /**
-   * The coefficients of a polynomial in Bernstein form and the sums of them
-   * that its values at the points of an orbit share, for the n polynomials of
-   * degree 1 (4) and 2 (10); one cell per lane. With them, values of degree 2
-   * at 14 points (two orbits of vertices, one of edges) take 45 products and 24
+   * The coefficients of a polynomial in Bernstein form, and sums of them that
+   * its values at the points of an orbit share, for the n polynomials of degree
+   * 1 (4) and 2 (10); one cell per lane. With these sums, values of degree 2 at
+   * 14 points (two orbits of vertices, one of edges) take 45 products and 24
    * sums in place of 140 products.
    *
    *   evaluate(orbit, values): values(i) becomes the value at point i of orbit.
    *
-   * Transposed, an object starts with zeros:
+   * For the transposed operation, an object starts with zeros:
    *
    *   add(orbit, factors, values): adds what values contribute; the factors are
    *     the orbit's own or those with its weight;
@@ -272,7 +272,7 @@ namespace corotet
     /// Sum of the edges at each vertex.
     V edges_at[4] = {};
     V all_edges{};
-    /// Of all vertices, and twice of all edges.
+    /// The sum of all vertices, and twice that of all edges.
     V all{};
   };
 } // namespace corotet

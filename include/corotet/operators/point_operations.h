@@ -18,8 +18,8 @@ namespace corotet
 {
   /**
    * Numbers of quadrature points in memory, one register after another. They
-   * go on for many pages, and what processors ask for ahead by themselves ends
-   * with a page: so what is needed a page later is asked for here.
+   * extend over many pages, and processors do not prefetch beyond a page by
+   * themselves: so numbers are prefetched here one page ahead.
    */
   template <typename T>
   struct NumberStream
@@ -28,7 +28,7 @@ namespace corotet
 
     T *next;
 
-    /// The place of register @p i from here on.
+    /// The place of the @p i-th register from here on.
     COROTET_ALWAYS_INLINE T *
     place(const int i) const
     {
@@ -38,7 +38,7 @@ namespace corotet
     }
   };
 
-  /// Stores them.
+  /// Stores these numbers.
   struct NumberWriter : NumberStream<double>
   {
     template <int n>
@@ -58,7 +58,7 @@ namespace corotet
     }
   };
 
-  /// Reads them.
+  /// Reads these numbers.
   struct NumberReader : NumberStream<const double>
   {
     template <int n>
@@ -79,9 +79,9 @@ namespace corotet
 
   /**
    * A batch of cells on whose quadrature points an operation works, and the
-   * steps that operations have in common. Nodal values are no members: as the
-   * rare way of reading them is a call, everything beside them would be in
-   * memory then.
+   * steps that operations have in common. Nodal values are not members: the
+   * rare way of reading them is a function call, for which all members would
+   * have to be in memory.
    */
   template <typename CellKernel, bool is_curved>
   class PointBatch
@@ -118,21 +118,22 @@ namespace corotet
                        batch);
     }
 
-    /// The volume at rest that point @p q stands for.
+    /// The volume at rest that belongs to point @p q.
     COROTET_ALWAYS_INLINE Simd<double>
                           weight(const unsigned int q) const
     {
       return weight_at(rule(), q) * lanes(constants.volume);
     }
 
-    /// The geometry at rest.
+    /// Loads the geometry at rest.
     COROTET_ALWAYS_INLINE void
     load_geometry()
     {
       load_at_rest(data, batch, g);
     }
 
-    /// That, and the displacement less that of the first node.
+    /// Loads the geometry at rest, and the displacement minus that of the first
+    /// node.
     COROTET_ALWAYS_INLINE void
     load(const double *displacement, NodalValues &u)
     {
@@ -176,7 +177,7 @@ namespace corotet
       scatter_add<n_nodes>(data.batches, batch, f, sums);
     }
 
-    /// Where the batch's numbers of a linearization are written.
+    /// The place where the batch's numbers of a linearization are written.
     COROTET_ALWAYS_INLINE NumberWriter
     writer(const LinearizationSize size) const
     {
@@ -201,13 +202,13 @@ namespace corotet
             ++data.n_clamped;
     }
 
-    /// det F and the energy of the batch. @p energy gives that per volume at
-    /// rest from grad u.
+    /// Adds det F and the energy of the batch to the results. @p energy(grad u)
+    /// is the energy per volume at rest.
     template <typename Energy>
     COROTET_ALWAYS_INLINE void
     add_state(const double *displacement, const Energy &energy)
     {
-      // Of cells that are exactly flat, but for round-off.
+      // Tolerance for cells that are exactly flat, up to round-off.
       constexpr double flat = 1e-12;
       NodalValues      u;
       Tensor2Lanes     centre;
@@ -230,8 +231,8 @@ namespace corotet
     }
 
     /**
-     * f = (mass_factor M + stiffness_factor K) source, with K that of the
-     * cells' frozen rotations; u is the source.
+     * f = (mass_factor M + stiffness_factor K) source, with the K of the cells'
+     * frozen rotations; u is the source.
      */
     COROTET_ALWAYS_INLINE void
     gather_with_matrices(const double *source,
@@ -264,7 +265,7 @@ namespace corotet
     ElasticData         &data;
     const unsigned int   batch;
     const CellConstants &constants;
-    /// That of load(), or what an operation takes instead.
+    /// The geometry of load(), or another one that an operation sets.
     Geometry g;
 
   private:

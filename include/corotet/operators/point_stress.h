@@ -17,25 +17,25 @@ namespace corotet
   /**
    * Stress at points of cells, as a function of the displacement.
    *
-   * It is MaterialLaw::spatial_stresses(): corotational stress is turned back
-   * into space, R sigma R^T, so that its principal directions are those that
-   * one sees on the displaced body. This stress is that of Cauchy but for terms
-   * of the order of the strain.
+   * It is MaterialLaw::spatial_stresses(): corotational stress is rotated back
+   * into space, R sigma R^T, so that its principal directions are those on the
+   * displaced body. This stress differs from Cauchy's by terms of the order of
+   * the strain.
    *
-   * Materials are told apart by their elastic constants: regions with equal
+   * Materials are distinguished by their elastic constants: regions with equal
    * ones count as one material. @p discretization must outlive this object.
    * Members are not collective.
    */
   class PointStress
   {
   public:
-    /// @p materials by region id.
+    /// @p materials are given by region id.
     PointStress(const Discretization                            &discretization,
                 const ReferenceElement                          &reference,
                 const std::map<unsigned int, IsotropicMaterial> &materials,
                 const std::shared_ptr<const MaterialLaw>        &law);
 
-    /// The same number on all ranks.
+    /// Number of materials, the same on all ranks.
     unsigned int
     n_materials() const
     {

@@ -15,10 +15,10 @@
 namespace corotet
 {
   /**
-   * Integrals over batch_size cells by quadrature, for laws that the factored
-   * kernel does not know, whatever varies inside a cell, and for curved cells.
-   * Nodal values are arrays [node][component], one cell per lane. A Rule is one
-   * of cell_rule.h.
+   * Integrals over batch_size cells by quadrature: for laws that the factored
+   * kernel cannot integrate, for all that varies inside a cell, and for curved
+   * cells. Nodal values are arrays [node][component], one cell per lane. A Rule
+   * is one of cell_rule.h.
    */
   template <int n>
   class QuadratureKernel
@@ -30,11 +30,12 @@ namespace corotet
 
     using NodalValues = V[n_nodes][3];
     using Tensor2     = V[3][3];
-    /// Gradients of the reference coordinates, of curved cells at the centre,
-    /// [3 (k - 1) + component].
+    /// Gradients of the reference coordinates, for curved cells those at the
+    /// centre, [3 (k - 1) + component].
     using Geometry = V[9];
 
-    /// The geometry at rest and @p displacement, less that of the first node.
+    /// Loads the geometry at rest and @p displacement, minus that of the first
+    /// node.
     static COROTET_ALWAYS_INLINE void
     load(const ElasticData &data,
          const unsigned int batch,
@@ -142,9 +143,9 @@ namespace corotet
   private:
     using Form = DerivativeForm<n>;
 
-    /// Whether all points have the same gradients of the coordinates, which
-    /// then multiply coefficients instead of values at points: at degree 3
-    /// these are 10 and 14.
+    /// Whether all points have the same gradients of the coordinates. These are
+    /// then multiplied with coefficients instead of values at points: at degree
+    /// 3 there are 10 and 14 of them.
     template <typename Rule>
     static constexpr bool transforms_coefficients =
       Form::has_coefficients && is_of_straight_cells<Rule>;
@@ -168,7 +169,7 @@ namespace corotet
       Form::evaluate(rule, c, derivatives);
     }
 
-    /// The gradient from what derivatives_at_points() has for point @p q.
+    /// The gradient from the result of derivatives_at_points() for point @p q.
     template <typename Rule>
     static COROTET_ALWAYS_INLINE void
     to_gradient(const Rule        &rule,
@@ -184,7 +185,7 @@ namespace corotet
         from_reference(rule, q, g, derivatives, gradient);
     }
 
-    /// The gradient from derivatives by the reference coordinates.
+    /// Computes the gradient from derivatives by the reference coordinates.
     template <typename Rule>
     static COROTET_ALWAYS_INLINE void
     from_reference(const Rule        &rule,
@@ -204,7 +205,7 @@ namespace corotet
       });
     }
 
-    /// The transpose of that.
+    /// The transpose of from_reference().
     template <typename Rule>
     static COROTET_ALWAYS_INLINE void
     to_reference(const Rule        &rule,

@@ -8,13 +8,13 @@
 #include <corotet/operators/sweep.h>
 
 /**
- * With one rotation per cell, everything is turned by it: B = F R^T stands for
- * R^T F, and R disappears from the formulas.
+ * With one rotation per cell, all quantities are rotated by it: B = F R^T
+ * replaces R^T F, and R disappears from the formulas.
  */
 namespace corotet
 {
-  /// The gradients of the reference coordinates as the cells' rotations turn
-  /// them: with these, grad u becomes grad u R^T.
+  /// Loads the gradients of the reference coordinates rotated by the cells'
+  /// rotations: with these, grad u becomes grad u R^T.
   COROTET_ALWAYS_INLINE void
   load_rotated(const ElasticData &data,
                const unsigned int batch,
@@ -30,7 +30,7 @@ namespace corotet
     });
   }
 
-  /// The gradients of the reference coordinates at rest.
+  /// Loads the gradients of the reference coordinates at rest.
   COROTET_ALWAYS_INLINE void
   load_at_rest(const ElasticData &data,
                const unsigned int batch,
@@ -43,7 +43,7 @@ namespace corotet
       load_rotated(data, batch, g);
   }
 
-  /// B <- R^T + B: F R^T from grad u R^T.
+  /// B <- R^T + B: computes F R^T from grad u R^T.
   COROTET_ALWAYS_INLINE void
   add_transposed(const Simd<double> (&R)[3][3], Simd<double> (&B)[3][3])
   {

@@ -17,9 +17,10 @@
 namespace corotet
 {
   /**
-   * Where polynomials are fitted to stress: the points of the stiffness rule in
-   * the local cells, and in cells of other ranks that are fetched. Cells are
-   * numbered: local ones as in the discretization, then those fetched.
+   * The samples to which polynomials are fitted: the points of the stiffness
+   * rule in the local cells, and in cells that are fetched from other ranks.
+   * Cells are numbered: local ones as in the discretization, then those
+   * fetched.
    *
    * @p discretization and @p nodes must outlive this object.
    */
@@ -30,13 +31,13 @@ namespace corotet
                   const ReferenceElement &reference,
                   const MaterialNodes    &nodes);
 
-    /// Gets those of all cells around some ghost vertices (numbers of the
-    /// discretization) that are not local. To be called once. Collective.
+    /// Fetches the samples of all cells around some ghost vertices (numbers of
+    /// the discretization) that are not local. To be called once. Collective.
     void
     fetch_cells_around(const std::vector<unsigned int> &ghost_vertices);
 
-    /// Cells of a material that have a local vertex, in ascending order: all
-    /// that there are if the vertex is owned or cells around it were fetched.
+    /// Cells of a material around a local vertex, in ascending order. They are
+    /// complete if the vertex is owned or cells around it were fetched.
     std::vector<unsigned int>
     cells_around(const unsigned int vertex, const unsigned int material) const;
 
@@ -61,18 +62,18 @@ namespace corotet
       return corners_of_cells[cell];
     }
 
-    /// Adds the stress at the points of the cells that were fetched to that of
-    /// the local cells, cell by cell. Collective.
+    /// Appends the stress at the points of the cells that were fetched to that
+    /// of the local cells, cell by cell. Collective.
     void
     complete(std::vector<dealii::SymmetricTensor<2, 3>> &stresses) const;
 
-    /// Local cells whose stress other ranks get from complete(), some of them
+    /// Local cells whose stress other ranks get from complete(); some occur
     /// several times.
     std::vector<unsigned int>
     cells_for_others() const;
 
   private:
-    /// A cell of a material that has a vertex.
+    /// A cell of a material at one of its vertices.
     struct Incidence
     {
       unsigned int vertex;
@@ -85,11 +86,11 @@ namespace corotet
 
     using Key = std::array<dealii::types::global_dof_index, 4>;
 
-    /// Global numbers of the vertices: what all ranks know a cell by.
+    /// Global numbers of the vertices, by which all ranks identify a cell.
     Key
     key(const unsigned int local_cell) const;
-    /// Adds a cell of another rank: global numbers of its vertices, material,
-    /// positions of vertices and points.
+    /// Adds a cell of another rank, given by global numbers of its vertices,
+    /// material, and positions of vertices and points.
     void
     add_cell(const Key &vertices, const unsigned int material, const double *x);
 
@@ -101,8 +102,9 @@ namespace corotet
     std::vector<std::array<dealii::Point<3>, 4>> corners_of_cells;
     std::vector<Incidence>                       incidences;
 
-    /// By rank: local cells whose stress it gets, and the cells whose stress
-    /// comes from it (numbers of this object, in the order in which they come).
+    /// For each rank: local cells whose stress is sent to it, and cells whose
+    /// stress it sends (numbers of this object, in the order in which they
+    /// come).
     std::map<unsigned int, std::vector<unsigned int>> sent, received;
   };
 } // namespace corotet

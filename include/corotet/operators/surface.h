@@ -17,7 +17,7 @@ namespace corotet
    */
   struct SurfacePoint
   {
-    /// In the face's rule.
+    /// Index of the point in the face's rule.
     unsigned int     index;
     dealii::Point<3> at_rest;
     dealii::Point<3> position;
@@ -44,10 +44,10 @@ namespace corotet
   }
 
   /**
-   * Calls @p function(SurfacePoint) for the quadrature points of @p face, of
+   * Calls @p function(SurfacePoint) for the quadrature points of @p face, on
    * the body displaced by @p u (ghosts up to date), or at rest if @p u is null.
    * The area vectors of a displaced face are exact polynomials, and those of a
-   * closed surface sum to zero.
+   * closed surface sum up to zero.
    */
   template <typename Function>
   void
@@ -79,8 +79,8 @@ namespace corotet
             const dealii::Tensor<1, 3> u_i = displacement(nodes[i]);
             point.at_rest += rule.values[q][i] * X;
             point.position += rule.values[q][i] * (X + u_i);
-            // From differences: far away from the origin positions are rounded
-            // coarsely.
+            // Tangents come from differences, as positions far away from the
+            // origin are rounded coarsely.
             const dealii::Tensor<1, 3> side = (X - X_0) + (u_i - u_0);
             const auto dN = face_derivatives(reference, face.face, q, i);
             for (unsigned int k = 0; k < 2; ++k)
@@ -92,15 +92,15 @@ namespace corotet
   }
 
   /**
-   * The share of this rank's faces of the volume of the body displaced by @p u
-   * [m^3], by the divergence theorem: the sum over all ranks is exact.
+   * The contribution of this rank's faces to the volume of the body displaced
+   * by @p u [m^3], by the divergence theorem: the sum over all ranks is exact.
    */
   double
   local_displaced_volume(const Discretization   &discretization,
                          const ReferenceElement &reference,
                          const Vector           &u);
 
-  /// The volume itself. Collective.
+  /// The volume of the displaced body [m^3]. Collective.
   double
   displaced_volume(const Discretization   &discretization,
                    const ReferenceElement &reference,

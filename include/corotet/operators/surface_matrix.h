@@ -16,14 +16,14 @@ namespace corotet
 {
   /**
    * A symmetric, positive semi-definite matrix that acts on the surface of the
-   * body, of springs, say:
+   * body, for instance that of springs:
    *
    *   S_ij = sum over points q of N_i(x_q) N_j(x_q) D_q
    *
    * with the points of the rule for faces and a symmetric tensor D_q [N/m] for
-   * each. It is known by its points, so that it is one of any element on the
-   * same cells: SurfaceOperator applies it. Each rank knows the faces of its
-   * ghost cells, too, and with them all that its own rows consist of.
+   * each. As it is given by points, it applies to any element on the same
+   * cells: SurfaceOperator does that. Each rank has the faces of its ghost
+   * cells, too, and so all contributions to its own rows.
    *
    * The arguments of the constructor must outlive this object.
    */
@@ -34,7 +34,7 @@ namespace corotet
 
     struct Face
     {
-      /// Local cell, or a ghost.
+      /// A local cell, perhaps a ghost.
       unsigned int cell;
       /// Number of the face in the cell.
       unsigned int face;
@@ -43,8 +43,8 @@ namespace corotet
     SurfaceMatrix(const Discretization   &discretization,
                   const ReferenceElement &reference);
 
-    /// Sets all D to zero; faces remain. Not collective, like all members but
-    /// size().
+    /// Sets all D to zero and keeps the faces. Not collective, like all members
+    /// but size() and springs().
     void
     clear();
 
@@ -54,7 +54,7 @@ namespace corotet
     void
     add(const unsigned int boundary, const Function &per_area);
 
-    /// Adds @p factor times another one.
+    /// Adds @p factor times another matrix.
     void
     add(const SurfaceMatrix &other, const double factor);
 
@@ -81,13 +81,13 @@ namespace corotet
     double
     size() const;
 
-    /// Where and in which directions S resists rigid motions: those directions
-    /// of all points in which D is not zero. Less than 1e-12 of size() is
+    /// The springs by which S resists rigid motions: places and directions of
+    /// all points in which D is not zero. Values below 1e-12 of size() are
     /// round-off. Collective.
     std::vector<RigidMotions::Spring>
     springs() const;
 
-    /// The element whose rule it is.
+    /// The element whose rule for faces is used.
     const ReferenceElement &
     reference_element() const
     {
@@ -101,7 +101,7 @@ namespace corotet
     }
 
   private:
-    /// The first of a boundary's faces, which it adds if they are not there.
+    /// The first of a boundary's faces, which are added if they are missing.
     unsigned int
     first_face(const unsigned int boundary);
 
@@ -109,7 +109,7 @@ namespace corotet
     const ReferenceElement &reference;
     std::vector<Face>       all_faces;
     std::vector<Tensor>     all_tensors;
-    /// By boundary: its first face, and how many there are.
+    /// For each boundary its first face and the number of its faces.
     std::map<unsigned int, std::pair<unsigned int, unsigned int>> ranges;
   };
 
@@ -130,13 +130,13 @@ namespace corotet
   }
 
   /**
-   * Applies a SurfaceMatrix to vectors of numbers of type T of an element: that
-   * of the matrix or a coarser one on the same cells. It computes in double
-   * precision: springs along a normal that is no axis are stiff in one
-   * direction, where a displacement across has nothing but round-off.
+   * Applies a SurfaceMatrix to vectors of numbers of type T, for the element of
+   * the matrix or a coarser one on the same cells. It computes in double
+   * precision: springs along a normal that is not an axis are stiff in one
+   * direction, and a displacement across it must not cause forces by round-off.
    *
-   * @p nodes must outlive this object. Members are not collective but where
-   * they say so.
+   * @p nodes must outlive this object. Members are not collective, except for
+   * those that say so.
    */
   template <typename T>
   class SurfaceOperator
@@ -146,7 +146,7 @@ namespace corotet
 
     explicit SurfaceOperator(const Nodes &nodes);
 
-    /// Takes @p factor times the numbers of @p matrix.
+    /// Takes over @p factor times the values of @p matrix.
     void
     set(const SurfaceMatrix &matrix, const double factor = 1);
 
@@ -166,12 +166,12 @@ namespace corotet
     double
     energy(const VectorType &x) const;
 
-    /// What round-off may make of S x, as a Euclidean norm. Collective.
+    /// The round-off that S x may have, as a Euclidean norm. Collective.
     double
     round_off(const VectorType &x) const;
 
     /// Calls @p function(cell, i, j, block) for the 3 x 3 blocks of all faces,
-    /// i <= j nodes of the cell: what the face contributes to S_ij.
+    /// with nodes i <= j of the cell: the face's contribution to S_ij.
     template <typename Function>
     void
     for_each_block(const Function &function) const;
@@ -183,7 +183,7 @@ namespace corotet
       return rows;
     }
 
-    /// Their S_ii.
+    /// S_ii of the owned nodes.
     const std::vector<SurfaceMatrix::Tensor> &
     diagonal_blocks() const
     {
@@ -203,13 +203,14 @@ namespace corotet
     /// N_k(x_q) on each face, [q][k].
     std::array<std::vector<double>, 4> values;
     std::vector<SurfaceMatrix::Face>   faces;
-    /// Local numbers, [face][k].
+    /// Local numbers of the faces' nodes, [face][k].
     std::vector<unsigned int> face_nodes;
     std::vector<Tensor>       tensors;
 
     std::vector<unsigned int>          rows;
     std::vector<SurfaceMatrix::Tensor> blocks;
-    /// Place in rows, [face][k]; meaningless for nodes that are not owned.
+    /// Place of the node in rows, [face][k]; meaningless for nodes that are not
+    /// owned.
     std::vector<unsigned int> places;
   };
 

@@ -24,9 +24,9 @@ namespace corotet
   /// Size and material of the cells of a batch. Zeros in lanes without a cell.
   struct alignas(sizeof(Simd<double>)) CellConstants
   {
-    /// sqrt(mu volume).
+    /// sqrt(mu volume) [J^{1/2}].
     double scale[batch_size];
-    /// In m^3.
+    /// Volume [m^3].
     double volume[batch_size];
   };
 
@@ -37,7 +37,7 @@ namespace corotet
     double inverse_jacobian[9][batch_size];
   };
 
-  /// A number of each cell of a batch.
+  /// One number for each cell of a batch.
   COROTET_ALWAYS_INLINE Simd<double>
                         lanes(const double *values)
   {
@@ -52,7 +52,7 @@ namespace corotet
     stiffness_and_mass
   };
 
-  /// What the sweep of a linear form reads.
+  /// The data that the sweep of a linear form reads.
   template <typename T>
   struct FormData
   {
@@ -61,14 +61,14 @@ namespace corotet
     const CellCoefficients<T> *coefficients;
     /// Null if there is no mass term.
     const CellMasses<T> *masses;
-    /// Multiplies the masses.
+    /// The factor of the masses.
     T mass_factor;
   };
 
   /**
-   * Adds to @p sums what batches [first, end) of a chunk contribute to K source
-   * / stiffness_scale + mass_factor M source / mass_scale, or to one of the
-   * terms. Source and sums have four numbers for each node of the chunk.
+   * Adds to @p sums the contributions of batches [first, end) of a chunk to K
+   * source / stiffness_scale + mass_factor M source / mass_scale, or to one of
+   * the terms. Source and sums have four numbers for each node of the chunk.
    */
   template <typename T>
   using FormSweep = void (*)(const FormData<T> &data,
@@ -82,7 +82,7 @@ namespace corotet
   FormSweep<T>
   form_sweep(const Element element, const Terms terms);
 
-  /// A sweep for the diagonal of K + mass_factor M. There is no source.
+  /// A sweep for the diagonal of K + mass_factor M. It has no source.
   template <typename T>
   FormSweep<T>
   diagonal_sweep(const Element element, const Terms terms);
@@ -93,15 +93,15 @@ namespace corotet
   double
   mass_scale(const Element element);
 
-  /// Cells of the last rotation update that needed care, at one of the points
-  /// where rotations are taken.
+  /// Numbers of cells of the last rotation update that needed care, at one of
+  /// the points where rotations are taken.
   struct RotationCounts
   {
-    /// Cells whose rotation took the robust way.
+    /// Cells whose rotation needed the robust algorithm.
     unsigned int robust = 0;
-    /// det F < 0.
+    /// Cells with det F < 0.
     unsigned int inverted = 0;
-    /// Collapsed to a plane, a line or a point.
+    /// Cells that have collapsed to a plane, a line or a point.
     unsigned int degenerate = 0;
 
     /// Counts the cells of a batch.
@@ -120,18 +120,19 @@ namespace corotet
     }
   };
 
-  /// What a sweep over the points of the stiffness rule finds.
+  /// The results of a sweep over the points of the stiffness rule.
   struct PointResults
   {
     /// Elastic energy [J].
     double energy = 0;
     /// Smallest det F at these points and at the centres [-].
     double min_det_F = std::numeric_limits<double>::infinity();
-    /// Cells where det F is negative at one of them, by more than round-off.
+    /// Cells where det F is negative at one of these points, by more than
+    /// round-off.
     unsigned int inverted_cells = 0;
   };
 
-  /// What the sweeps of elasticity read and write.
+  /// The data that the sweeps of elasticity read and write.
   struct ElasticData
   {
     const CellBatches              &batches;
@@ -139,25 +140,26 @@ namespace corotet
     const CellConstants            *constants;
     const CellCoefficients<double> *coefficients;
     /// Null if the cells have no rotations, R = I: then the coefficients have
-    /// their gradients at rest.
+    /// the gradients at rest.
     const CellGeometryAtRest *at_rest;
-    /// The law, for sweeps that know its class.
+    /// The law, for sweeps that know its type.
     const void *law = nullptr;
 
-    /// The coefficients, for sweeps that rotate; null for others.
+    /// The coefficients, for sweeps that change rotations; null for others.
     CellCoefficients<double> *new_coefficients = nullptr;
     RotationCounts            counts           = {};
     PointResults              results          = {};
 
-    /// Numbers that linearizations keep, of all batches: [number][lane] each.
+    /// Numbers that linearizations keep, for all batches: [number][lane] each.
     const double *linearization = nullptr;
     /// The same, for sweeps that linearize.
     double *new_linearization = nullptr;
-    /// Where it was made, with ghosts, for sweeps that need it.
+    /// The displacement of the linearization, with ghosts, for sweeps that need
+    /// it.
     const double *linearized_displacement = nullptr;
     /// Cells where a derivative was bounded.
     unsigned int n_clamped = 0;
-    /// Multiplies the part of the tangent with frozen rotations.
+    /// Factor of the part of the tangent with frozen rotations.
     double frozen_factor = 1;
     /// Null if the tangent has no mass term.
     const CellMasses<double> *masses      = nullptr;
@@ -183,9 +185,9 @@ namespace corotet
   }
 
   /**
-   * The rotations of a batch, from the gradients before and after: R = sum_k
-   * (R grad xi_k) (x) dx / dxi_k. So they need not be stored, which a rotation
-   * update, bound by memory, is grateful for.
+   * The rotations of a batch, computed from the gradients at rest and rotated:
+   * R = sum_k (R grad xi_k) (x) dx / dxi_k. So they need not be stored, which
+   * saves time in rotation updates, as these are limited by memory bandwidth.
    */
   COROTET_ALWAYS_INLINE void
   rotations_of(const ElasticData &data,
@@ -233,10 +235,10 @@ namespace corotet
                                 double            *sums);
 
   /**
-   * Sweeps over the displacement: new rotations of the cells (also of ghost
-   * cells; @p sums is not used), the internal force of linear elasticity with
-   * the rotations that there are, in units of stiffness_scale, or both in one
-   * go.
+   * Sweeps over the displacement: for new rotations of the cells (also of ghost
+   * cells; @p sums is not used), for the internal force of linear elasticity
+   * with the present rotations, in units of stiffness_scale, or for both at
+   * once.
    */
   ElasticSweep
   rotation_sweep(const Element element);
@@ -245,8 +247,8 @@ namespace corotet
   ElasticSweep
   rotation_and_force_sweep(const Element element);
 
-  /// K source with the cells' rotations that there are, like form_sweep() but
-  /// by quadrature and in units of one.
+  /// Computes K source with the present rotations of the cells, like
+  /// form_sweep(), but by quadrature and in units of one.
   ElasticSweep
   tangent_by_quadrature_sweep(const Element element);
 } // namespace corotet

@@ -11,10 +11,10 @@ namespace corotet
   /// The derivative of the internal force.
   enum class Tangent
   {
-    /// As if the rotations did not depend on the displacement: symmetric and
-    /// positive semi-definite.
+    /// With frozen rotations, as if they did not depend on the displacement:
+    /// symmetric and positive semi-definite.
     frozen_rotation,
-    /// Exact.
+    /// The exact derivative.
     consistent
   };
 

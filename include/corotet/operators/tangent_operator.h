@@ -10,8 +10,8 @@
 namespace corotet
 {
   /**
-   * The derivative of the equation of motion by the displacement where the
-   * effective operator is not it but close to it: with a rotation for each
+   * The derivative of the equation of motion by the displacement, where the
+   * effective operator only approximates it: with a rotation for each
    * quadrature point, with derivatives of rotations, and with those of forces,
    *
    *   J = K_T - sum (df/du + c_v df/dv) + (c_K - 1) K_frozen + c_M M + S.
@@ -22,16 +22,17 @@ namespace corotet
   class TangentOperator
   {
   public:
-    /// @p A shares cells, mass and prescribed unknowns. Collective.
+    /// @p A has the cells, the mass and the prescribed unknowns. Collective.
     TangentOperator(const EffectiveOperator &A,
                     Elasticity              &elasticity,
                     ForceTerms              &forces);
 
     /**
-     * Linearizes at that motion, where rotations and the effective operator are
-     * up to date, with loads times @p load_factor and the velocity's derivative
-     * by the displacement @p velocity_factor [1/s]. Returns in how many cells,
-     * over all ranks, the derivative of a rotation was clamped. Collective.
+     * Linearizes at that motion, to which rotations and the effective operator
+     * must belong, with loads times @p load_factor, and @p velocity_factor as
+     * the derivative of the velocity by the displacement [1/s]. Returns the
+     * number of cells, over all ranks, where the derivative of a rotation was
+     * clamped. Collective.
      */
     unsigned int
     update(const Motion &motion,
@@ -39,19 +40,20 @@ namespace corotet
            const double  load_factor,
            const double  velocity_factor);
 
-    /// Linearizes the elasticity alone, for matrix(): @p u must live until that
-    /// is called. Collective.
+    /// Linearizes the elasticity only, for matrix(): @p u must live until that
+    /// has been called. Collective.
     unsigned int
     update_elasticity(const Vector &u, const Tangent tangent);
 
     /// The symmetric part of the matrix of J without the forces' share, at the
-    /// motion of the last update, which must still be there. @p n_frozen times
-    /// the stiffness with frozen rotations is added. It takes the place of the
-    /// matrix of A. Collective.
+    /// motion of the last update, which must still exist. @p n_frozen times the
+    /// stiffness with frozen rotations is added. The matrix takes the place of
+    /// that of A. Collective.
     const BlockMatrix &
     matrix(const double n_frozen) const;
 
-    /// Whether there is such a matrix: A's is it where the tangent is by cell.
+    /// Whether there is such a matrix: if the tangent is by cell, it is that of
+    /// A.
     bool
     has_matrix() const
     {
@@ -62,7 +64,7 @@ namespace corotet
     void
     vmult(Vector &dst, const Vector &src) const;
 
-    /// Whether an operator with that tangent is another than the effective one.
+    /// Whether the operator with that tangent differs from the effective one.
     static bool
     is_needed(const Elasticity &elasticity,
               const ForceTerms &forces,
@@ -72,7 +74,7 @@ namespace corotet
              forces.has_linearization(tangent);
     }
 
-    /// Whether the last update() was of the exact tangent.
+    /// Whether the last update() was for the exact tangent.
     bool
     is_exact() const
     {
@@ -88,7 +90,7 @@ namespace corotet
       return elasticity.is_symmetric(tangent) && forces.is_symmetric(tangent);
     }
 
-    /// The same for that of the last update().
+    /// Whether J is symmetric with the tangent of the last update().
     bool
     is_symmetric() const
     {
@@ -103,7 +105,7 @@ namespace corotet
     double                   load_factor     = 1;
     double                   velocity_factor = 0;
     const Vector            *displacement    = nullptr;
-    /// The source without prescribed entries, with ghosts.
+    /// Work space: the source without prescribed entries, with ghosts.
     mutable Vector source;
   };
 } // namespace corotet

@@ -22,8 +22,8 @@ namespace corotet
   {
   public:
     /// Makes the directory and locks it. Throws MachineError if another process
-    /// has the lock; where the file system has no locks, @p log gets a warning instead.
-    /// Collective.
+    /// has the lock; where the file system has no locks, @p log gets a warning
+    /// instead. Collective.
     DirectoryLock(const std::string &directory, const MPI_Comm comm, Log &log);
     ~DirectoryLock();
 

@@ -23,7 +23,7 @@ namespace corotet
   public:
     explicit AccelerationSolver(EquationOfMotion &equation);
 
-    /// As SecondOrderSystem has them.
+    /// The members of SecondOrderSystem with these names.
     StageReport
     solve_acceleration(State       &state,
                        const double time,
@@ -39,29 +39,29 @@ namespace corotet
     /// above by less than 0.1 percent.
     struct LargestFrequencies
     {
-      /// Of M^-1 K: K is the tangent at a state, with frozen rotations if the
-      /// exact one is not symmetric, and the stiffness that force terms have on
-      /// the surface.
+      /// The largest frequency of M^-1 K: K is the tangent at a state, with
+      /// frozen rotations if the exact one is not symmetric, and the stiffness
+      /// of force terms on the surface.
       double all;
-      /// With the stiffness only that damping may be proportional to: that of
-      /// the cells, with frozen rotations.
+      /// The one with only the stiffness that damping may be proportional to:
+      /// that of the cells, with frozen rotations.
       double damped;
     };
 
-    /// Those at @p state and @p time. The second one is not estimated, and is
-    /// the first, where nothing is damped by its stiffness and where both are
-    /// of the same one. Collective.
+    /// The frequencies at @p state and @p time. The second one is not estimated
+    /// but equal to the first if no damping is proportional to the stiffness,
+    /// or if both have the same stiffness. Collective.
     LargestFrequencies
     largest_frequencies(const State &state, const double time = 0);
 
-    /// Gives back all memory until the next solve: implicit runs need only the
-    /// first one. Not collective.
+    /// Gives back all memory until the next solve: implicit runs only need the
+    /// first solve. Not collective.
     void
     release();
 
   private:
-    /// solve_acceleration() for a velocity of one moment at all entries, to
-    /// which prescribed ones, too, add @p velocity_factor times a later on.
+    /// solve_acceleration() with all entries of the velocity at one moment; the
+    /// prescribed ones, too, get @p velocity_factor times a later on.
     StageReport
     solve(State &state, const double time, const double velocity_factor);
     /// Adds @p factor times @p a to the prescribed entries of @p v.
@@ -69,8 +69,8 @@ namespace corotet
     add_to_supports(Vector &v, const double factor, const Vector &a) const;
     const MassSolver &
     mass_solver();
-    /// With a lumped mass, without damping on the surface; @p c is the part of
-    /// damping by mass that is in the velocity to come.
+    /// Solves with a lumped mass, without damping on the surface; @p c is the
+    /// factor of the mass that damping by mass adds.
     void
     solve_lumped(State       &state,
                  const double time,
@@ -82,7 +82,7 @@ namespace corotet
 
     EquationOfMotion &equation;
     Body             &body;
-    /// Made when it is first needed: not by statics.
+    /// The solver is made when it is first needed; statics do not need it.
     std::unique_ptr<const MassSolver> the_mass_solver;
 
     std::unique_ptr<SurfaceMatrix>           surface;

@@ -38,7 +38,7 @@ namespace corotet
   class AdaptiveStep
   {
   public:
-    /// @p duration: of the run [s], of which times are parts.
+    /// @p duration is that of the run [s], which scales the round-off of times.
     AdaptiveStep(const AdaptiveStepParameters &parameters,
                  const double                  first_step,
                  const double                  duration);
@@ -77,7 +77,7 @@ namespace corotet
       return too_inaccurate;
     }
 
-    /// What decides the next steps.
+    /// Transfers the data that decide the next steps.
     void
     transfer(Archive &archive);
 
@@ -87,7 +87,7 @@ namespace corotet
 
     const AdaptiveStepParameters &parameters;
     double                        smallest;
-    /// What a step of that length may have between its ends: times are rounded,
+    /// The longest step that still counts as a smallest one: times are rounded,
     /// and the last steps before a result are longer by up to 1e-10.
     double       smallest_taken;
     double       largest;

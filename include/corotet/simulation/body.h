@@ -40,29 +40,29 @@ namespace corotet
   public:
     enum class Purpose
     {
-      /// With the law, and with the data of an exact solution if the parameters
-      /// want it so.
+      /// A body in motion: with the law, and with the data of an exact solution
+      /// if the parameters want them.
       motion,
-      /// About the state at rest: linear elasticity.
+      /// A body near its state at rest: linear elasticity.
       small_vibrations
     };
 
-    /// @p folder: of the parameter file, for relative names of files. @p
-    /// parameters must outlive this object. Throws InputError.
+    /// @p folder is that of the parameter file; relative file names begin
+    /// there. @p parameters must outlive this object. Throws InputError.
     Body(const SimulationParameters &parameters,
          const std::string          &folder,
          const MPI_Comm              comm,
          Log                        &log,
          const Purpose               purpose = Purpose::motion);
 
-    /// The same with a mesh that is made already, on rank 0, instead of that of
-    /// the parameters, without tables.
+    /// Makes a body from a mesh on rank 0 instead of that of the parameters,
+    /// without tables.
     Body(const SimulationParameters &parameters,
          SerialMesh                  serial_mesh,
          const MPI_Comm              comm,
          Log                        &log);
 
-    /// What force terms are made of.
+    /// The data that force terms are made from.
     ForceContext
     force_context(Log &log, const double start_time);
 
@@ -70,7 +70,7 @@ namespace corotet
     double
     root_mean_square(const Vector &field) const;
 
-    /// Of displacements, by the body's law.
+    /// An object for the stress of displacements by the body's law.
     StressField
     stress_field() const
     {
@@ -81,7 +81,7 @@ namespace corotet
               elasticity.vertex_dilatation()};
     }
 
-    /// What the log says of it at the start.
+    /// Describes the body in the log at the start.
     void
     describe(Log &log) const;
 
@@ -94,7 +94,7 @@ namespace corotet
     const Discretization      discretization;
     const ReferenceElement   &reference;
     const ManufacturedProblem problem;
-    /// By the region's id.
+    /// The material of each region's id.
     const std::map<unsigned int, IsotropicMaterial> materials;
     const std::shared_ptr<const MaterialLaw>        law;
     const BoundaryConditions                        conditions;
@@ -108,8 +108,8 @@ namespace corotet
          const std::function<Mesh()> &make_mesh,
          const Purpose                purpose);
 
-    /// In kg; not that of the body with a consistent mass. Zero before it is
-    /// needed.
+    /// The sum of the nodal masses [kg]; with a consistent mass it is not the
+    /// mass of the body. Zero before it is needed.
     mutable double sum_of_nodal_masses = 0;
   };
 } // namespace corotet

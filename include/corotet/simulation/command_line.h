@@ -19,7 +19,7 @@ namespace corotet
     double       element_size    = 0;
     double       feature_angle   = 40;
     unsigned int geometry_degree = 1;
-    /// The .msh file to write; empty: none.
+    /// The .msh file to write; empty if none is to be written.
     std::string out;
   };
 
@@ -28,30 +28,30 @@ namespace corotet
    */
   struct CommandLine
   {
-    /// As given. Empty only if there is a message, or if something is to be
-    /// listed without reading a file.
+    /// The file's name as given. Empty only if there is a message, or if
+    /// something is to be listed without reading a file.
     std::string parameter_file;
-    /// Each "Section/Subsection/Entry = value", in their order, not yet
+    /// Each "Section/Subsection/Entry = value", in the given order, not yet
     /// checked.
     std::vector<std::string> overrides;
     /// Replaces the output directory of the parameter file.
     std::optional<std::string> output_directory;
-    /// Read and check everything, run nothing.
+    /// Whether to read and check everything, and run nothing.
     bool validate = false;
-    /// Go on with what is in the output directory.
+    /// Whether to go on with what is in the output directory.
     bool restart = false;
-    /// Write the page of the run, too.
+    /// Whether to write the report page of the run, too.
     bool report = false;
-    /// Nothing on the terminal but errors.
+    /// Whether to write nothing on the terminal but errors.
     bool quiet = false;
-    /// List all parameters in this style ("prm", "json" or "markdown") and do
-    /// nothing else.
+    /// The style ("prm", "json" or "markdown") in which to list all parameters,
+    /// and do nothing else.
     std::optional<std::string> print_parameters;
-    /// List what there is to choose from, and do nothing else.
+    /// Whether to list what there is to choose from, and do nothing else.
     bool list = false;
-    /// Describe a mesh, and do nothing else.
+    /// The mesh to describe, doing nothing else.
     std::optional<MeshCommand> mesh;
-    /// The answer to --help or --version: print it and do nothing else.
+    /// The answer to --help or --version, to be printed, doing nothing else.
     std::optional<std::string> message;
   };
 

@@ -33,10 +33,11 @@ namespace corotet
   class EnergyBudget
   {
   public:
-    /// Of @p equation that has been evaluated at @p initial_state: forces of
-    /// the start are those. @p staggered_step: if not zero, the step [s] of an
-    /// integrator that keeps the kinetic energy v_-1/2 . M v_1/2 / 2 = v . M v
-    /// / 2 - dt^2 a . M a / 8 with the velocities half a step before and after.
+    /// Begins the budget of @p equation, which must have been evaluated at @p
+    /// initial_state: its forces are those at the start. @p staggered_step, if
+    /// not zero, is the step [s] of an integrator that keeps the kinetic energy
+    /// v_-1/2 . M v_1/2 / 2 = v . M v / 2 - dt^2 a . M a / 8 with the
+    /// velocities half a step before and after.
     EnergyBudget(EquationOfMotion &equation,
                  const State      &initial_state,
                  const double      time,
@@ -63,12 +64,12 @@ namespace corotet
     void
     take_back();
 
-    /// The next step begins at @p state, with the forces of the last
+    /// Begins the next step at @p state, with the forces of the last
     /// evaluation.
     void
     end_step(const State &state);
 
-    /// That of the last call of end_step() [m], owned entries.
+    /// The displacement at the last call of end_step() [m], owned entries.
     const Vector &
     last_displacement() const
     {
@@ -95,15 +96,15 @@ namespace corotet
     }
 
     /// Kinetic energy of the prescribed unknowns in the state of the last
-    /// record() [J]: no work where their velocity jumps.
+    /// record() [J]; no work supplies it where their velocity jumps.
     double
     kinetic_energy_of_supports() const
     {
       return energy_of_supports;
     }
 
-    /// What the accounts of the next steps begin with. A budget that reads may
-    /// be made with any state.
+    /// Transfers the data that the next steps continue from. A budget that
+    /// reads may have been made with any state.
     void
     transfer(Archive &archive);
 
@@ -120,29 +121,29 @@ namespace corotet
     struct StepForces
     {
       double time;
-      /// Work along the displacement: loads on free unknowns, elastic forces on
-      /// prescribed ones, those of force terms included.
+      /// Forces that work along the displacement: loads on free unknowns, and
+      /// elastic forces on prescribed ones, with those of force terms.
       Vector external;
-      /// Damping, on all unknowns.
+      /// Damping forces on all unknowns.
       Vector damping;
-      /// At the end of the step.
+      /// The displacement at the end of the step.
       Vector displacement;
-      /// Inertia with damping, and velocities at the end of the step, of
-      /// prescribed unknowns, in their order.
+      /// Inertia plus damping forces, and velocities at the end of the step, of
+      /// the prescribed unknowns, in their order.
       std::vector<double> carried, velocity;
     };
 
-    /// In statics the initial state is a guess of the first one: the account
-    /// begins with the body at rest, and the forces that act there.
+    /// Begins the account in statics, where the initial state is a guess of the
+    /// first one, with the body at rest and the forces that act there.
     void
     begin_unloaded(const State &guess);
-    /// Of the last evaluation, of an owned unknown: inertia and damping, and
-    /// what works along the displacement.
+    /// Forces of the last evaluation on an owned unknown: inertia plus damping,
+    /// and those that work along the displacement.
     double
     carried(const unsigned int i) const;
     double
     external(const unsigned int i) const;
-    /// Momentum and kinetic energies, of this rank.
+    /// Finds the kinetic energies of this rank, and the momentum of each node.
     void
     find_kinetic_energy(StepRecord &record, const State &state);
     void
@@ -152,23 +153,23 @@ namespace corotet
     const Body       &body;
     const ForceTerms &force_terms;
     const bool        is_staggered;
-    /// Of the last step.
+    /// The length of the last step, and its forces.
     double     dt;
     StepForces last;
-    /// Empty in statics.
+    /// M v; empty in statics.
     Vector momentum;
     double work = 0;
     /// Energy of elastic terms that depend on time, at the start [J].
     double initial_changing_energy = 0;
-    /// Whether the account, and the next step in it, begins at rest, with
-    /// the forces that act there, whatever was guessed.
+    /// Whether the account began, and whether its next step begins, at rest
+    /// with the forces that act there instead of the guess.
     bool                      began_unloaded     = false;
     bool                      is_unloaded        = false;
     double                    dissipation        = 0;
     double                    energy_of_supports = 0;
     StepRecord                initial;
     std::vector<SupportForce> support_force_list;
-    /// What dt, work and dissipation were before work was added.
+    /// Values of dt, work and dissipation before the last add_work().
     std::array<double, 3> before{};
   };
 } // namespace corotet

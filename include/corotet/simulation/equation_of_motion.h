@@ -31,12 +31,12 @@ namespace corotet
     {
       Vector external;
       Vector internal;
-      /// Empty if no term is of damping.
+      /// Empty if there is no damping term.
       Vector damping;
       /// Empty in statics.
       Vector inertia;
-      /// Of the elastic terms that do not depend on time, as a resistance.
-      /// Empty if there are none.
+      /// Forces of the elastic terms that do not depend on time, as a
+      /// resistance. Empty if there are none.
       Vector elastic;
     };
 
@@ -47,11 +47,11 @@ namespace corotet
                      Log                        &log);
 
     /// Evaluates all terms at a state, with the rotations of its displacement.
-    /// Who solves for an acceleration completes inertia and damping.
+    /// A caller who solves for an acceleration completes inertia and damping.
     Forces &
     evaluate(const State &state, const double time, const double load_factor);
 
-    /// All but inertia.
+    /// Evaluates all terms but inertia.
     Forces &
     evaluate_forces(const State &state,
                     const double time,
@@ -86,7 +86,7 @@ namespace corotet
       return {time, u, v};
     }
 
-    /// The same with the time of the last evaluation.
+    /// The motion at the time of the last evaluation.
     Motion
     last_motion() const
     {
@@ -99,22 +99,22 @@ namespace corotet
       return time;
     }
 
-    /// What loads were multiplied by in the last evaluation [-].
+    /// The factor of loads in the last evaluation [-].
     double
     last_load_factor() const
     {
       return known_load_factor;
     }
 
-    /// Whether the external forces of the last evaluation are those of any
-    /// time, with loads times 1.
+    /// Whether the external forces of the last evaluation are the same at any
+    /// time, with a load factor of 1.
     bool
     has_constant_loads() const
     {
       return terms.is_constant() && known_load_factor == 1;
     }
 
-    /// Takes displacement, velocity and rotations from a state, no forces.
+    /// Takes displacement, velocity and rotations from a state, but no forces.
     void
     set_state(const State &state);
 
@@ -126,7 +126,7 @@ namespace corotet
       return u;
     }
 
-    /// The velocity, as well. The first call is collective.
+    /// The velocity, like displacement(). The first call is collective.
     const Vector &
     velocity() const
     {
@@ -150,9 +150,9 @@ namespace corotet
              terms.has_potential();
     }
 
-    /// What may be the reason that the forces of the last evaluation are not
-    /// finite: a formula that is not, cells without a stress, or nothing that
-    /// is known. To be appended to an error. Collective.
+    /// A possible reason that the forces of the last evaluation are not finite:
+    /// a formula that is not finite, or cells without a stress; empty if no
+    /// reason is known. To be appended to an error message. Collective.
     std::string
     why_not_finite() const;
 
@@ -161,13 +161,14 @@ namespace corotet
     /// Whether anything moves in time: not in statics, where velocity and
     /// acceleration are zero.
     const bool is_dynamic;
-    /// All forces but the internal one.
+    /// All forces but the internal ones.
     ForceTerms terms;
 
   private:
     Forces forces;
     double time = 0;
-    /// Of the external forces that are known, and are needed again.
+    /// Load factor and time of the external forces that are stored for later
+    /// use.
     double known_load_factor = std::numeric_limits<double>::quiet_NaN();
     double known_time        = std::numeric_limits<double>::quiet_NaN();
     Vector u;

@@ -36,7 +36,7 @@ namespace corotet
                    const LinearSolverParameters &linear_solver_parameters,
                    Log                          &log);
 
-    /// As SecondOrderSystem has them.
+    /// The members of SecondOrderSystem with these names.
     StageReport
     solve_stage(State &state, const Stage &stage);
     StageReport
@@ -49,16 +49,17 @@ namespace corotet
       linear_solver.ask(question);
     }
 
-    /// Cells where the derivative of a rotation was clamped, over all ranks,
-    /// largest number since the last call.
+    /// The largest number of cells, over all ranks, where a tangent clamped the
+    /// derivative of the rotation since the last call.
     unsigned int
     take_clamped_cells()
     {
       return std::exchange(clamped_cells, 0u);
     }
 
-    /// What later solves depend on: a preconditioner that is still in use is
-    /// made again as it was. Leaves the equation with another state.
+    /// Transfers the data that later solves depend on: a preconditioner that is
+    /// still in use is made again as it was. Leaves the equation with another
+    /// state.
     void
     transfer(Archive &archive);
 
@@ -115,23 +116,23 @@ namespace corotet
                          const Vector          &r,
                          const TangentOperator *J,
                          const double           tolerance = 0);
-    /// What round-off makes of the sum of the last evaluation's forces for
-    /// sure, and at most [N]; zero if the body has run away.
+    /// The round-off in the sum of the last evaluation's forces [N]: a value
+    /// that is certain, and an upper bound; zero if the body has run away.
     struct RoundOffOfForces
     {
       double sure, most;
     };
     RoundOffOfForces
     round_off();
-    /// Whether statics have taken the body to where supports cannot hold it.
+    /// Whether statics have moved the body so far that supports cannot hold it.
     /// Collective.
     bool
     is_out_of_reach() const;
-    /// Says once that round-off has ended Newton's iterations.
+    /// Logs, once, that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
-    /// Says what the linear solver has decided, and once why solves are slow,
-    /// if this one of @p n_iterations and those before are.
+    /// Logs what the linear solver has decided and, once, why solves are slow,
+    /// if this one with @p n_iterations and those before it are.
     void
     report_linear_solver(const unsigned int n_iterations);
 
@@ -146,8 +147,8 @@ namespace corotet
     std::unique_ptr<EffectiveOperator> effective_operator;
     std::unique_ptr<TangentOperator>   tangent_operator;
 
-    /// What force terms have of a matrix of the surface, and for which stage;
-    /// null if they have none.
+    /// The matrix that force terms have on the surface, and the time and factor
+    /// of the stage it was made for; null if they have none.
     std::unique_ptr<SurfaceMatrix> surface;
     double surface_time   = std::numeric_limits<double>::quiet_NaN();
     double surface_factor = std::numeric_limits<double>::quiet_NaN();
@@ -155,7 +156,7 @@ namespace corotet
     // The stage that is being solved.
     State *stage_state = nullptr;
     Stage  stage       = {};
-    /// The state of keep(), while Newton's method runs: in vectors that the
+    /// The state of keep() while Newton's method runs, in vectors that the
     /// linear solver does not need meanwhile.
     struct KeptState
     {
@@ -163,35 +164,36 @@ namespace corotet
     };
     dealii::GrowingVectorMemory<Vector> memory;
     KeptState                           kept;
-    /// Size of the forces [N]: of the last residual, of the last stage that was
-    /// solved, and what residuals of the stage are compared with at least.
+    /// Sizes of the forces [N]: those of the last residual, that of the last
+    /// stage that was solved, and the smallest scale for residuals of the
+    /// stage.
     double force_scale    = 0;
     double residual_norm  = 0;
     double external_force = 0;
     double inertia_force  = 0;
     double solved_scale   = 0;
     double stage_scale    = 0;
-    /// What round-off may make of the last residual.
+    /// The round-off that the last residual may have [N].
     double force_noise = 0;
-    /// Whether nothing resists the loads: the displacement is so large that
-    /// round-off makes more of it than they are, and far out of reach.
+    /// Whether nothing resists the loads: the displacement is so large that its
+    /// round-off exceeds them, and is far out of reach.
     bool has_run_away = false;
-    /// Which ends by round-off the log has shown.
+    /// The kinds of ends by round-off that the log has shown.
     std::set<NewtonReport::RoundOff> shown_round_off;
-    // Of the last update of the operator.
+    // The factors of stiffness and mass at the last update of the operator.
     double operator_c_K = -1;
     double operator_c_M = -1;
 
     /// The stage and the displacement that the preconditioner was made with;
-    /// this is empty if the law is linear.
+    /// the displacement is empty if the law is linear.
     Stage  built_stage = {};
     Vector built_displacement;
-    /// Whether solves were with the tangent operator then, and with which one.
+    /// Whether solves used the tangent operator then, and which tangent.
     bool    built_with_tangent = false;
     Tangent built_tangent      = Tangent::consistent;
 
     unsigned int clamped_cells = 0;
-    /// Of linear solves that were slow.
+    /// The number of iterations of all slow linear solves.
     unsigned int slow_iterations = 0;
   };
 } // namespace corotet

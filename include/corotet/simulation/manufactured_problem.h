@@ -14,15 +14,15 @@
 namespace corotet
 {
   /**
-   * The exact solution that the parameters give, if they do, and the data that
-   * are made of it.
+   * The exact solution that the parameters give, if they do, and the data made
+   * from it.
    */
   class ManufacturedProblem
   {
   public:
     /// Throws InputError if the parameters give a solution that cannot be
-    /// differentiated, or data that are to be made. @p is_used: if false, there
-    /// is none, whatever they give.
+    /// differentiated, or give data that are to be made from it. If not @p
+    /// is_used there is no solution, whatever the parameters give.
     ManufacturedProblem(const SimulationParameters &parameters,
                         const bool                  is_used);
 
@@ -33,27 +33,27 @@ namespace corotet
       return exact.get();
     }
 
-    /// Whether data are made of the exact solution.
+    /// Whether data are made from the exact solution.
     bool
     makes_data() const
     {
       return manufacture;
     }
 
-    /// Those of the parameters, or those that are made. Throws InputError if a
-    /// boundary is unknown.
+    /// The conditions of the parameters, or those made from the solution.
+    /// Throws InputError if a boundary is unknown.
     BoundaryConditionParameters
     boundary_conditions(const MeshNames &boundaries) const;
 
-    /// As texts of three components.
+    /// The initial values as texts of three components.
     std::string
     initial_displacement() const;
     std::string
     initial_velocity() const;
 
-    /// Adds what is made to @p terms, which must not outlive this object and
-    /// the other arguments. @p materials: of a body with exact solution they
-    /// must be equal, or an InputError is thrown.
+    /// Adds the forces made from the solution to @p terms, which must not
+    /// outlive this object and the other arguments. Throws InputError if the @p
+    /// materials of a body with an exact solution are not equal.
     void
     add_to(ForceTerms                                      &terms,
            const Discretization                            &discretization,

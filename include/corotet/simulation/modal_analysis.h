@@ -26,13 +26,12 @@ namespace corotet
     double eigenvalue;
     /// omega [rad/s].
     double angular_frequency;
-    /// In Hz.
+    /// Frequency [Hz].
     double frequency;
     /// |K phi - omega^2 M phi| / (max(omega^2, omega_1^2) |M phi|) with the
-    /// lowest omega_1 that is not zero, to which it is relative for rigid body
-    /// modes.
+    /// lowest omega_1 that is not zero, the reference for rigid body modes.
     double residual;
-    /// Largest residual that round-off explains, with these units.
+    /// The largest residual that round-off can explain, in the same units.
     double round_off;
     /// phi . M phi [kg m^2].
     double modal_mass;
@@ -57,8 +56,8 @@ namespace corotet
   class ModalAnalysis
   {
   public:
-    /// @p folder: of the parameter file, for relative names of mesh files.
-    /// Throws InputError.
+    /// @p folder is that of the parameter file; relative names of mesh files
+    /// begin there. Throws InputError.
     ModalAnalysis(const SimulationParameters &parameters,
                   const std::string          &folder,
                   const MPI_Comm              comm,
@@ -78,10 +77,11 @@ namespace corotet
     void
     compute();
 
-    /// Those computed, lowest first. Shapes are scaled such that the largest
-    /// displacement of a node is a hundredth of the body's length, the diagonal
-    /// of its bounding box. Of a mode with a frequency of its own, the sign is
-    /// the same on any number of ranks, and that of a rigid body mode is, too.
+    /// The computed modes, lowest first. Shapes are scaled such that the
+    /// largest displacement of a node is a hundredth of the body's length, the
+    /// diagonal of its bounding box. The sign of a mode that shares its
+    /// frequency with no other is the same on any number of ranks, as is that
+    /// of a rigid body mode.
     const std::vector<Mode> &
     modes() const
     {
@@ -94,21 +94,22 @@ namespace corotet
       return solver.n_linear_iterations();
     }
 
-    /// What is known of the run at its end. The number of steps is that of the
+    /// The summary of the run at its end. Its number of steps is that of the
     /// modes.
     RunSummary
     summary() const;
 
-    /// Time for the results is to be added by who writes them.
+    /// Wall times; whoever writes results adds the time for that.
     WallTimes wall_times;
 
   private:
     void
     note_what_is_ignored() const;
-    /// Below the lowest eigenvalue of most bodies.
+    /// A shift below the lowest eigenvalue of most bodies.
     double
     estimated_shift() const;
-    /// By a first look at the lowest mode that deforms the body.
+    /// Chooses the shift by an estimate for the lowest mode that deforms the
+    /// body.
     void
     choose_shift();
     /// Throws InputError if the shift is beyond all modes. Collective.
@@ -116,11 +117,11 @@ namespace corotet
     check_shift() const;
     Mode
     make_mode(const Vector &x) const;
-    /// 1 or -1, to multiply x with.
+    /// 1 or -1, the factor that gives x a definite sign.
     double
     sign(const Vector &x) const;
-    /// Says so if modes that are missing have the frequency of the last one.
-    /// @p eigenvalues: of all that are known, in ascending order.
+    /// Logs if modes that are missing have the frequency of the last one. @p
+    /// eigenvalues are all that are known, in ascending order.
     void
     note_cut_group(const std::vector<double> &eigenvalues) const;
     void
@@ -137,7 +138,7 @@ namespace corotet
     Log                        &log;
     Body                        the_body;
     const ForceTerms            terms;
-    /// The terms' matrix of the surface; null if they have none.
+    /// The surface matrix of the force terms; null if they have none.
     const std::unique_ptr<const SurfaceMatrix> surface;
     const RigidMotions                         rigid_motions;
     EffectiveOperator                          A;

@@ -20,16 +20,16 @@
 namespace corotet
 {
   /**
-   * What an observer sees of a finished step. References are valid during the
+   * The data of a finished step for observers. References are valid during the
    * call only.
    */
   struct Snapshot
   {
     const Discretization &discretization;
     const StepRecord     &record;
-    /// Unit m, ghost entries up to date.
+    /// Displacement [m], ghost entries up to date.
     const Vector &displacement;
-    /// Unit m/s, ghost entries up to date; zero if it is empty.
+    /// Velocity [m/s], ghost entries up to date; empty if it is zero.
     const Vector &velocity;
     /// Computes the cell data of this state. Collective.
     std::function<CellResults()> cell_results;
@@ -37,8 +37,8 @@ namespace corotet
     bool last;
     /// The stress of this state. Collective.
     std::function<StressField &()> stress;
-    /// Of this rank, an entry for each unknown of PrescribedMotion::unknowns(),
-    /// in their order.
+    /// The support forces of this rank, an entry for each unknown of
+    /// PrescribedMotion::unknowns(), in their order.
     std::span<const SupportForce> support_forces;
   };
 
@@ -58,19 +58,19 @@ namespace corotet
     std::size_t  cells    = 0;
     std::size_t  nodes    = 0;
     std::size_t  unknowns = 0;
-    /// Of the body at rest [m^3].
+    /// Volume of the body at rest [m^3].
     double mesh_volume = 0;
-    /// In kg.
+    /// Mass [kg].
     double total_mass = 0;
 
     unsigned int steps    = 0;
     double       end_time = 0;
     /// How often a preconditioner was made.
     unsigned int preconditioner_builds = 0;
-    /// Of the last displacement, where the exact one is known.
+    /// Error norms of the last displacement, where the exact one is known.
     std::optional<ErrorNorms> errors;
-    /// Largest angle between rotations inside of cells and those of their
-    /// centres [rad], of the last displacement, where only the latter are used.
+    /// Largest angle [rad], for the last displacement, between rotations inside
+    /// of cells and those at their centres, where only the latter are used.
     std::optional<double> largest_rotation_difference;
 
     WallTimes wall_times;
@@ -86,34 +86,35 @@ namespace corotet
   public:
     virtual ~Observer() = default;
 
-    /// The initial state: step 0.
+    /// Called with the initial state: step 0.
     virtual void
     start(const Snapshot & /*initial*/)
     {}
 
-    /// What an observer needs to go on after a restart: goes into checkpoints.
+    /// Transfers what an observer needs to go on after a restart: called for
+    /// checkpoints.
     virtual void
     transfer(Archive & /*archive*/)
     {}
 
-    /// In place of start() after a restart, when transfer() has read: what the
-    /// run has written after the checkpoint does not count.
+    /// Called in place of start() after a restart, when transfer() has read:
+    /// what the run has written after the checkpoint does not count.
     virtual void
     resume(const Snapshot & /*state*/)
     {}
 
-    /// After every step that is recorded (see OutputTimes).
+    /// Called after every step that is recorded (see OutputTimes).
     virtual void
     step(const Snapshot & /*state*/)
     {}
 
-    /// After a failure: the state of the last step, which step() has shown
-    /// already, is the last of the run.
+    /// Called after a failure with the state of the last step, which step() has
+    /// shown already; it is the last one of the run.
     virtual void
     save(const Snapshot & /*state*/)
     {}
 
-    /// At the end, also after a failure.
+    /// Called at the end, also after a failure.
     virtual void
     finish(const RunSummary & /*summary*/)
     {}

@@ -27,8 +27,8 @@ namespace corotet
   class Simulation
   {
   public:
-    /// @p folder: of the parameter file, for relative names of mesh files.
-    /// Throws InputError.
+    /// @p folder is that of the parameter file; relative names of mesh files
+    /// begin there. Throws InputError.
     Simulation(const SimulationParameters &parameters,
                const std::string          &folder,
                const MPI_Comm              comm,
@@ -66,8 +66,8 @@ namespace corotet
       return parameters.end_time;
     }
 
-    /// How many steps the run will have, as far as that is known at its start
-    /// [-].
+    /// The number of steps that the run will have, as far as it is known at the
+    /// start [-].
     double
     planned_steps() const
     {
@@ -83,9 +83,10 @@ namespace corotet
     run(const std::vector<std::unique_ptr<Observer>> &observers,
         const OutputTimes                            &recording = {});
 
-    /// The same step by step: start(), then step() until is_done() or as long
-    /// as it is wanted, then finish(). The observers must live until then.
-    /// After a ComputationError, which they are told of, nothing may follow.
+    /// Does what run() does step by step: start(), then step() until is_done()
+    /// or as long as it is wanted, then finish(). The observers must live until
+    /// then. After a ComputationError, which they are told of, nothing may
+    /// follow.
     void
     start(const std::vector<std::unique_ptr<Observer>> &observers,
           const OutputTimes                            &recording = {});
@@ -100,7 +101,8 @@ namespace corotet
            const OutputTimes                            &recording,
            Archive                                      &archive);
 
-    /// What resume() goes on from. Between calls of the others.
+    /// Saves the state that resume() goes on from. May be called between the
+    /// other members.
     void
     save_state(Archive &archive);
 
@@ -115,7 +117,7 @@ namespace corotet
       return stepper.is_done();
     }
 
-    /// Tells the observers that this was the last step.
+    /// Tells the observers that the last step was the end of the run.
     void
     finish()
     {
@@ -130,14 +132,15 @@ namespace corotet
       finish("stopped", message);
     }
 
-    /// Of the last step, recorded or not; and its time [s].
+    /// Number of the last step, recorded or not, and its time [s].
     unsigned int
     step_number() const
     {
       return stepper.step_number(last_record);
     }
 
-    /// Parts of that step that are made, if others are not; else 0.
+    /// The number of parts of that step that are made, if others are not; else
+    /// 0.
     unsigned int
     parts_made() const
     {
@@ -150,7 +153,7 @@ namespace corotet
       return stepper.time();
     }
 
-    /// Of the last step that was recorded.
+    /// The record of the last step that was recorded.
     const StepRecord &
     record() const
     {
@@ -179,19 +182,19 @@ namespace corotet
     save();
     void
     finish(const std::string &status, const std::string &message);
-    /// Of the last state, if the exact solution is known.
+    /// Errors of the last state, if the exact solution is known.
     std::optional<ErrorNorms>
     errors();
-    /// Of the last state [rad], if one rotation for each cell is not all of it;
-    /// logs it.
+    /// The largest rotation difference in the last state [rad], if the law uses
+    /// one rotation for each cell; logs it.
     std::optional<double>
     rotation_difference();
-    /// All but the state of the time loop.
+    /// Transfers everything but the state of the time loop.
     void
     transfer(Archive &archive);
     Snapshot
     snapshot(const bool last);
-    /// Of the present displacement. Made when it is first asked for.
+    /// The stress of the present displacement. It is made at the first call.
     StressField &
     present_stress();
     double
@@ -208,16 +211,16 @@ namespace corotet
     TimeLoop                    stepper;
     StepRecord                  last_record;
     bool                        is_started = false;
-    /// That the run took before it was restarted [s].
+    /// The wall time of the run before it was restarted [s].
     double earlier_seconds = 0;
 
     const std::vector<std::unique_ptr<Observer>> *observers = nullptr;
 
     std::unique_ptr<StressField> stress;
     bool                         stress_is_present = false;
-    /// Whether a record has had a displacement.
+    /// Whether a displacement of any record was not zero.
     bool has_moved = false;
-    /// Of the last report.
+    /// Numbers of cells in the last report of inversions.
     unsigned int reported_inverted   = 0;
     unsigned int reported_degenerate = 0;
     unsigned int reported_clamped    = 0;

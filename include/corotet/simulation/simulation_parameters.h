@@ -24,7 +24,7 @@
 
 namespace corotet
 {
-  /// What is computed.
+  /// The kind of run.
   enum class RunType
   {
     simulation,
@@ -47,14 +47,14 @@ namespace corotet
 
     unsigned int number    = 10;
     double       tolerance = 1e-8;
-    /// In 1/s^2; 0: estimated.
+    /// The shift [1/s^2]; if it is 0, it is estimated.
     double shift = 0;
   };
 
   /**
-   * All parameters of a run but those of its output: values, which nothing
-   * changes once they are read, so that any number of bodies and systems may be
-   * made of them. Must not be moved after declare_parameters().
+   * All parameters of a run but those of its output. They do not change once
+   * they are read, so that any number of bodies and systems may be made from
+   * them. Must not be moved after declare_parameters().
    */
   struct SimulationParameters
   {
@@ -63,7 +63,8 @@ namespace corotet
     void
     declare_parameters(dealii::ParameterHandler &prm);
 
-    /// The element of Degree and Mass. Throws InputError if they do not fit.
+    /// The element for the entries Degree and Mass. Throws InputError if they
+    /// do not fit.
     Element
     element() const;
 
@@ -75,7 +76,7 @@ namespace corotet
     TableParameters             tables;
     BoundaryConditionParameters boundary_conditions;
     ForceParameters             forces;
-    /// Expressions of the state at the start time.
+    /// Expressions of the initial state at the start time.
     std::string                initial_displacement = "0; 0; 0";
     std::string                initial_velocity     = "0; 0; 0";
     ExactSolutionParameters    exact_solution;

@@ -11,13 +11,13 @@
 namespace corotet
 {
   /**
-   * What a support does to the body along one unknown.
+   * The force of a support on the body along one unknown.
    */
   struct SupportForce
   {
-    /// In N.
+    /// Force [N].
     double force = 0;
-    /// Of the unknown's node [m].
+    /// Position of the unknown's node [m].
     dealii::Tensor<1, 3> position;
   };
 
@@ -37,11 +37,11 @@ namespace corotet
     double dissipated_energy = 0;
     double external_work     = 0;
     /// Kinetic + elastic + dissipated energy - external work, less its value at
-    /// the start: what is left over.
+    /// the start: the error of the balance.
     double energy_balance = 0;
 
     dealii::Tensor<1, 3> momentum;
-    /// About the origin, with current positions.
+    /// Angular momentum about the origin, with current positions.
     dealii::Tensor<1, 3> angular_momentum;
 
     double       max_displacement = 0;
@@ -50,14 +50,14 @@ namespace corotet
     unsigned int degenerate_cells = 0;
     /// Cells whose rotation the fast algorithm left to the robust one.
     unsigned int robust_rotations = 0;
-    /// Cells where the derivative of a rotation was clamped in a tangent, most
-    /// of a tangent since the last record.
+    /// The largest number of cells, over the tangents since the last record,
+    /// where the derivative of a rotation was clamped.
     unsigned int clamped_cells = 0;
-    /// Parts that the step was made in: 1 unless it failed at first.
+    /// Number of parts that the step was made in: 1 unless it failed at first.
     unsigned int parts = 1;
-    /// Steps up to now that were too inaccurate and were repeated.
+    /// Number of steps up to now that were too inaccurate and were repeated.
     unsigned int rejected_steps = 0;
-    /// Since the start of the run [s].
+    /// Wall time since the start of the run [s].
     double wall_time = 0;
 
     /// Volume of the deformed body [m^3].

@@ -26,8 +26,8 @@ namespace corotet
                      WallTimes                  &wall_times,
                      Log                        &log);
 
-    /// Sizes the vectors of @p state, of which statics need the displacement
-    /// only, and gives it the initial displacement and velocity. Throws
+    /// Sizes the vectors of @p state, of which statics only need the
+    /// displacement, and sets the initial displacement and velocity. Throws
     /// InputError if these, or loads, are not finite. Collective.
     void
     initialize(State &state) const;

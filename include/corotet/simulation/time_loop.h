@@ -24,10 +24,11 @@ namespace corotet
    */
   struct OutputTimes
   {
-    /// Every so many steps.
+    /// The number of steps from one that is shown to the next one.
     unsigned int steps_between_rows = 1;
-    /// And those that reach a multiple of this time [s], if it is not zero.
-    /// Where the run chooses the length of its steps they end there exactly.
+    /// Steps that reach a multiple of this time [s] are shown, too, if it is
+    /// not zero. Where the run chooses the length of its steps they end there
+    /// exactly.
     double time_between_results = 0;
   };
 
@@ -67,16 +68,16 @@ namespace corotet
 
     /**
      * In place of start(): takes all that the steps to come depend on from
-     * @p archive. The end time and the time step may be others than those of
-     * the run that wrote it: equal steps begin anew then. @p record: of the
-     * last step that was recorded. Throws InputError if that does not fit.
+     * @p archive. The end time and the time step may differ from those of the
+     * run that wrote it: equal steps begin anew then. @p record is that of the
+     * last recorded step. Throws InputError if the end time does not fit.
      */
     void
     resume(const OutputTimes &wanted,
            Archive           &archive,
            const StepRecord  &record);
 
-    /// What resume() takes.
+    /// Saves what resume() takes.
     void
     save(Archive &archive);
 
@@ -119,7 +120,7 @@ namespace corotet
       double       time;
     };
 
-    /// Of explicit steps, which leave an earlier state.
+    /// The last failure of explicit steps, which return to an earlier state.
     Failure
     last_failure() const
     {
@@ -133,7 +134,7 @@ namespace corotet
       return budget->support_forces();
     }
 
-    /// Of the last step; @p record is that of the last recorded one.
+    /// The number of the last step; @p record is that of the last recorded one.
     unsigned int
     step_number(const StepRecord &record) const
     {
@@ -154,15 +155,15 @@ namespace corotet
       return time(end_of_step(1));
     }
 
-    /// How many steps the run will have, as far as that is known at its start
-    /// [-].
+    /// The number of steps that the run will have, as far as it is known at the
+    /// start [-].
     double
     planned_steps() const
     {
       return n_planned;
     }
 
-    /// Of the state [s].
+    /// The time of the present state [s].
     double
     time() const
     {
@@ -180,41 +181,41 @@ namespace corotet
     transfer(Archive &archive);
     void
     transfer_parts(Archive &archive);
-    /// Where equal steps begin and how many there are, from now on: step
-    /// @p step has been reached. Throws InputError.
+    /// Divides the rest of the run, from step @p step on, into equal steps.
+    /// Throws InputError.
     void
     begin_equal_steps(const unsigned int step);
-    /// Throw InputError.
+    /// These throw InputError.
     void
     check_parameters() const;
     void
     choose_step();
-    /// Estimates the stable step and takes it, or compares the given one.
-    /// Throws ComputationError.
+    /// Estimates the stable step, and takes it or compares the given one with
+    /// it. Throws ComputationError.
     void
     follow_stable_step();
-    /// The same, with an InputError.
+    /// The same, but throws InputError.
     void
     check_stable_step();
-    /// Whether that is to be done again after step @p step.
+    /// Whether the stable step is to be estimated again after step @p step.
     bool
     is_stable_step_due(const unsigned int step) const
     {
       const StabilityControl *control = integrator->stability();
       return control != nullptr && step % control->steps_between_estimates == 0;
     }
-    /// Warns, once, if a run of that many steps [-] of that length [s] takes
-    /// very long. The first call is that of the start.
+    /// Warns, once, if a run of @p n steps [-] of length @p dt [s] takes very
+    /// long. The first call is that at the start.
     void
     warn_of_steps(const double n, const double dt);
 
-    /// Time when that part of the run, in [0, 1], is done: not a sum of steps,
-    /// so no round-off accumulates. Decimal numbers are met exactly, so that a
-    /// formula that changes at one of them does so in the same step whatever
-    /// the end time is.
+    /// Time when the given part of the run, in [0, 1], is done. It is not a sum
+    /// of steps, so no round-off accumulates. Decimal numbers are met exactly,
+    /// so that a formula that changes at one of them does so in the same step
+    /// whatever the end time is.
     double
     time(const double part) const;
-    /// Of that part of the run, a step or one that was halved [s].
+    /// Duration of the given part of the run, a step or a halved one [s].
     double
     duration(const double part) const;
     /// Part of the run that is done after step @p step, @p ahead steps from
@@ -228,10 +229,10 @@ namespace corotet
                 const double       from,
                 const double       to) const;
 
-    /// @p record becomes that of a step of which nothing is done.
+    /// @p record becomes that of a step of which no part is done.
     void
     begin_step(StepRecord &record);
-    /// What the log says after a step.
+    /// Logs remarks on a finished step.
     void
     report(const StepRecord &record) const;
     /// Makes the step of @p record, or what is left of it. Returns false if
@@ -266,29 +267,29 @@ namespace corotet
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);
-    /// The acceleration that the run starts from: that at the start; with stiff
-    /// damping the mean one of the first step, or of a part of it where that
-    /// fails. Not with methods that keep energy: the trapezoidal rule makes no
-    /// displacement of what lasts for a short time, and its budget closes only
-    /// if the equation holds at the start; the midpoint rule has no
-    /// acceleration at the start. Throws ComputationError.
+    /// Solves for the acceleration that the run starts from: that at the start;
+    /// with stiff damping the mean one of the first step, or of a part of it
+    /// where that fails. Methods that keep energy always start from the former:
+    /// the trapezoidal rule makes no displacement of what lasts for a short
+    /// time, and its budget closes only if the equation holds at the start; the
+    /// midpoint rule has no acceleration at the start. Throws ComputationError.
     StageReport
     solve_first_acceleration();
-    /// The same for explicit methods: what the velocity changes by in the first
-    /// half step of length @p half [s], over that.
+    /// The same for explicit methods: the change of the velocity in the first
+    /// half step, divided by its length @p half [s].
     StageReport
     solve_first_half_step(const double half);
     /// Makes several steps.
     void
     advance_explicitly(StepRecord &record);
 
-    /// The present state becomes the good one, or the other way round: in
-    /// statics its displacement, as nothing moves.
+    /// These make the present state the good one, or restore it from that; in
+    /// statics its displacement only, as nothing moves.
     void
     keep_state();
     void
     restore_state();
-    /// The part (from, to] in @p n steps, without any account of it.
+    /// Solves for the part (from, to] in @p n steps, without accounting for it.
     void
     integrate(const double       from,
               const double       to,
@@ -316,7 +317,7 @@ namespace corotet
     void
     check_growth(const StepRecord &record);
 
-    /// Fits in the counter of steps.
+    /// The largest number that the counter of steps holds.
     static constexpr unsigned int largest_number_of_steps = 4000000000;
 
     const SimulationParameters           &parameters;
@@ -327,34 +328,34 @@ namespace corotet
     OutputTimes                           recording;
     State                                 present;
     std::unique_ptr<EnergyBudget>         budget;
-    /// Parts of the run that the present state has reached, and that the last
-    /// step started from.
+    /// Parts of the run, in [0, 1], at the present state and at the start of
+    /// the last step.
     double done = 0;
     double from = 0;
 
-    /// To return to when a step fails: the state before it, whose displacement
-    /// the budget has; or with explicit methods, whose steps are many and
-    /// cheap, that of the last record.
+    /// The state to return to when a step fails: the state before it, whose
+    /// displacement the budget has; or with explicit methods, whose steps are
+    /// many and cheap, that of the last record.
     State  good_state;
     double good_done = 0;
 
-    /// Whether the motion has grown beyond bounds: shorter steps do not mend
-    /// what has grown before.
+    /// Whether the motion has grown beyond bounds, which shorter steps cannot
+    /// repair.
     bool is_unstable = false;
 
     /// Number of equal steps; 0 if the run chooses their length. They begin
-    /// with that step, when that part of the run is done: at the start, or
-    /// where a run was restarted with other steps.
+    /// with step first_step, when the part first_done of the run is done: at
+    /// the start, or where a run was restarted with other steps.
     unsigned int n_steps    = 0;
     unsigned int first_step = 0;
     double       first_done = 0;
-    /// Of the equal steps, or what stability allows [s].
+    /// Length of the equal steps, or the stable one [s].
     double step_length = 0;
     /// Null if the length of steps does not follow their error.
     std::unique_ptr<AdaptiveStep> adaptive;
     Vector                        acceleration_change;
 
-    /// Of the last step, if it was not to be recorded and next() was
+    /// The record of the last step, if it was not to be recorded and next() was
     /// interrupted.
     StepRecord unrecorded;
     bool       is_between_records = false;
@@ -365,9 +366,10 @@ namespace corotet
       double       to;
       unsigned int halvings_left;
     };
-    /// What is left of a step that has been begun, the next one last.
+    /// Parts that are left of a step that was begun, the next one last.
     std::vector<Part> parts_left;
-    /// Of one that a run with other steps has left, as a part of the run.
+    /// Start of the step that a restart with other steps replaces, as a part of
+    /// the run.
     std::optional<double> start_of_left_step;
 
     bool is_new     = false;
@@ -378,10 +380,10 @@ namespace corotet
     double  n_planned  = 0;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
-    /// How much more energy the fastest mode of an explicit run may have than
-    /// was put into it [-].
+    /// The largest ratio of the energy of the fastest mode in an explicit run
+    /// to the energy put into it [-].
     double amplification = 1;
-    /// Largest energy so far [J], after a restart no less than the supply.
+    /// Largest energy so far [J]; after a restart at least the supply.
     double largest_energy = 0;
   };
 } // namespace corotet

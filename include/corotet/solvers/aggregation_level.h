@@ -19,8 +19,8 @@
 namespace corotet
 {
   /**
-   * What the d unknowns of a point are when all space moves rigidly: those of a
-   * node are the displacement at its place.
+   * The values of the d unknowns of a point when all space moves rigidly. For a
+   * node they are the displacement at its place.
    */
   template <int d>
   struct PointFrame
@@ -28,7 +28,7 @@ namespace corotet
     dealii::Tensor<1, 3> centre;
   };
 
-  /// Those of an aggregate are a product of its @p motions, by rows, with the
+  /// For an aggregate they are the product of its @p motions, by rows, with the
   /// displacement of its centre and the rotation about it.
   template <>
   struct PointFrame<6>
@@ -41,31 +41,32 @@ namespace corotet
   using Modes [[gnu::vector_size(64)]] = double;
 
   /**
-   * What a level of aggregation leaves to the next one: six unknowns for each
-   * aggregate.
+   * The problem that a level of aggregation hands to the next one: six unknowns
+   * for each aggregate.
    */
   struct AggregateProblem
   {
-    /// Each aggregate is two nodes of three unknowns. Where this is the last
-    /// level, its lower triangle.
+    /// The matrix; each aggregate is two nodes of three unknowns. On the last
+    /// level it is the lower triangle only.
     std::unique_ptr<BlockMatrix> matrix;
-    /// Where it has blocks of 6 x 6; null if this is the last level.
+    /// The pattern of the matrix's blocks of 6 x 6; null on the last level.
     std::shared_ptr<const BlockPattern> aggregates;
-    /// Of the owned ones.
+    /// The frames of the owned aggregates.
     std::vector<PointFrame<6>> frames;
   };
 
   /// How the points of a level are aggregated.
   struct Coarsening
   {
-    /// Aggregates join neighbours that move alike: their similarity, see
-    /// AggregationLevel::similarities(), is at least this one times the largest
-    /// of one of them [-]; with 0, all.
+    /// Aggregates join neighbours that move alike: the similarity of two
+    /// points, see AggregationLevel::similarities(), must be at least this one
+    /// times the largest similarity of one of them [-]; 0 joins all neighbours.
     double least_similarity = 0;
-    /// More aggregates make a level with a next one, unless these are almost as
-    /// many as the points.
+    /// With more aggregates than these there is a next level, unless they are
+    /// almost as many as the points.
     int most_aggregates = 330;
-    /// More aggregates than these, of all neighbours, are joined by this many.
+    /// If there are more aggregates than most_aggregates, and they are made of
+    /// all neighbours, this number of them is joined.
     unsigned int n_joined = 1;
   };
 
@@ -80,12 +81,12 @@ namespace corotet
   class AggregationLevel
   {
   public:
-    /// @p degree of the smoother.
+    /// @p degree is that of the smoother.
     explicit AggregationLevel(const unsigned int degree);
 
     /**
      * @p A has the blocks of @p pattern, in pieces of 3 x 3; @p frames are
-     * those of the owned points. @p given_up: A, if it may be left without
+     * those of the owned points. @p given_up is A if it may be left without
      * values, which takes less memory, or null.
      */
     void
@@ -95,21 +96,21 @@ namespace corotet
           const std::vector<PointFrame<d>>          &frames,
           const Coarsening                          &coarsening);
 
-    /// Since the last build(). Not collective.
+    /// The problem of the last build(). Not collective.
     const AggregateProblem &
     coarse() const
     {
       return problem;
     }
 
-    /// Of all ranks. Not collective.
+    /// The number of aggregates on all ranks. Not collective.
     int
     n_aggregates() const
     {
       return known_aggregates.n_global();
     }
 
-    /// What A is divided by, a power of two, so that single precision holds it
+    /// The divisor of A, a power of two, with which single precision holds A
     /// whatever its size is. Not collective.
     double
     unit() const
@@ -124,15 +125,15 @@ namespace corotet
       return rhs.data();
     }
 
-    /// Owned entries first. Not collective.
+    /// The solution, owned entries first. Not collective.
     const float *
     solution() const
     {
       return x.data();
     }
 
-    /// A Chebyshev polynomial of D^-1 A. D has the blocks of points, or, with a
-    /// least similarity, those of aggregates.
+    /// Applies a Chebyshev polynomial of D^-1 A. D has the blocks of points,
+    /// or, with a least similarity, those of aggregates.
     void
     smooth(const bool x_is_zero) const;
 
@@ -170,11 +171,11 @@ namespace corotet
 
       Number values[d][6]{};
     };
-    /// Parts of rows of the coarse matrix: of each, the number at its owner and
-    /// the entries.
+    /// Parts of rows of the coarse matrix: the number of each row at its owner,
+    /// and its entries.
     struct RowParts
     {
-      /// With the entries since the last one.
+      /// Ends a row with the entries since the last one.
       void
       add_row(const int row)
       {
@@ -186,8 +187,8 @@ namespace corotet
       NodeGraph        entries;
     };
 
-    /// Where the unknowns of point @p i begin, or those of a number of points
-    /// end.
+    /// The first unknown of point @p i, or the number of unknowns of @p i
+    /// points.
     static std::size_t
     offset(const std::size_t i)
     {
@@ -206,14 +207,16 @@ namespace corotet
           target[a] += rows[a][k + c] * b[c];
     }
 
-    /// Of @p A / unit, in single precision. @p given_up: see build().
+    /// Copies the blocks of @p A / unit in single precision. @p given_up: see
+    /// build().
     void
     copy_blocks(const BlockMatrix &A, BlockMatrix *given_up = nullptr);
     void
     copy_diagonal(const BlockMatrix &A);
     void
     invert_aggregates(const BlockMatrix &A);
-    /// Owned entries in [-0.5, 0.5), others for each number.
+    /// Owned entries become numbers in [-0.5, 0.5) without pattern, which
+    /// differ for each @p number.
     void
     fill_without_pattern(std::vector<float> &values,
                          const unsigned int  number) const;
@@ -221,7 +224,7 @@ namespace corotet
     estimate_largest_eigenvalue();
     /// How alike neighbours move, for each entry of the graph of points, zero
     /// for ghosts: the inverse of the squared difference of their
-    /// displacements, in terms of the squares of both, when the smoother has
+    /// displacements, relative to the squares of both, after the smoother has
     /// been applied to motions without pattern (the algebraic distance; Brandt,
     /// Brannick, Kahl, Livshits 2015).
     std::vector<double>
@@ -232,12 +235,14 @@ namespace corotet
     void
     set_up_pattern(const Coarsening                 &coarsening,
                    const std::vector<PointFrame<d>> &frames);
-    /// The entries of the prolongation, numbers of aggregates on all ranks, and
-    /// their exchange. @p has_blocks: points of an aggregate have the same.
+    /// Sets up the entries of the prolongation, the numbers of aggregates on
+    /// all ranks, and the exchange. With @p has_blocks the points of an
+    /// aggregate have the same entries.
     void
     set_up_prolongation(const bool has_blocks);
-    /// The entries of the owned rows of the coarse matrix, columns by global
-    /// numbers, and who makes parts of them. @p is_last: its lower triangle.
+    /// Finds the entries of the owned rows of the coarse matrix, with global
+    /// column numbers, and the ranks that make parts of them. With @p is_last
+    /// these are the entries of the lower triangle.
     NodeGraph
     set_up_coarse_rows(const bool is_last);
     /// Gives other ranks those parts of their rows.
@@ -254,7 +259,7 @@ namespace corotet
                         const BlockMatrix                    &A,
                         const std::vector<ModeBlock<double>> &motions,
                         std::vector<int>                     &place) const;
-    /// @p result: an entry for each of the prolongation's pattern.
+    /// @p result has an entry for each one of the prolongation's pattern.
     void
     smooth_motions(std::vector<ModeBlock<double>>       &result,
                    const BlockMatrix                    &A,
@@ -280,32 +285,34 @@ namespace corotet
 
     const unsigned int degree;
 
-    /// None before the first build().
+    /// Pattern of the points; null before the first build().
     std::shared_ptr<const BlockPattern> points;
     int                                 n_points = 0;
 
-    /// Used are aggregates that rows of owned points in the prolongation have;
-    /// known are those that rows of ghosts have, too.
+    /// The used aggregates are those in the prolongation's rows of owned
+    /// points; the known aggregates are those in its rows of ghosts, too.
     NodeNumbers used_aggregates, known_aggregates;
-    /// Of owned points and of ghosts; numbers of known ones.
+    /// The known aggregate of each owned point and ghost.
     std::vector<int> aggregates;
-    /// Rows are owned aggregates.
+    /// The points of each owned aggregate (rows).
     NodeGraph points_of_aggregates;
-    /// With rows of ghosts. Columns are known aggregates.
+    /// The prolongation's pattern, with rows of ghosts. Columns are known
+    /// aggregates.
     NodeGraph     prolongation_pattern;
     GhostExchange prolongation_ghosts;
-    /// Of the rows of owned points, as numbers of used aggregates.
+    /// The columns in the rows of owned points, as numbers of used aggregates.
     std::vector<int> prolongation_columns;
     GhostExchange    coarse_exchange;
     NodeGraph        product_pattern;
-    /// Its lower triangle only, if this is the last level.
+    /// The coarse matrix's pattern; its lower triangle only, if this is the
+    /// last level.
     std::shared_ptr<const BlockPattern> coarse_pattern;
-    /// What owned points make of the rows of others' used aggregates, by known
-    /// ones; and what others make of the owned rows: places of entries, by
-    /// rank.
+    /// Entries that owned points contribute to rows of other ranks' aggregates,
+    /// with known ones as columns; and the places of the entries of owned rows
+    /// to which other ranks contribute, by rank.
     NodeGraph                        rows_of_others;
     std::map<unsigned int, RowParts> received_rows;
-    /// The same for matrices whose nodes come in twos.
+    /// The same pattern for matrices with two nodes for each aggregate.
     std::shared_ptr<const BlockPattern> coarse_matrix_pattern;
     AggregateProblem                    problem;
 
@@ -314,19 +321,19 @@ namespace corotet
     dealii::AlignedVector<float> blocks;
     std::vector<float>           inverse_diagonal;
     std::vector<unsigned char>   is_prescribed;
-    /// Inverses of the diagonal blocks of aggregates, by columns, where D has
-    /// these.
+    /// Inverses of the diagonal blocks of aggregates, by columns, if D has
+    /// these blocks.
     bool                     has_aggregate_blocks = false;
     std::vector<float>       inverse_aggregates;
     std::vector<std::size_t> starts_of_inverses;
     double                   largest_eigenvalue = 0;
-    /// Rows of owned points.
+    /// The prolongation's rows of owned points.
     std::vector<ModeBlock<float>> prolongation;
 
-    /// The first two with entries of ghosts.
+    /// The first two of these vectors have entries of ghosts.
     mutable std::vector<float> x, direction, rhs, residual, product, scaled;
     mutable std::vector<float> block_product;
-    /// Six for each used aggregate.
+    /// Six values for each used aggregate.
     mutable std::vector<float> coarse_values;
   };
 } // namespace corotet

@@ -24,7 +24,7 @@ namespace corotet
   public:
     virtual ~BlockOperator() = default;
 
-    /// Y = Op X. They have no column in common. Collective.
+    /// Y = Op X. X and Y have no column in common. Collective.
     virtual void
     apply(const MultiVector &X, MultiVector &Y) const = 0;
   };
@@ -33,9 +33,8 @@ namespace corotet
 namespace Anasazi
 {
   /**
-   * Trilinos' Anasazi calculates with any vectors that this class explains to
-   * it. Its functions and their arguments are Anasazi's (see
-   * AnasaziMultiVecTraits.hpp).
+   * Makes MultiVector usable by Trilinos' Anasazi. The functions and their
+   * arguments are defined by Anasazi (see AnasaziMultiVecTraits.hpp).
    */
   template <>
   class MultiVecTraits<double, corotet::MultiVector>
@@ -166,7 +165,7 @@ namespace Anasazi
                    B);
     }
 
-    /// @p b may be longer than there are columns.
+    /// @p b may have more entries than there are columns.
     static void
     MvDot(const MV &mv, const MV &A, std::vector<double> &b)
     {

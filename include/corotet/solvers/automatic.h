@@ -15,40 +15,42 @@
 namespace corotet
 {
   /**
-   * p-multigrid or a sparse factorisation, whichever is the faster way for the
-   * body at hand.
+   * Preconditions with p-multigrid or a sparse factorisation, whichever is
+   * faster for the body at hand.
    *
-   * What a factorisation costs follows from that of degree 1, which the
-   * multigrid has: it is said in iterations of the multigrid. Where cells are
-   * so flat or stretched that these will not be enough, the body is factorised
-   * at once; elsewhere when solves have spent as many in vain, if need be in
-   * the middle of one. So a solve takes at most about twice as long as by the
-   * better way. Where rotations or time steps make factors outdated so often
-   * that solves cost more than they did, the multigrid comes back; factors are
-   * tried again when it has cost four times as much as that try, and each time
-   * twice as long after, as bodies that move far become others. A solve with
-   * older factors gets new ones when it has cost as much as these.
+   * The cost of a factorisation is expressed in iterations of the multigrid,
+   * and follows from that of degree 1, which the multigrid has. Where cells are
+   * so flat or stretched that more iterations than these are expected, the body
+   * is factorised at once; elsewhere when solves have wasted as many
+   * iterations, if need be in the middle of a solve. So a solve takes at most
+   * about twice as long as with the better choice. Where rotations or time
+   * steps make factors outdated so often that solves cost more than with the
+   * multigrid, it comes back; factors are tried again when it has cost four
+   * times as much as that trial, and after each further trial the wait doubles,
+   * as bodies that move far change. A solve with older factors gets new ones
+   * when it has cost as much as these.
    *
-   * Exact tangents get factors only where many cells are flat or stretched, or
-   * a material is nearly incompressible. Others are slow where they are
-   * indefinite alone, far from the solution: they get factors of the frozen
-   * matrix, and where cells are well-shaped not in the middle of a solve, which
-   * may fail with them as well.
+   * Exact tangents are factorised only where many cells are flat or stretched,
+   * or a material is nearly incompressible. Solves with other exact tangents
+   * are slow only where these are indefinite, far from the solution: then the
+   * frozen matrix is factorised, and with well-shaped cells not in the middle
+   * of a solve, which may fail with its factors as well.
    *
-   * Everything is counted and nothing is measured: runs repeat to the last
-   * digit.
+   * Decisions depend on counts and not on measured times: runs repeat to the
+   * last digit.
    */
   class AutomaticPreconditioner : public Preconditioner
   {
   public:
-    /// @p parameters are those of the multigrid, which others declare.
+    /// @p parameters are those of the multigrid; another preconditioner
+    /// declares them.
     explicit AutomaticPreconditioner(
       const std::shared_ptr<PMultigridParameters> &parameters =
         std::make_shared<PMultigridParameters>())
       : multigrid(parameters)
     {}
 
-    /// A copy has the parameters, and nothing that has been built.
+    /// A copy has the parameters, but nothing that has been built.
     AutomaticPreconditioner(const AutomaticPreconditioner &other)
       : Preconditioner()
       , multigrid(other.multigrid)
@@ -118,44 +120,47 @@ namespace corotet
     transfer(Archive &archive) override;
 
   private:
-    /// What a sparse factorisation takes, in iterations of the multigrid.
+    /// Costs of a sparse factorisation, in iterations of the multigrid.
     struct Costs
     {
-      /// The first one, with its ordering; one more; a solve with the factors.
+      /// Costs of the first factorisation, with its ordering; of each further
+      /// one; and of an iteration with the factors.
       double first, again, solve;
     };
 
     void
     find_costs(const EffectiveOperator &A);
-    /// Makes factors; where that cannot be done, the multigrid is there for
-    /// good.
+    /// Computes factors; if that fails, the multigrid stays in use for good.
     void
     factorize(const EffectiveOperator &A,
               const TangentOperator   *J,
               const Vector            &displacement);
-    /// Iterations that a solve of @p n has more than one with factors takes.
+    /// The number of iterations that a solve with @p n iterations has wasted
+    /// compared with one with factors.
     double
     too_many(const unsigned int n) const;
-    /// The multigrid is used; factors are gone.
+    /// Returns to the multigrid and drops the factors.
     void
     leave_factors();
 
     PMultigrid multigrid;
-    /// Null until it is first wanted.
+    /// The factorisation; null until it is first needed.
     std::unique_ptr<CholeskyDirect> direct;
 
-    /// Whether exact tangents have factors of their own, once it is known.
+    /// Whether exact tangents have factors of their own, once that is known.
     std::optional<bool> has_factors_of_tangents;
     bool                is_direct  = false;
     bool                is_settled = false;
     bool                has_costs  = false;
-    /// Solves with the multigrid, their iterations, and those in vain.
+    /// Solves with the multigrid, their iterations, and the wasted ones of
+    /// these.
     unsigned int n_multigrid = 0;
     double       iterations  = 0;
     double       in_vain     = 0;
-    /// How many in vain until factors are tried again; 0 before the first time.
+    /// Wasted iterations after which factors are tried again; 0 before the
+    /// first trial.
     double wait = 0;
-    /// Solves with factors since these are in use, and what they have cost.
+    /// Solves with factors since these have been in use, and their cost.
     unsigned int n_direct    = 0;
     double       direct_cost = 0;
     Costs        costs{std::numeric_limits<double>::infinity(), 0, 0};

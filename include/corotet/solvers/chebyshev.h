@@ -15,7 +15,7 @@ namespace corotet
    * over the cells.
    *
    * Where a matrix of the surface couples the unknowns of a node, D has these
-   * couplings, too: springs along a normal that is no axis are stiff in one
+   * couplings, too: springs along a normal that is not an axis are stiff in one
    * direction only, which a point diagonal does not see.
    *
    * @p A must outlive this object.
@@ -25,7 +25,8 @@ namespace corotet
   public:
     using FloatVector = dealii::LinearAlgebra::distributed::Vector<float>;
 
-    /// @p degree: steps; @p range: largest over smallest eigenvalue to damp.
+    /// @p degree is the number of steps, @p range the ratio of the largest to
+    /// the smallest eigenvalue to damp.
     Chebyshev(const CellwiseOperator<float> &A,
               const unsigned int             degree,
               const double                   range);
@@ -41,7 +42,7 @@ namespace corotet
     void
     estimate_eigenvalues(const FloatVector &start);
 
-    /// The last estimate, some percent above.
+    /// The last estimate, some percent above the largest Ritz value.
     double
     largest_eigenvalue() const
     {
@@ -57,8 +58,8 @@ namespace corotet
     smooth(FloatVector &x, const FloatVector &b) const;
 
   private:
-    /// D at a node with couplings, without its prescribed unknowns, and the
-    /// inverse of that.
+    /// D at a node with couplings, and its inverse on the unknowns that are not
+    /// prescribed.
     struct NodeBlock
     {
       unsigned int         node;
@@ -68,13 +69,13 @@ namespace corotet
     void
     find_blocks(const FloatVector            &diagonal,
                 const SurfaceOperator<float> &surface);
-    /// y = D^{-1} x, another vector.
+    /// y = D^{-1} x; y and x must be different vectors.
     void
     scale(FloatVector &y, const FloatVector &x) const;
     /// The square root of x . D x without prescribed unknowns. Collective.
     double
     norm(const FloatVector &x) const;
-    /// One step as CellwiseOperator::chebyshev_step().
+    /// Makes one step as CellwiseOperator::chebyshev_step() does.
     void
     make_step(FloatVector       &x,
               const FloatVector &b,
@@ -90,7 +91,7 @@ namespace corotet
     FloatVector                    inverse_diagonal;
     mutable FloatVector            step;
     std::vector<NodeBlock>         blocks;
-    /// Work space where there are blocks.
+    /// Work space, used if there are blocks.
     mutable FloatVector residual, scaled_residual;
   };
 } // namespace corotet

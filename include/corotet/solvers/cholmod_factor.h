@@ -36,7 +36,7 @@ namespace corotet
     CholmodFactor &
     operator=(const CholmodFactor &) = delete;
 
-    /// For each row its first entry, and their number.
+    /// The first entry of each row, and at the end the number of entries.
     int *
     row_starts()
     {
@@ -61,7 +61,8 @@ namespace corotet
       return static_cast<const int *>(lower->i);
     }
 
-    /// In the order of columns(); float or double, as is_single() says.
+    /// The values in the order of columns(); float or double, as is_single()
+    /// says.
     void *
     values()
     {
@@ -83,26 +84,27 @@ namespace corotet
     void
     convert_to_double();
 
-    /// Computes L. False if A is not positive definite up to round-off. The
-    /// first call allocates what solve() needs.
+    /// Computes L. Returns false if A is not positive definite up to round-off.
+    /// The first call allocates the memory for solve().
     bool
     factorize();
 
-    /// Entries of L, zeros in its supernodes included.
+    /// Number of entries of L, zeros in its supernodes included.
     std::size_t
     n_entries() const
     {
       return L->xsize;
     }
 
-    /// Floating-point operations of factorize(), known since analyze().
+    /// Number of floating-point operations of factorize(), known after
+    /// analyze().
     double
     n_operations() const
     {
       return operations;
     }
 
-    /// dst = @p factor A^-1 src; they may be the same. Allocates nothing.
+    /// dst = @p factor A^-1 src; both may be the same. Allocates no memory.
     template <typename Number>
     void
     solve(Number *dst, const Number *src, const double factor);

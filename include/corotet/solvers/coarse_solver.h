@@ -12,8 +12,8 @@
 namespace corotet
 {
   /**
-   * A further solver of p-multigrid for degree 1, beside those that it has
-   * itself: an approximate inverse of a symmetric positive definite matrix, and
+   * A further solver for degree 1 in p-multigrid, beside those of its own: an
+   * approximate inverse of a symmetric positive definite matrix, which is
    * symmetric and positive definite, too.
    */
   class CoarseSolver
@@ -21,8 +21,8 @@ namespace corotet
   public:
     virtual ~CoarseSolver() = default;
 
-    /// @p positions of the owned nodes [m]. @p A must live as long as vmult()
-    /// is called. Collective.
+    /// @p positions are those of the owned nodes [m]. @p A must live as long as
+    /// vmult() is called. Collective.
     virtual void
     build(const BlockMatrix &A, const Vector &positions) = 0;
 

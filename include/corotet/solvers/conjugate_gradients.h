@@ -67,18 +67,18 @@ namespace corotet
 
     /**
      * Goes on from @p x until the control is content with the norm of the
-     * residual b - A x. Returns whether it is; not, if it stops at a direction
-     * of negative curvature, p . A p < 0, which it has not gone along. Throws
-     * dealii::SolverControl::NoConvergence after the control's largest number
-     * of steps, and StepInterrupted. The preconditioner @p P is symmetric and
-     * positive definite. Collective.
+     * residual b - A x. Returns whether it is; it is not if the method stops at
+     * a direction of negative curvature, p . A p < 0, along which it has not
+     * gone. Throws dealii::SolverControl::NoConvergence after the control's
+     * largest number of steps, and StepInterrupted. The preconditioner @p P is
+     * symmetric and positive definite. Collective.
      */
     template <typename Matrix, typename Preconditioner>
     bool
     solve(const Matrix &A, Vector &x, const Vector &b, const Preconditioner &P)
     {
       dealii::GrowingVectorMemory<Vector> memory;
-      // One for z = P r and A p: z is part of p by then.
+      // One vector serves for z = P r and A p: z is part of p by then.
       dealii::GrowingVectorMemory<Vector>::Pointer r(memory), p(memory),
         z(memory);
       const auto &Ap = z;

@@ -11,8 +11,8 @@ namespace corotet
 {
   /**
    * The inverse by sparse factorisation. The factors of an older A serve as
-   * preconditioner as long as a few iterations suffice: a rotation update does
-   * not force a new factorisation.
+   * preconditioner as long as a few iterations suffice: new rotations do not
+   * force a new factorisation.
    */
   class DirectSolver : public Preconditioner
   {
@@ -20,15 +20,15 @@ namespace corotet
     unsigned int
     acceptable_iterations(const unsigned int) const override
     {
-      // A factorisation costs more than ten solves with it, for the meshes
-      // that one would factorise.
+      // A factorisation costs more than ten solves with it, for meshes that are
+      // small enough to be factorised.
       return 10;
     }
   };
 
   /**
-   * By CHOLMOD in double precision, on rank 0: of the tangent where that is
-   * definite, else of the effective operator.
+   * The inverse by CHOLMOD in double precision, on rank 0: of the tangent where
+   * that is definite, else of the effective operator.
    */
   class CholeskyDirect : public DirectSolver
   {
@@ -62,13 +62,13 @@ namespace corotet
     }
 
   private:
-    /// False if the matrix is not positive definite.
+    /// Returns false if the matrix is not positive definite.
     bool
     factorize(const BlockMatrix &matrix);
 
     SparseCholesky factors;
-    /// Whether factors are those of a tangent or of something close to it, and
-    /// whether it was not definite.
+    /// Whether factors are those of a tangent or of a matrix close to it, and
+    /// whether the tangent itself was not definite.
     bool is_of_tangent = false;
     bool is_makeshift  = false;
   };

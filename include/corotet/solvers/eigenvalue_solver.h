@@ -30,9 +30,9 @@ namespace corotet
    * also where K has rigid body modes. These are known, come first, and are
    * kept out of the search.
    *
-   * Several equal eigenvalues are found by blocks, and because the search is
-   * repeated among vectors orthogonal to all that were found, until what it
-   * finds is no smaller than these.
+   * Multiple eigenvalues are found by blocks, and because the search is
+   * repeated among vectors orthogonal to all that were found, until its result
+   * is no smaller than these.
    *
    * The arguments of the constructor must outlive this object. Members are
    * collective.
@@ -42,11 +42,11 @@ namespace corotet
   public:
     /**
      * @p A is updated here, and must be the operator of a body at rest. If it
-     * has a matrix of the surface, that is part of K.
-     * @p tolerance: of the residuals of A^{-1} M x = x / (lambda + s), relative
-     * to 1 / (lambda + s) in the norm of M. @p null_space: linearly independent
-     * x with K x = 0, all that there are, without ghost values. @p progress is
-     * told the number of linear solves after each.
+     * has a matrix of the surface, that is part of K. @p tolerance is that of
+     * the residuals of A^{-1} M x = x / (lambda + s), relative to 1 / (lambda +
+     * s) in the norm of M. @p null_space has a basis of all x with K x = 0,
+     * without ghost values. After each linear solve @p progress is called with
+     * their number.
      */
     EigenvalueSolver(EffectiveOperator                       &A,
                      LinearSolver                            &linear_solver,
@@ -61,43 +61,45 @@ namespace corotet
       return n_free;
     }
 
-    /// Eigenvalues that can be asked for: a quarter of the unknowns, as the
-    /// others are no properties of the body any more, but of the mesh. None of
-    /// fewer than 16 unknowns: there is no room for a search.
+    /// The largest number of eigenvalues that can be asked for: a quarter of
+    /// the unknowns, as higher ones are properties of the mesh and not of the
+    /// body. It is zero with fewer than 16 unknowns, which leave no room for a
+    /// search.
     unsigned int
     max_eigenvalues() const
     {
       return n_free < 16 ? 0 : n_free / 4;
     }
 
-    /// An estimate of the smallest eigenvalue [1/s^2] of x orthogonal to the
+    /// An estimate of the smallest eigenvalue [1/s^2] among x orthogonal to the
     /// linearly independent @p motions, which have no ghost values and include
     /// the null space: the Rayleigh quotient after three steps of inverse
-    /// iteration with @p shift, from a random vector. From above, mostly by
-    /// less than a factor of two if the shift is not above it. With
-    /// @p of_strain the quotient has the energy of strain only: what is left of
-    /// a mode without such motions moves on elastic supports as no mode does,
-    /// which may take any energy.
+    /// iteration with @p shift, from a random vector. It is an upper bound,
+    /// mostly by less than a factor of two if the shift is not above it. With
+    /// @p of_strain the quotient only has the energy of strain: the remainder
+    /// of a mode without such motions moves on elastic supports as no mode
+    /// does, so their energy may be anything.
     double
     lowest_eigenvalue(const double        shift,
                       std::vector<Vector> motions,
                       const bool          of_strain);
 
     /**
-     * The @p n smallest, 1 to max_eigenvalues(), and the values of some that
-     * follow, if there are more than null_space has. @p shift is s > 0 [1/s^2],
-     * best somewhat below the smallest eigenvalue of a mode that deforms the
-     * body. Throws ComputationError if they are not found.
+     * Finds the @p n smallest eigenpairs, 1 to max_eigenvalues(), and the
+     * values of some further ones, if @p n is larger than the null space.
+     * @p shift is s > 0 [1/s^2], best somewhat below the smallest eigenvalue of
+     * a mode that deforms the body. Throws ComputationError if they are not
+     * found.
      */
     Eigenpairs
     solve(const unsigned int n, const double shift);
 
-    /// f = K x, the operator's matrix of the surface included, and g = M x,
-    /// zero where x is prescribed. Not for x with ghost values.
+    /// f = K x, including the operator's matrix of the surface, and g = M x,
+    /// both zero where x is prescribed. x must not have ghost values.
     void
     apply(Vector &f, Vector &g, const Vector &x) const;
 
-    /// Of all solves so far.
+    /// The number of linear solves so far.
     unsigned int
     n_linear_solves() const
     {
@@ -114,22 +116,23 @@ namespace corotet
     class ShiftedInverse;
     class FreeMass;
 
-    /// Vectors that are orthonormal in the inner product of M, and what M makes
-    /// of them.
+    /// Vectors that are orthonormal in the inner product of M, and their
+    /// products with M.
     struct Basis
     {
       std::vector<Vector> vectors;
       std::vector<Vector> M_vectors;
 
-      /// Makes x orthogonal to them.
+      /// Makes x orthogonal to these vectors.
       void
       remove_from(Vector &x) const;
     };
 
-    /// The basis of what linearly independent @p vectors span, in their order.
+    /// The orthonormal basis of the linearly independent @p vectors, in their
+    /// order.
     Basis
     orthonormal(std::vector<Vector> vectors);
-    /// Up to @p n pairs orthogonal to the null space and to @p others.
+    /// Finds up to @p n pairs orthogonal to the null space and to @p others.
     Eigenpairs
     search(const unsigned int n,
            const double       shift,
@@ -155,8 +158,8 @@ namespace corotet
     Basis                             null_space;
     /// Owned unknowns that are not prescribed.
     std::vector<unsigned int> free;
-    /// Each search starts from other vectors: the same ones have no more of a
-    /// mode that was missed than they had before.
+    /// Each search starts from other random vectors: if a mode was missed, the
+    /// same ones would miss it again.
     std::minstd_rand generator;
     unsigned int     n_solves     = 0;
     unsigned int     n_iterations = 0;

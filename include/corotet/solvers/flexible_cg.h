@@ -23,8 +23,8 @@ namespace corotet
    * gradients do. The preconditioner, symmetric and positive definite, need not
    * be quite linear.
    *
-   * It takes 2 k + 3 vectors, while GMRES takes two in each iteration; and
-   * two sums over the ranks in each iteration.
+   * It takes 2 k + 3 vectors, while GMRES takes two for each iteration, and two
+   * sums over the ranks in each iteration.
    */
   class FlexibleCG
   {
@@ -44,9 +44,9 @@ namespace corotet
 
     /**
      * Goes on from @p x until the control is content with the norm of the
-     * residual. Returns whether it is; not, if a direction has no positive
-     * curvature, p . A p <= 0, or if it converges so slowly that a method with
-     * a longer memory should go on from @p x. Throws
+     * residual. Returns whether it is; it is not if a direction has no positive
+     * curvature, p . A p <= 0, or if the method converges so slowly that one
+     * with a longer memory should go on from @p x. Throws
      * dealii::SolverControl::NoConvergence after the control's largest number
      * of steps, and StepInterrupted. Collective.
      */
@@ -83,8 +83,8 @@ namespace corotet
     }
 
   private:
-    /// Whether, at the rate of the last ten steps, it would take more than
-    /// twice the steps that are done.
+    /// Whether the method, at the rate of the last ten steps, would take more
+    /// than twice the steps that are done.
     bool
     is_slow(const std::vector<double> &residuals) const
     {
@@ -106,10 +106,10 @@ namespace corotet
       return step < k ? 0 : step - k;
     }
 
-    /// Makes A p orthogonal to the kept directions. From the oldest on: the
-    /// images of later ones are orthogonal to it already, and what its own
-    /// image adds to the products with later ones is known, so that all
-    /// products are taken together.
+    /// Makes A p orthogonal to the kept directions, beginning with the oldest:
+    /// the images of later ones are orthogonal to it already, and the
+    /// contribution of its own image to the products with later ones is known,
+    /// so that all products are taken together.
     void
     make_conjugate(const unsigned int step, Vector &p, Vector &Ap)
     {
@@ -136,8 +136,8 @@ namespace corotet
       double p_Ap, p_r, r_r, r_Ap, Ap_Ap;
     };
 
-    /// Notes the products of p with the images of the directions that the next
-    /// step has, too.
+    /// Takes the products, and stores those of p with the images of the
+    /// directions that the next step keeps.
     Products
     take_products(const unsigned int step,
                   const Vector      &p,
@@ -158,7 +158,8 @@ namespace corotet
       return {sums[0], sums[1], sums[2], sums[3], sums[4]};
     }
 
-    /// In place of the oldest direction, whose storage the next one takes.
+    /// Stores p and A p in place of the oldest direction, whose memory the next
+    /// one takes.
     void
     keep(const unsigned int place,
          Vector            &p,
@@ -180,9 +181,9 @@ namespace corotet
     std::vector<Vector>    directions;
     std::vector<Vector>    images;
     std::vector<double>    curvatures;
-    /// Entry (j, i): direction j times image i, of an older one.
+    /// Entry (j, i): direction j times the image of an older direction i.
     std::vector<double> crosses;
-    /// Of one message.
+    /// The sums over the ranks of one message.
     std::vector<double> sums;
   };
 } // namespace corotet

@@ -11,7 +11,7 @@
 namespace corotet
 {
   /**
-   * The inverse of the diagonal, always that of the present operator.
+   * Preconditions with the inverse diagonal of the present operator.
    */
   class Jacobi : public Preconditioner
   {

@@ -14,8 +14,9 @@ namespace corotet
 {
   /**
    * The generalized eigenvalue problem K x = lambda M x with symmetric K and
-   * positive definite M, by what they do to a vector: first argument is the
-   * result, complete on owned entries. All collective.
+   * positive definite M, given by functions that apply them to a vector. The
+   * first argument is the result, complete on owned entries. All functions are
+   * collective.
    */
   struct SymmetricPencil
   {
@@ -27,11 +28,11 @@ namespace corotet
   };
 
   /**
-   * The largest eigenvalue, from above, by the Lanczos method in the inner
+   * An upper bound of the largest eigenvalue by the Lanczos method in the inner
    * product of M: the largest Ritz value theta plus its residual norm, as soon
    * as that is below @p tolerance theta. There is an eigenvalue so near to
    * theta [Parlett, The symmetric eigenvalue problem, 1998, theorem 4.5.1]; it
-   * is the largest unless @p start lacks that direction. @p start comes out
+   * is the largest one unless @p start lacks that direction. @p start comes out
    * changed. Throws ComputationError if there is no convergence or a number is
    * not finite. Collective.
    */

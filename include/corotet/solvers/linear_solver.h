@@ -18,7 +18,7 @@
 
 namespace corotet
 {
-  /// Krylov methods, as the entry Method says.
+  /// Krylov methods, as named by the entry Method.
   enum class KrylovMethod
   {
     automatic,
@@ -49,40 +49,41 @@ namespace corotet
    * A Krylov method for the effective operator, or for an operator close to it,
    * with a preconditioner chosen at run time.
    *
-   * Conjugate gradients for what is symmetric; if these meet a direction of
-   * negative curvature, the operator is indefinite and MINRES goes on from
-   * there (the preconditioner, made of the effective operator, is definite
-   * whatever happens). For what is not symmetric flexible conjugate gradients,
-   * and GMRES, which takes far more memory, goes on where these are slow.
+   * Conjugate gradients solve with symmetric operators; if they meet a
+   * direction of negative curvature, the operator is indefinite and MINRES goes
+   * on from there (the preconditioner, made of the effective operator, is
+   * always definite). Flexible conjugate gradients solve with operators that
+   * are not symmetric; where they are slow GMRES goes on, which takes far more
+   * memory.
    *
    * A preconditioner is made at the first solve, after the ratio of mass to
-   * stiffness in the operator changed by more than round-off, or that of the
-   * surface's matrix by more than a factor of two, and when the
-   * iterations have grown past what it calls acceptable; until then it takes
+   * stiffness in the operator has changed by more than round-off, or the
+   * surface's matrix by more than a factor of two, and when iterations exceed
+   * the number that the preconditioner calls acceptable. Until then it takes
    * over new rotations only as far as that is cheap.
    */
   class LinearSolver
   {
   public:
-    /// @p parameters must outlive this object. Residuals are to be below
-    /// @p largest_tolerance, too, relative to the right hand side.
+    /// @p parameters must outlive this object. Residuals relative to the
+    /// right-hand side must also be below @p largest_tolerance.
     explicit LinearSolver(
       const LinearSolverParameters &parameters,
       const double largest_tolerance = std::numeric_limits<double>::infinity());
 
     /// Throws InputError if the parameters are not fit for operators other than
-    /// the effective one: @p symmetric ones or not.
+    /// the effective one, which are @p symmetric or not.
     void
     check_fit(const bool symmetric) const;
 
     /**
      * Solves J x = b, or A x = b if J is null, from x = 0 until the residual is
-     * below the tolerance, or @p loosest if that is larger, times |b| and below
-     * @p limit, or, if it gets no further, what round-off makes of J x. @p
-     * displacement: the current one of the nodes [m]. Returns the number of
-     * iterations. Throws ComputationError if it does not get there. All
-     * operators must be the same object, of which the numbers change, and live
-     * as long as this one is used. Collective.
+     * below the tolerance, or @p loosest if that is larger, times |b|, and
+     * below @p limit; or, if it gets no further, below the round-off of J x.
+     * @p displacement is the current one of the nodes [m]. Returns the number
+     * of iterations. Throws ComputationError if it does not get there. All
+     * operators must be the same object, whose numbers may change, and live as
+     * long as this one is used. Collective.
      */
     unsigned int
     solve(const EffectiveOperator &A,
@@ -93,23 +94,23 @@ namespace corotet
           const double limit         = std::numeric_limits<double>::infinity(),
           const double loosest       = 0);
 
-    /// From now on asks @p question in iterations and before a preconditioner
-    /// is made: then solve() may throw StepInterrupted.
+    /// From now on @p question is asked in iterations and before a
+    /// preconditioner is made: then solve() may throw StepInterrupted.
     void
     ask(const StopQuestion &question)
     {
       stop_question = question;
     }
 
-    /// Lines for the log on how it solves, new since the last call.
+    /// Lines for the log about the solution method, new since the last call.
     std::string
     take_news()
     {
       return preconditioner->take_news();
     }
 
-    /// What later solves depend on beside the preconditioner itself: that is
-    /// made by build_again().
+    /// Transfers the data that later solves depend on, except for the
+    /// preconditioner itself, which build_again() makes.
     void
     transfer(Archive &archive);
 
@@ -135,7 +136,7 @@ namespace corotet
       return parameters.preconditioner.name();
     }
 
-    /// How often a preconditioner has been made.
+    /// The number of preconditioners that have been made.
     unsigned int
     preconditioner_builds() const
     {
@@ -143,22 +144,23 @@ namespace corotet
     }
 
   private:
-    /// The preconditioner, which asks now and then.
+    /// The preconditioner as deal.II's methods see it; it asks the stop
+    /// question from time to time.
     class AskingPreconditioner;
 
-    /// Whether b - J x is nothing but round-off.
+    /// Whether b - J x is only round-off.
     bool
     is_round_off(const EffectiveOperator &A,
                  const TangentOperator   *J,
                  const Vector            &x,
                  const Vector            &b) const;
-    /// Iterations after which a solve has failed: fewer if the preconditioner
-    /// was made of another operator, unless it @p is_new, and for @p J, if that
-    /// is an exact tangent.
+    /// Number of iterations after which a solve has failed: smaller if the
+    /// preconditioner was made of another operator, unless it @p is_new, and if
+    /// @p J is an exact tangent.
     unsigned int
     largest_number(const bool is_new, const TangentOperator *J) const;
-    /// Decides whether the next solve is to have the same preconditioner, after
-    /// one with J, or with A if that is null, for which it @p was_built.
+    /// Decides whether the next solve may use the same preconditioner, after a
+    /// solve with J, or with A if that is null, for which it @p was_built.
     void
     take_note(const unsigned int       iterations,
               const bool               was_built,
@@ -166,8 +168,8 @@ namespace corotet
               const TangentOperator   *J,
               const double             loosest);
     /// These go on from x to a residual of @p wanted and return the number of
-    /// iterations. The first lets the preconditioner change meanwhile, which
-    /// may be new, made for this solve; the others throw
+    /// iterations. The first one lets the preconditioner change meanwhile;
+    /// @p is_new says that it was made for this solve. The others throw
     /// dealii::SolverControl::NoConvergence after @p limit iterations.
     unsigned int
     solve_patiently(const bool               is_new,
@@ -208,20 +210,22 @@ namespace corotet
     bool   is_built         = false;
     double built_mass_ratio = 0;
     double built_surface    = 0;
-    /// Of the operator that the preconditioner was made of.
+    /// Version of the operator that the preconditioner was made of.
     unsigned int built_version = 0;
 
     unsigned int n_builds = 0;
-    /// Of the present solve, iterations with a preconditioner that has been
+    /// Iterations of the present solve with a preconditioner that has been
     /// replaced meanwhile.
     unsigned int done_before_change = 0;
-    /// Whether one has been, at the first iteration perhaps.
+    /// Whether a preconditioner has been replaced, perhaps at the first
+    /// iteration.
     bool has_changed = false;
-    /// Of the operator, when the preconditioner last heard of it.
+    /// Version of the operator at the preconditioner's last build or update.
     unsigned int known_version = 0;
     /// Iterations of the first solve after the preconditioner was made.
     unsigned int first_iterations = 0;
-    /// What the solves since then have taken more than that, in all.
+    /// The sum of the iterations by which the solves since then exceeded that
+    /// number.
     unsigned int more_iterations = 0;
   };
 } // namespace corotet

@@ -15,9 +15,9 @@
 namespace corotet
 {
   /**
-   * Solves M a = r for the unknowns that are not prescribed. A division if the
-   * mass is lumped; else conjugate gradients with the diagonal as
-   * preconditioner: the scaled mass matrix is well conditioned, with bounds
+   * Solves M a = r for the unknowns that are not prescribed: by a division if
+   * the mass is lumped, else by conjugate gradients with the diagonal as
+   * preconditioner. The scaled mass matrix is well conditioned, with bounds
    * that depend on the degree only [Wathen, Realistic eigenvalue bounds for the
    * Galerkin mass matrix, 1987], so the number of iterations does not grow with
    * the mesh.
@@ -39,8 +39,8 @@ namespace corotet
     solve(Vector &a, const Vector &r) const;
 
     /**
-     * Solves (@p c_M M + S) a = r by conjugate gradients. If the mass is
-     * lumped, they are about the nodes on which @p S acts alone.
+     * Solves (@p c_M M + S) a = r by conjugate gradients; if the mass is
+     * lumped, only for the nodes on which @p S acts.
      */
     unsigned int
     solve(Vector                        &a,
@@ -48,7 +48,7 @@ namespace corotet
           const double                   c_M,
           const SurfaceOperator<double> &S) const;
 
-    /// 1 / M_ii, zero where prescribed.
+    /// 1 / M_ii, zero where the unknown is prescribed.
     const Vector &
     inverse_diagonal_vector() const
     {
@@ -60,13 +60,13 @@ namespace corotet
     vmult(Vector &dst, const Vector &src) const;
 
   private:
-    /// Calls @p function(i) for the owned unknowns that S couples: all of them
-    /// but with a lumped mass.
+    /// Calls @p function(i) for the owned unknowns that the matrix couples:
+    /// those of S if the mass is lumped, else all of them.
     template <typename Function>
     void
     for_each_coupled(const SurfaceOperator<double> &S,
                      const Function                &function) const;
-    /// product = (c_M M + S) x for these, zero where prescribed.
+    /// product = (c_M M + S) x for these unknowns, zero where prescribed.
     void
     multiply(const Vector                  &x,
              const double                   c_M,
@@ -74,11 +74,11 @@ namespace corotet
 
     const Mass             &mass;
     const PrescribedMotion &motion;
-    /// 1 / M_ii, zero where prescribed.
+    /// 1 / M_ii, zero where the unknown is prescribed.
     dealii::DiagonalMatrix<Vector> inverse_diagonal;
     mutable Vector                 ghosted;
-    /// Work space with a matrix of the surface: residual, direction, product
-    /// and inverse diagonal.
+    /// Work space for solves with a matrix of the surface: residual, direction,
+    /// product and inverse diagonal.
     mutable Vector residual, direction, product, inverse;
   };
 } // namespace corotet

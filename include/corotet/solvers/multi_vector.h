@@ -14,26 +14,26 @@
 namespace corotet
 {
   /**
-   * The space of the vectors of a MultiVector: those of one partitioning that
-   * are zero but for some of their unknowns.
+   * The space of the vectors of a MultiVector: all have one partitioning, and
+   * only some of their unknowns may be other than zero.
    */
   struct VectorSpace
   {
-    /// @p like: any of the vectors. @p free: the owned unknowns that may be
-    /// other than zero. Collective.
+    /// @p like is any of the vectors, @p free has the owned unknowns that may
+    /// be other than zero. Collective.
     VectorSpace(const Vector &like, const std::vector<unsigned int> &free);
 
     const Vector                    zero;
     const std::vector<unsigned int> free;
-    /// Of all ranks.
+    /// The number of free unknowns on all ranks.
     const std::size_t dimension;
-    /// Differs from rank to rank.
+    /// The random numbers differ from rank to rank.
     std::minstd_rand generator;
   };
 
   /**
-   * A small dense matrix in memory of others, by columns, which are @p stride
-   * apart.
+   * A small dense matrix in memory that others own, by columns, which are
+   * @p stride apart.
    */
   template <typename Number>
   struct DenseView
@@ -50,11 +50,11 @@ namespace corotet
 
   /**
    * Some vectors of one space side by side, as block methods for eigenvalues
-   * take them: a matrix with few columns. Several objects may have columns in
-   * common; these are views of each other.
+   * use them: a matrix with few columns. Several objects may share columns;
+   * these are views of each other.
    *
-   * Products sum over the ranks once for all of their numbers, and pass through
-   * memory once for each few columns.
+   * Products take one sum over the ranks for all of their numbers, and pass
+   * through memory once for each few columns.
    */
   class MultiVector
   {
@@ -95,7 +95,7 @@ namespace corotet
       return *columns[i];
     }
 
-    /// The columns become those of @p other, as many as it has.
+    /// Sets the columns to those of @p other, which may have fewer.
     void
     assign(const MultiVector &other);
 
@@ -106,7 +106,7 @@ namespace corotet
                const double       b,
                const MultiVector &B);
 
-    /// this = a A C + b this. A has no column of this.
+    /// this = a A C + b this. A and this must have no column in common.
     void
     add_product(const double                  a,
                 const MultiVector            &A,
@@ -124,11 +124,11 @@ namespace corotet
     std::vector<double>
     dots(const MultiVector &other) const;
 
-    /// Free unknowns become random, in [-1, 1].
+    /// Free unknowns get random values in [-1, 1].
     void
     set_random();
 
-    /// Free unknowns become @p value.
+    /// Sets free unknowns to @p value.
     void
     fill(const double value);
 

@@ -24,9 +24,9 @@ namespace corotet
   class NewtonProblem
   {
   public:
-    /// A norm and the size that it is compared with, in the same unit; what
-    /// round-off alone makes of it at the present x, below which it means
-    /// nothing; and what it makes of it at most.
+    /// A norm, and the size that it is compared with, in the same unit; the
+    /// part of it that round-off alone makes at the present x, below which it
+    /// means nothing; and an upper bound of that part.
     struct Norm
     {
       double value;
@@ -46,7 +46,7 @@ namespace corotet
         return value > 0 ? value / scale : 0.;
       }
 
-      /// Whether it is at most that part of the scale, or negligible.
+      /// Whether the norm is at most that part of the scale, or negligible.
       bool
       is_below(const double tolerance) const
       {
@@ -56,13 +56,13 @@ namespace corotet
 
     virtual ~NewtonProblem() = default;
 
-    /// Computes r(x) and the scale of the terms that it is the sum of.
+    /// Computes r(x), and the scale of the terms that are summed in it.
     virtual Norm
     residual(Vector &r) = 0;
 
-    /// Called with the residual at the guess of x, @p r with norm @p at_guess:
-    /// may go to another guess. Leaves the residual there in @p r and returns
-    /// its norm.
+    /// Called with the residual @p r and its norm @p at_guess at the guess of
+    /// x: may go to another guess. Leaves the residual there in @p r and
+    /// returns its norm.
     virtual Norm
     improve_guess(Vector & /*r*/, const Norm &at_guess)
     {
@@ -70,14 +70,14 @@ namespace corotet
     }
 
     /// Solves J dx = r with an approximation J of -dr/dx at the x of the last
-    /// residual. What is left of r may be @p tolerance times r, if that is not
-    /// below what the problem asks for itself. Returns the number of linear
+    /// residual. The residual of this solve may be @p tolerance times r, unless
+    /// the problem's own tolerance is larger. Returns the number of linear
     /// iterations. Throws ComputationError.
     virtual unsigned int
     solve_linearized(Vector &dx, const Vector &r, const double tolerance) = 0;
 
-    /// x += factor dx. The norm is that of factor dx, its scale the size of x,
-    /// and its round-off what x is known to.
+    /// x += factor dx. Returns the norm of factor dx; its scale is the size of
+    /// x, and its round-off that of x.
     virtual Norm
     add(const double factor, const Vector &dx) = 0;
 
@@ -92,7 +92,7 @@ namespace corotet
     virtual void
     keep() = 0;
 
-    /// Sets x to that copy.
+    /// Sets x to the copy.
     virtual void
     restore() = 0;
 
@@ -104,8 +104,8 @@ namespace corotet
       return false;
     }
 
-    /// Whether J is to be a positive definite one, if it has a choice. Returns
-    /// whether it has.
+    /// Makes J positive definite from now on, or no longer, if there is a
+    /// choice. Returns whether there is.
     virtual bool
     use_definite_tangent(const bool /*use*/)
     {
@@ -133,29 +133,29 @@ namespace corotet
    * Newton's method.
    *
    * It has converged when the residual is below its tolerance and the error
-   * that is left in x is below that of the increment (which says nothing more
+   * that is left in x is below that of the increment (which adds no condition
    * where the problem is linear); or when the residual, or a full increment, is
-   * what round-off makes of it, as further increments are no better then.
+   * only round-off, as further increments are no better then.
    *
    * The error is estimated as theta / (1 - theta) |dx|, but at most |dx|, with
    * the last increment dx and the contraction theta of the residual in the last
    * iteration: the bound for linear convergence (Deuflhard, Newton methods for
-   * nonlinear problems, 2004), which an approximate tangent has. So a linear
-   * problem takes one iteration. A start with a thousandth of the tolerated
-   * residual, or with round-off only, takes none.
+   * nonlinear problems, 2004), to be expected with an approximate tangent. So a
+   * linear problem takes one iteration. No iteration is made if the start has a
+   * thousandth of the tolerated residual, or round-off only.
    *
    * Full increments are taken although the residual grows: in bending it first
    * grows by orders of magnitude and is then gone within a few iterations,
-   * where a monotone method would take ages. When it has grown several times
+   * where a monotone method would be very slow. When it has grown several times
    * without coming below its best value in between, or is not finite, the
    * method returns to its best point and searches along the increment from
    * there (the watchdog technique of Chamberlain, Powell, Lemarechal, Pedersen,
    * 1982): for the zero of r . dx where there is an energy (Matthies, Strang,
    * The solution of nonlinear finite element equations, 1979), else for a
-   * smaller |r|. If that finds nothing, it tries the definite tangent's
-   * direction, which always leads down in energy.
+   * smaller |r|. If that fails, it tries the direction of the definite tangent,
+   * in which the energy always decreases.
    *
-   * Linear solves are as good as needed: what they leave is a small part of
+   * Linear solves are as accurate as needed: their residual is a small part of
    * what quadratic convergence will leave after as many iterations as the last
    * solve has needed (an inexact Newton method: Eisenstat, Walker 1996), at
    * most a hundredth. The last one is solved to the full tolerance.
@@ -164,8 +164,8 @@ namespace corotet
    * tangent, the next solve begins with the definite one; the exact one is
    * tried again after one solve, two, four and so on.
    *
-   * Linearly implicit, it makes one iteration and is done: what then remains of
-   * the residual is an error of the time step.
+   * If it is linearly implicit, it makes only one iteration: the remaining
+   * residual is an error of the time step.
    */
   class Newton
   {
@@ -174,14 +174,15 @@ namespace corotet
       : parameters(parameters)
     {}
 
-    /// Throws ComputationError if it does not converge; @p report tells also
-    /// then what was done. @p prototype: a vector like x. Collective.
+    /// Solves the problem. Throws ComputationError if it does not converge;
+    /// also then @p report tells what was done. @p prototype is a vector like
+    /// x. Collective.
     void
     solve(NewtonProblem &problem,
           const Vector  &prototype,
           NewtonReport  &report);
 
-    /// What later solves depend on.
+    /// Transfers the data that later solves depend on.
     void
     transfer(Archive &archive)
     {
@@ -197,9 +198,9 @@ namespace corotet
     /// Iterations that the last solve needed; 0 before the first one, and after
     /// one that failed or searched along a direction.
     unsigned int n_last = 0;
-    /// Solves that are to begin with the definite tangent, as linear solves
-    /// with the exact one have failed in first iterations, and how many were to
-    /// do so when the last one failed.
+    /// Number of solves that are to begin with the definite tangent, as linear
+    /// solves with the exact one have failed in first iterations, and that
+    /// number at the last failure.
     unsigned int n_without_exact = 0;
     unsigned int last_pause      = 0;
     // Work space.

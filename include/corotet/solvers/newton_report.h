@@ -14,32 +14,32 @@ namespace corotet
    */
   struct NewtonIteration
   {
-    /// Residual after it, relative to the forces.
+    /// Residual after the iteration, relative to the forces.
     double residual;
     /// |dx| / |x|.
     double increment;
-    /// Part of the increment that a line search took; 1 without one.
+    /// Part of the increment that a line search took; 1 without a search.
     double length;
-    /// Whether the definite tangent stood in for the one asked for.
+    /// Whether the definite tangent replaced the one asked for.
     bool         definite;
     unsigned int linear_iterations;
   };
 
   struct NewtonReport
   {
-    /// What kept the residual from its tolerance.
+    /// What kept the residual from reaching its tolerance.
     enum class RoundOff
     {
-      /// Nothing.
+      /// Nothing: it has reached the tolerance.
       none,
-      /// It is round-off.
+      /// The residual is round-off.
       of_residual,
       /// The last increment was no more than the round-off of x.
       of_increment
     };
 
     RoundOff round_off = RoundOff::none;
-    /// At the end.
+    /// Relative residual at the end.
     double                       final_residual    = 0;
     unsigned int                 iterations        = 0;
     unsigned int                 linear_iterations = 0;
@@ -48,8 +48,8 @@ namespace corotet
     std::vector<NewtonIteration> history;
 
     /// log(e_k / e_k-1) / log(e_k-1 / e_k-2) with the last three increments e
-    /// above round-off. NaN if there are none, or if these do not at least
-    /// halve or were shortened.
+    /// above round-off. NaN if there are fewer, or if they do not at least
+    /// halve each time, or were shortened.
     double
     observed_order() const;
 

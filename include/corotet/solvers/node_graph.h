@@ -19,20 +19,22 @@ namespace corotet
   product(const NodeGraph &a, const NodeGraph &b, const int n_columns);
 
   /**
-   * Disjoint aggregates of neighbouring nodes that cover all (Vanek, Mandel,
-   * Brezina 1996): nodes whose strong neighbours are all free take these, in
-   * the order of their numbers; who is left joins the aggregate that it has the
-   * most strong neighbours in, or is alone. @p is_strong(k): whether entry k of
-   * the graph counts. Returns the aggregate of each node.
+   * Disjoint aggregates of neighbouring nodes that cover all nodes (Vanek,
+   * Mandel, Brezina 1996): in the order of their numbers, nodes whose strong
+   * neighbours are all free take these; each node that is left joins the
+   * aggregate with most of its strong neighbours, or stays alone.
+   * @p is_strong(k) tells whether entry k of the graph is strong. Returns the
+   * aggregate of each node.
    */
   std::vector<int>
   aggregate(const NodeGraph &graph, const std::function<bool(int)> &is_strong);
 
   /**
-   * Larger aggregates: in the order of their numbers, each that is free takes
-   * the free one that most entries of the graph join it with, until @p most
-   * are together or none is left. @p aggregates: of each row; columns beyond
-   * the rows do not count. Returns the new aggregate of each row.
+   * Larger aggregates: in the order of their numbers, each free aggregate takes
+   * the free one that most entries of the graph connect it with, until @p most
+   * are together or none is left. @p aggregates has the aggregate of each row;
+   * columns beyond the rows do not count. Returns the new aggregate of each
+   * row.
    */
   std::vector<int>
   join(const NodeGraph        &graph,

@@ -18,15 +18,15 @@
 namespace corotet
 {
   /**
-   * One V-cycle over the degrees p, p-1, .., 1, from an element with bubbles
-   * over the one without, on the same cells (Weber,
-   * Mueller-Roemer, Altenhofen, Stork, Fellner 2015): matrix-free and in single
-   * precision above degree 1, with Chebyshev smoothers; degree 1 is solved by a
-   * sparse factorisation of its assembled matrix, or one cycle of smoothed
-   * aggregation on it.
+   * One V-cycle over the degrees p, p-1, .., 1, where an element with bubbles
+   * comes before the one without, on the same cells (Weber, Mueller-Roemer,
+   * Altenhofen, Stork, Fellner 2015): matrix-free and in single precision above
+   * degree 1, with Chebyshev smoothers; degree 1 is solved by a sparse
+   * factorisation of its assembled matrix, or one cycle of smoothed aggregation
+   * on it.
    *
    * All levels have the cells in common, so they share one set of rotated
-   * gradients: a rotation update costs a conversion to single precision and
+   * gradients: new rotations cost only a conversion to single precision and new
    * diagonals. The solver of degree 1 and the smoothers' eigenvalues stay those
    * of the last build().
    */
@@ -38,7 +38,7 @@ namespace corotet
       : parameters(parameters)
     {}
 
-    /// A copy has parameters of its own, with the same values, and nothing that
+    /// A copy has parameters of its own, with the same values, but nothing that
     /// has been built.
     PMultigrid(const PMultigrid &other)
       : Preconditioner()
@@ -64,8 +64,8 @@ namespace corotet
     void
     transfer(Archive &archive) override;
 
-    /// 4 to 8 iterations at degree 3, 8 to 13 at degree 2 and 11 to 17 at
-    /// degree 1 were measured.
+    /// Measured costs were 4 to 8 iterations at degree 3, 8 to 13 at degree 2
+    /// and 11 to 17 at degree 1.
     double
     build_cost() const override
     {
@@ -80,19 +80,19 @@ namespace corotet
                     const Vector &src,
                     const double  src_norm) const override;
 
-    /// What the smoothers of all levels, the finest first, take for the largest
-    /// eigenvalue of D^{-1} A since the last build().
+    /// The estimates of the largest eigenvalue of D^{-1} A that the smoothers
+    /// use since the last build(), the finest level first.
     std::vector<double>
     largest_eigenvalues() const;
 
-    /// After the first build().
+    /// The level of degree 1; only after the first build().
     const VertexLevel &
     lowest_level() const
     {
       return *vertex_level;
     }
 
-    /// Of the body's cells, after the first build().
+    /// Proportions of the body's cells; only after the first build().
     const CellProportions &
     proportions() const
     {
@@ -102,7 +102,7 @@ namespace corotet
   private:
     using FloatVector = Chebyshev::FloatVector;
 
-    /// An element of a degree above 1.
+    /// A level above degree 1.
     struct Level
     {
       Level(const Nodes                      &nodes,
@@ -133,19 +133,20 @@ namespace corotet
 
     const std::shared_ptr<PMultigridParameters> parameters;
 
-    /// Finest first.
+    /// The levels, finest first.
     std::vector<std::unique_ptr<Level>>            levels;
     dealii::AlignedVector<CellCoefficients<float>> coefficients;
     dealii::AlignedVector<CellMasses<float>>       masses;
-    /// Units of the single precision numbers: of stiffness and of mass.
+    /// Units of the stiffness and of the mass in single precision.
     double stiffness_unit = 1;
     double mass_unit      = 1;
-    /// The operator's, less the unit: what vmult() divides by.
+    /// The scale of the operator, by which vmult() divides.
     double scale = 1;
 
     CellProportions              the_proportions;
     std::unique_ptr<VertexLevel> vertex_level;
-    /// As that was before a restart.
+    /// Whether the first factors are in double precision, as they were before a
+    /// restart.
     bool begins_in_double = false;
   };
 } // namespace corotet

@@ -13,12 +13,13 @@
 namespace corotet
 {
   /**
-   * The parameters of PMultigrid, which others that use one have in common.
+   * The parameters of PMultigrid, which may be shared with other
+   * preconditioners.
    */
   struct PMultigridParameters
   {
-    /// @p further: solvers of degree 1 beside the own ones, whose parameters
-    /// others declare.
+    /// @p further are solvers of degree 1 beside the own ones; their parameters
+    /// are declared elsewhere.
     explicit PMultigridParameters(const CoarseSolvers &further = {})
       : further(further)
     {}

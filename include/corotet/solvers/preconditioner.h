@@ -19,7 +19,8 @@ namespace corotet
 
   /**
    * An approximate inverse P of the effective operator A for conjugate
-   * gradients: symmetric and positive definite. The exact inverse is one too.
+   * gradients, symmetric and positive definite. The exact inverse is allowed,
+   * too.
    */
   class Preconditioner
   {
@@ -31,15 +32,15 @@ namespace corotet
     {}
 
     /**
-     * Makes P from A as it is now. @p displacement is the current one of
-     * the nodes [m], from which rigid body modes are made. A must live as long
-     * as P is used; when it changes, P is that of an older A. Collective.
+     * Makes P from A as it is now. @p displacement is the current one of the
+     * nodes [m], from which rigid body modes are made. A must live as long as P
+     * is used; when it changes, P remains that of the older A. Collective.
      */
     virtual void
     build(const EffectiveOperator &A, const Vector &displacement) = 0;
 
-    /// The same for solves with the operator @p J, which is close to A; null if
-    /// it is A. P may be made of J, if that is definite.
+    /// Makes P for solves with the operator @p J, which is close to A; null if
+    /// it is A itself. P may be made of J if that is definite.
     virtual void
     build_for(const EffectiveOperator &A,
               const TangentOperator * /*J*/,
@@ -48,7 +49,7 @@ namespace corotet
       build(A, displacement);
     }
 
-    /// Takes over a new A as far as that is cheap. Collective.
+    /// Takes over the changes of A as far as that is cheap. Collective.
     virtual void
     update(const EffectiveOperator & /*A*/)
     {}
@@ -57,8 +58,8 @@ namespace corotet
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
-    /// The same where the norm of @p src is known, which may save a sum over
-    /// the ranks. Collective.
+    /// The same, given the norm of @p src, which may save a sum over the ranks.
+    /// Collective.
     virtual void
     vmult_with_norm(Vector       &dst,
                     const Vector &src,
@@ -67,26 +68,27 @@ namespace corotet
       vmult(dst, src);
     }
 
-    /// What an iteration takes, where that is far more than the operator's
-    /// application: in iterations of a preconditioner that is as cheap.
+    /// The cost of an iteration, relative to one with a preconditioner that is
+    /// about as cheap as the operator, if it is far more than that.
     virtual double
     cost() const
     {
       return 1;
     }
 
-    /// Iterations of a solve after which change() is to be called; @p is_new:
-    /// P was built for this solve; @p is_tangent: it is one with J.
+    /// Number of iterations of a solve after which change() is to be called.
+    /// @p is_new tells that P was built for this solve, @p is_tangent that the
+    /// solve is with J.
     virtual unsigned int
     patience(const bool /*is_new*/, const bool /*is_tangent*/) const
     {
       return std::numeric_limits<unsigned int>::max();
     }
 
-    /// Looks for a better P of the same A and J, as a solve has taken
-    /// @p n_iterations, as many as patience() says: afterwards that is longer.
-    /// It would take @p n_expected in all as it goes.
-    /// Returns whether P is another one now. Collective.
+    /// Looks for a better P for the same A and J, as a solve has taken
+    /// @p n_iterations, as many as patience() returns, and would take about
+    /// @p n_expected in all. Afterwards patience() must be larger. Returns
+    /// whether P has changed. Collective.
     virtual bool
     change(const EffectiveOperator & /*A*/,
            const TangentOperator * /*J*/,
@@ -97,29 +99,29 @@ namespace corotet
       return false;
     }
 
-    /// Hears of each solve that has come to its end, and whether P was built
-    /// for it. Returns whether P is to be built anew before the next one.
+    /// Called after each solve that has ended, with whether P was built for it.
+    /// Returns whether P is to be built anew before the next one.
     virtual bool
     take_note(const unsigned int /*n_iterations*/, const bool /*was_built*/)
     {
       return false;
     }
 
-    /// Lines for the log on what has been decided since the last call; empty if
-    /// there is nothing new.
+    /// Lines for the log about decisions since the last call; empty if there
+    /// were none.
     virtual std::string
     take_news()
     {
       return {};
     }
 
-    /// What later decisions depend on.
+    /// Transfers the data that later decisions depend on.
     virtual void
     transfer(Archive & /*archive*/)
     {}
 
-    /// Whether P, with which a solve has taken so many iterations, is to be
-    /// built anew even if that one was the first with it: the next operator may
+    /// Whether P is to be built anew after a solve with that many iterations,
+    /// even if it was the first one with this P: one for the next operator may
     /// fit better.
     virtual bool
     is_worth_another(const unsigned int /*n_iterations*/) const
@@ -127,17 +129,17 @@ namespace corotet
       return false;
     }
 
-    /// What build() takes, in iterations of a solve: as soon as the solves
-    /// since the last one have taken so many more, all together, than if each
-    /// had taken as many as the first, P is outdated.
+    /// The cost of build() in iterations of a solve: P is outdated as soon as
+    /// the solves since the last build() have taken so many iterations more,
+    /// all together, than if each had taken as many as the first one.
     virtual double
     build_cost() const
     {
       return std::numeric_limits<double>::infinity();
     }
 
-    /// Iterations that a solve may take before P counts as outdated,
-    /// given those of the first solve after it was built.
+    /// Number of iterations that a solve may take before P counts as outdated,
+    /// given that of the first solve after it was built.
     virtual unsigned int
     acceptable_iterations(const unsigned int first) const
     {

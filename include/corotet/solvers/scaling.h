@@ -10,15 +10,16 @@ namespace corotet
 {
   /**
    * Units in which numbers of any size fit into single precision. They are
-   * powers of two: to divide by them rounds nothing.
+   * powers of two, so that division by them is exact.
    */
 
-  /// The largest power of two that is not above @p size; 1 if that is no
+  /// The largest power of two that is not above @p size; 1 if that is not a
   /// positive number.
   double
   power_of_two(const double size);
 
-  /// That of the largest absolute entry of A, over all ranks. Collective.
+  /// The power of two of the largest absolute entry of A on all ranks.
+  /// Collective.
   double
   unit_of(const BlockMatrix &A);
 } // namespace corotet

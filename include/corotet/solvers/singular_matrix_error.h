@@ -9,8 +9,8 @@
 namespace corotet
 {
   /**
-   * A matrix that must be positive definite is singular, up to round-off: the
-   * same matrix would be so again.
+   * A matrix that must be positive definite is singular, up to round-off:
+   * another try with the same matrix would fail again.
    */
   class SingularMatrixError : public ComputationError
   {

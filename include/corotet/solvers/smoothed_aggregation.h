@@ -19,57 +19,57 @@ namespace corotet
    * positive definite.
    *
    * The unknowns of a coarser level are the six rigid body motions of every
-   * aggregate of points of the one above, smoothed by one step of damped block
-   * Jacobi. There are as many levels as it takes for the last one to be small;
-   * that is solved by a sparse factorisation on rank 0. The smoothers are
-   * Chebyshev polynomials of D^-1 A, D block diagonal. What levels are made of
-   * is computed in double precision; patterns are kept while that of A is the
-   * same.
+   * aggregate of points of the level above, smoothed by one step of damped
+   * block Jacobi. Levels are added until the last one is small; that is solved
+   * by a sparse factorisation on rank 0. The smoothers are Chebyshev
+   * polynomials of D^-1 A, with D block diagonal. Levels are computed in double
+   * precision; their patterns are kept while that of A is the same.
    *
-   * Aggregates stay within a rank; their smoothed motions go on behind it.
+   * Aggregates stay within a rank; their smoothed motions extend to others.
    */
   class SmoothedAggregation
   {
   public:
-    /// @p degree of the smoothers.
+    /// @p degree is that of the smoothers.
     explicit SmoothedAggregation(const unsigned int degree = 3)
       : degree(degree)
       , finest(degree)
     {}
 
-    /// From the next pattern on. Of aggregates with a least similarity, see
-    /// Coarsening, D has the diagonal blocks, otherwise those of points. Flat
-    /// and stretched cells need about 0.3: an aggregate across their weak
-    /// couplings takes for smooth what is not. Only the finest level joins
-    /// aggregates.
+    /// Sets the coarsening from the next pattern on. With a least similarity,
+    /// see Coarsening, D has the diagonal blocks of aggregates, else those of
+    /// points. Flat and stretched cells need about 0.3: aggregates across their
+    /// weak couplings would treat motions as smooth that are not. Only the
+    /// finest level joins aggregates.
     void
     set_coarsening(const Coarsening &wanted)
     {
       coarsening = wanted;
     }
 
-    /// @p positions: three coordinates per owned node [m]. Throws
+    /// @p positions has three coordinates per owned node [m]. Throws
     /// SingularMatrixError if A is singular. Collective.
     void
     build(const BlockMatrix &A, const double *positions);
 
-    /// The same, but A is left without values: that takes less memory.
+    /// The same, but A is left without values, which takes less memory.
     void
     build(BlockMatrix &&A, const double *positions);
 
-    /// The same for a matrix of aggregates, whose numbers are near one.
+    /// The same for a matrix of aggregates, whose entries are near one.
     /// Collective.
     void
     build(const AggregateProblem &A);
 
     /// dst = P src, owned entries, for float or double. @p size is about that
-    /// of src, on all ranks the same: numbers in single precision are relative
+    /// of src, the same on all ranks: numbers in single precision are relative
     /// to it. Only the first call allocates memory. Collective.
     template <typename Number>
     void
     vmult(Number *dst, const Number *src, const double size) const;
 
-    /// Of all ranks, on each level from the second one on.
+    /// Number of aggregates on all ranks, for each level from the second one
+    /// on.
     std::vector<int>
     n_aggregates() const;
 
@@ -91,7 +91,7 @@ namespace corotet
     build_from_finest(const BlockMatrix &A,
                       BlockMatrix       *given_up,
                       const double      *positions);
-    /// The levels of aggregates below @p problem.
+    /// Builds the levels below the one that has made @p problem.
     void
     build_coarser(const AggregateProblem *problem);
     template <typename Level>
@@ -103,11 +103,11 @@ namespace corotet
     const unsigned int degree;
     Coarsening         coarsening;
 
-    /// Unused where the matrix is one of aggregates.
+    /// The finest level; unused if the matrix is one of aggregates.
     AggregationLevel<3>                               finest;
     std::vector<std::unique_ptr<AggregationLevel<6>>> coarser;
     SparseCholesky last_factor{SparseCholesky::Precision::single_precision};
-    /// Of the owned aggregates of the last level, six each.
+    /// Unknowns of the owned aggregates of the last level, six for each.
     mutable std::vector<float> last_unknowns;
     MPI_Comm                   communicator     = MPI_COMM_SELF;
     int                        n_unknowns       = 0;

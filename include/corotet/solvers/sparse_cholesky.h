@@ -24,10 +24,10 @@ namespace corotet
    *
    * In single precision, factors take half the memory and half the time; the
    * relative error of a solution is about 1e-7 times the condition number, good
-   * enough for a preconditioner. Where rounding gets the better of them, double
-   * precision takes their place, until the sparsity changes. A and the vectors
-   * may have any size: they are scaled by powers of two, which rounds nothing,
-   * before they become single.
+   * enough for a preconditioner. If they fail because of rounding, double
+   * precision is used until the sparsity changes. A and the vectors may have
+   * any size: they are scaled by powers of two, which is exact, before they
+   * become single.
    */
   class SparseCholesky
   {
@@ -43,15 +43,15 @@ namespace corotet
 
     ~SparseCholesky();
 
-    /// Takes double precision for the first factors, as it had been taken
-    /// before a restart.
+    /// Makes the first factors in double precision, as they were before a
+    /// restart.
     void
     begin_in_double()
     {
       first = Precision::double_precision;
     }
 
-    /// Finds ordering and pattern of L alone, for n_entries() and
+    /// Finds only the ordering and the pattern of L, for n_entries() and
     /// n_operations(). Throws as factorize() does. Collective.
     void
     analyze(const BlockMatrix &A);
@@ -67,9 +67,9 @@ namespace corotet
     factorize(const BlockMatrix &A);
 
     /**
-     * dst = A^-1 src, owned entries only; they may be the same. Of float or
-     * double, distributed as the rows of A. Only the first call allocates
-     * memory. Collective.
+     * dst = A^-1 src, owned entries only; both may be the same. They are arrays
+     * of float or double, distributed as the rows of A. Only the first call
+     * allocates memory. Collective.
      */
     template <typename Number>
     void
@@ -80,17 +80,17 @@ namespace corotet
     vmult(dealii::LinearAlgebra::distributed::Vector<Number>       &dst,
           const dealii::LinearAlgebra::distributed::Vector<Number> &src) const;
 
-    /// Entries of L, those of the zeros in its supernodes included; the same on
+    /// Number of entries of L, with the zeros in its supernodes; the same on
     /// all ranks.
     std::size_t
     n_entries() const;
 
-    /// Floating-point operations that a factorisation takes; the same on all
+    /// Number of floating-point operations of a factorisation; the same on all
     /// ranks.
     double
     n_operations() const;
 
-    /// What the present L is stored in; the same on all ranks.
+    /// Precision in which the present L is stored; the same on all ranks.
     Precision
     precision() const;
 

@@ -13,28 +13,30 @@
 namespace corotet
 {
   /**
-   * Whether a solve is to be given up. Each rank is asked, and one that says
-   * yes is enough. Its answers go along with sums that a method takes anyway.
+   * The question whether a solve is to be given up. Each rank is asked, and a
+   * single yes is enough. The answers are added to sums that a method takes
+   * anyway.
    */
   class StopQuestion
   {
   public:
-    /// Nobody wants to stop.
+    /// A question without anybody to ask: never stops.
     StopQuestion() = default;
 
-    /// @p wants_to_stop may say different things on different ranks; empty: no.
+    /// @p wants_to_stop may answer differently on different ranks; empty means
+    /// no.
     explicit StopQuestion(std::function<bool()> wants_to_stop)
       : wants_to_stop(std::move(wants_to_stop))
     {}
 
-    /// What this rank adds to a sum over all ranks.
+    /// The summand of this rank in a sum over all ranks.
     double
     share() const
     {
       return wants_to_stop && wants_to_stop() ? 1. : 0.;
     }
 
-    /// Throws StepInterrupted if @p sum, of all shares, says so.
+    /// Throws StepInterrupted if @p sum, the sum of all shares, is positive.
     static void
     obey(const double sum)
     {
@@ -42,8 +44,8 @@ namespace corotet
         throw StepInterrupted();
     }
 
-    /// Takes the sum and obeys. Does nothing if nobody is to be asked, which
-    /// must be so on all ranks or on none. Collective.
+    /// Asks, sums and obeys. Does nothing if nobody is to be asked, which must
+    /// be so on all ranks or on none. Collective.
     void
     ask(const MPI_Comm comm) const
     {

@@ -20,8 +20,8 @@
 namespace corotet
 {
   /**
-   * The lowest level of PMultigrid, whose matrix is assembled: degree 1, where
-   * cells are flat or stretched with the rotations of the vertices
+   * The lowest level of PMultigrid, whose matrix is assembled: degree 1, and
+   * where cells are flat or stretched with the rotations of the vertices, too
    * (VertexMotions). A sparse factorisation solves it, or one cycle of smoothed
    * aggregation.
    */
@@ -30,10 +30,11 @@ namespace corotet
   public:
     using FloatVector = VertexMotions::FloatVector;
 
-    /// Of an element of degree 1, @p A, or, if @p quadratic is not null, below
-    /// that one of degree 2, whose vertices are @p coarser; @p is_prescribed
-    /// of its unknowns. @p finest_nodes: local numbers of the owned vertices
-    /// among the nodes of A. All others must outlive this object. Collective.
+    /// The level of @p A, if that is of degree 1; else the level below the
+    /// element @p quadratic of degree 2, whose vertices are @p coarser, and
+    /// whose prescribed unknowns are @p is_prescribed. @p finest_nodes has the
+    /// local numbers of the owned vertices among the nodes of A. All others
+    /// must outlive this object. Collective.
     VertexLevel(const PMultigridParameters       &parameters,
                 const EffectiveOperator          &A,
                 const CellProportions            &proportions,
@@ -42,37 +43,37 @@ namespace corotet
                 const std::vector<unsigned char> &is_prescribed,
                 std::vector<unsigned int>         finest_nodes);
 
-    /// Takes over A over @p scale. @p displacement: that of the finest nodes
+    /// Takes over A / @p scale. @p displacement is that of the finest nodes
     /// [m]. Collective.
     void
     build(const EffectiveOperator &A,
           const double             scale,
           const Vector            &displacement);
 
-    /// to = A^{-1} from, about, where A is of degree 1. @p norm of @p from,
-    /// not 0. Collective.
+    /// to = A^{-1} from, approximately, if A is of degree 1. @p norm is that of
+    /// @p from, and not 0. Collective.
     void
     vmult(Vector &to, const Vector &from, const double norm) const;
 
-    /// fine += P A^{-1} P^T residual, about, for the quadratic element: zero at
-    /// prescribed unknowns, where both must be zero. The residual's size is
-    /// about one. Collective.
+    /// fine += P A^{-1} P^T residual, approximately, for the quadratic element;
+    /// zero at prescribed unknowns, where both arguments must be zero. The
+    /// residual's size must be about one. Collective.
     void
     correct(FloatVector &fine, const FloatVector &residual) const;
 
-    /// What a sparse factorisation of the matrix of degree 1, without
-    /// rotations, would take, or has taken: floating-point operations, and
+    /// The size of a sparse factorisation of the matrix of degree 1 without
+    /// rotations, whether it is made or not: floating-point operations and
     /// entries.
     struct Factorization
     {
       double n_unknowns, n_operations, n_entries;
     };
 
-    /// After build(). Collective.
+    /// The size of the factorisation; only after build(). Collective.
     Factorization
     factorization(const EffectiveOperator &A) const;
 
-    /// Whether there is that factorisation.
+    /// Whether a factorisation solves this level.
     bool
     has_factors() const
     {
@@ -89,7 +90,7 @@ namespace corotet
       return factor.precision() == SparseCholesky::Precision::double_precision;
     }
 
-    /// Lets them be so from the first ones on.
+    /// Makes the first factors in double precision, too.
     void
     begin_in_double()
     {
@@ -109,7 +110,7 @@ namespace corotet
     coarsening_for(const CellProportions &cells) const;
     bool
     wants_rotations(const CellProportions &cells) const;
-    /// Whether factors of A, the matrix of this level, are small enough.
+    /// Whether factors of A, the matrix of this level, are small enough to pay.
     bool
     factors_pay(const BlockMatrix &A);
     const BlockMatrix &
@@ -118,34 +119,34 @@ namespace corotet
     assemble(const EffectiveOperator &A,
              const double             scale,
              const Vector            &displacement);
-    /// Owned entries, of float or double; @p size is about that of @p from.
+    /// Owned entries are float or double; @p size is about that of @p from.
     template <typename Number>
     void
     solve(Number *to, const Number *from, const double size) const;
 
     const PMultigridParameters &parameters;
-    /// Null where A is of degree 1.
+    /// Null if A is of degree 1.
     const Nodes              *quadratic;
     const CoarserNodes       *coarser;
     const Nodes              &vertices;
     std::vector<unsigned int> finest_nodes;
-    /// Local unknowns of vertices.
+    /// Local prescribed unknowns of vertices.
     std::vector<unsigned int> prescribed;
     bool                      is_thin_body = false;
     /// Whether the matrix couples more nodes than those that share a cell.
     bool couples_further = false;
 
-    /// One of them, or none where A is of degree 1.
+    /// One of these is used, or none if A is of degree 1.
     std::unique_ptr<AssembledMatrix> assembled;
     std::unique_ptr<VertexMotions>   motions;
 
     std::string         solver;
     SparseCholesky      direct{SparseCholesky::Precision::single_precision};
     SmoothedAggregation aggregation;
-    /// One of the further ones, once it is asked for.
+    /// The further solver, if one is asked for.
     std::unique_ptr<CoarseSolver> other;
 
-    /// For that one; empty without it.
+    /// Work space for the further solver; empty without one.
     mutable Vector             x, b;
     mutable FloatVector        float_x, float_b;
     mutable std::vector<float> unknowns;

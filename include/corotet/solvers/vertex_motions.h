@@ -21,20 +21,20 @@ namespace corotet
 {
   /**
    * The quadratic functions that displacements and rotations of the vertices
-   * make (as in the triangle of Allman 1984): the middle of an edge d from a to
-   * b moves by
+   * define (as in the triangle of Allman 1984): the middle of an edge d from a
+   * to b moves by
    *
    *   (u_a + u_b) / 2 + (w_a - w_b) x d / 8 + (w_a + w_b) x c / 2
    *
-   * where c leads from the middle of the vertices to that of the edge: zero on
-   * straight edges. Deflections of a thin body are quadratic so, with
-   * displacements across that go with their slope, where linear functions are
-   * too stiff for thin cells by the square of their proportions. Rigid motions
-   * are among these functions, on curved edges, too.
+   * where c leads from the middle of the vertices to that of the edge; it is
+   * zero on straight edges. So deflections of a thin body are quadratic, and
+   * displacements across it follow their slope, where linear functions are too
+   * stiff for thin cells by the square of their proportions. Rigid motions are
+   * among these functions, on curved edges, too.
    *
-   * The middle of an edge tells nothing of rotations that are alike at both
-   * ends. A weak spring ties the rotation of a vertex to that of the cells
-   * around it.
+   * The middle of a straight edge does not depend on rotations that are equal
+   * at both ends. A weak spring ties the rotation of a vertex to that of the
+   * cells around it.
    *
    * A vertex has six unknowns, its displacement and its rotation times a
    * length, as an aggregate in AggregationLevel: two nodes of a BlockMatrix.
@@ -44,18 +44,19 @@ namespace corotet
   public:
     using FloatVector = dealii::LinearAlgebra::distributed::Vector<float>;
 
-    /// @p quadratic: the element of degree 2 without bubbles, whose vertices
-    /// are @p vertices; @p is_prescribed of its local unknowns, ghosts
-    /// included. All must outlive this object. Collective.
+    /// @p quadratic is the element of degree 2 without bubbles, whose vertices
+    /// are @p vertices; @p is_prescribed refers to its local unknowns, with
+    /// ghosts. All must outlive this object. Collective.
     VertexMotions(const Nodes                      &quadratic,
                   const CoarserNodes               &vertices,
                   const std::vector<unsigned char> &is_prescribed);
 
-    /// Takes the places of the nodes and the matrix A = c_K K + c_M M + S of
-    /// the quadratic element for these functions. @p positions of the nodes of
-    /// @p discretization, the finest element, with ghosts [m]. Coefficients
-    /// and masses as AssembledMatrix::update() takes them; @p surface of the
-    /// quadratic element, null without S. Collective.
+    /// Takes over the places of the nodes and the matrix A = c_K K + c_M M + S
+    /// of the quadratic element for these functions. @p positions are those of
+    /// the nodes of @p discretization, the finest element, with ghosts [m].
+    /// Coefficients and masses are those that AssembledMatrix::update() takes;
+    /// @p surface belongs to the quadratic element, and is null without S.
+    /// Collective.
     void
     update(const Discretization &discretization,
            const Vector         &positions,
@@ -65,23 +66,23 @@ namespace corotet
            const dealii::AlignedVector<CellMasses<double>>       &masses,
            const SurfaceOperator<double>                         *surface);
 
-    /// Since the last update(). Prescribed displacements have a 1 on the
-    /// diagonal.
+    /// The matrix since the last update(). Prescribed displacements have a 1 on
+    /// the diagonal.
     const BlockMatrix &
     matrix() const
     {
       return *problem.matrix;
     }
 
-    /// The same as aggregates.
+    /// The same matrix as a problem of aggregates.
     const AggregateProblem &
     aggregates() const
     {
       return problem;
     }
 
-    /// x += P coarse, zero at prescribed unknowns, where it must be zero; six
-    /// entries for each owned vertex. Collective.
+    /// x += P coarse; zero at prescribed unknowns, where x must be zero.
+    /// @p coarse has six entries for each owned vertex. Collective.
     void
     prolongate_add(FloatVector &x, const float *coarse) const;
 
@@ -91,11 +92,10 @@ namespace corotet
     restrict_to(float *coarse, const FloatVector &r) const;
 
   private:
-    /// Of a batch of cells.
+    /// The matrices of a batch of cells.
     struct CellMatrix;
 
-    /// The middle of an edge, and (w_a x arm_a + w_b x arm_b) is what it moves
-    /// by with the rotations.
+    /// The middle of an edge; rotations move it by w_a x arm_a + w_b x arm_b.
     struct Middle
     {
       unsigned int                        node;
@@ -113,7 +113,7 @@ namespace corotet
          const dealii::Point<3> &middle) const;
     void
     set_arms();
-    /// Takes the places of cells @p first, .., those of a batch.
+    /// Gathers the places of the cells of a batch, from cell @p first on.
     void
     gather(const unsigned int first,
            const unsigned int n_cells,
@@ -134,14 +134,15 @@ namespace corotet
     const std::vector<unsigned char> &is_prescribed;
     const std::vector<unsigned char>  is_vertex_prescribed;
 
-    /// Of the local nodes of the quadratic element.
+    /// Places of the local nodes of the quadratic element.
     std::vector<dealii::Point<3>> places;
-    /// What rotations are multiplied with [m].
+    /// The length that rotations are multiplied with [m].
     double              length = 1;
     std::vector<Middle> middles;
-    /// Local cells with prescribed unknowns.
+    /// Whether each local cell has prescribed unknowns.
     std::vector<unsigned char> touches_prescribed;
-    /// Of vertices that share a cell, and where their blocks are in it.
+    /// The pattern of vertices that share a cell, and the places of their
+    /// blocks in it.
     std::shared_ptr<const BlockPattern> pattern;
     BlockPlaces                         places_of_blocks;
     AggregateProblem                    problem;

@@ -62,7 +62,7 @@ namespace corotet
     }
 
   private:
-    /// Displacement and velocity at a time; at none at first.
+    /// Displacement and velocity at a time; the time is -infinity at first.
     struct Past
     {
       void
@@ -89,7 +89,7 @@ namespace corotet
     void
     remember(const double time, const State &state);
 
-    /// At the start of the step, and one step earlier.
+    /// The motion at the start of the step, and one step earlier.
     Past present, before;
   };
 } // namespace corotet

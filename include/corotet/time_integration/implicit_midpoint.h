@@ -48,7 +48,7 @@ namespace corotet
     }
 
   private:
-    /// The state at the middle.
+    /// The state at the middle of the step.
     State middle;
   };
 } // namespace corotet

@@ -18,9 +18,9 @@ namespace corotet
    * with a_m = (1 - alpha_m) a_1 + alpha_m a_0 and the index f for
    * (1 - alpha_f) ()_1 + alpha_f ()_0. The unknown of the stage is u_f.
    *
-   * That is for free unknowns, whose a_n is the acceleration at t_n + (alpha_m
-   * - alpha_f) dt, so that a_m is that at t_f. Accelerations that are
-   * prescribed belong to t_n itself: they enter M a_m as a_f.
+   * The last equation is that of free unknowns, whose a_n is the acceleration
+   * at t_n + (alpha_m - alpha_f) dt, so that a_m is that at t_f. Accelerations
+   * that are prescribed belong to t_n itself: they enter M a_m as a_f.
    */
   class NewmarkFamily : public TimeIntegrator
   {
@@ -68,7 +68,8 @@ namespace corotet
   private:
     /// The state at the intermediate times.
     State stage;
-    /// At the end: of the guess, and as prescribed.
+    /// The accelerations at the end of the step: free ones of the guess, and
+    /// prescribed ones.
     Vector end_acceleration;
   };
 } // namespace corotet

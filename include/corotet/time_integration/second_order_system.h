@@ -28,7 +28,7 @@ namespace corotet
       archive.transfer("acceleration", a);
     }
 
-    /// Makes them empty, of no nodes.
+    /// Makes the vectors empty.
     void
     clear()
     {
@@ -44,25 +44,26 @@ namespace corotet
    */
   struct Stage
   {
-    /// At which the loads are taken [s].
+    /// Time at which the loads are taken [s].
     double time;
     /// c_v [1/s]; zero in statics.
     double velocity_factor;
     /// c_a [1/s^2]; zero in statics.
     double acceleration_factor;
-    /// Multiplies loads and prescribed displacements: 1 but in load stepping.
+    /// Factor of loads and prescribed displacements: 1 but in load stepping.
     double load_factor = 1;
-    /// The state that the guess goes on from, and what its acceleration is
-    /// multiplied by in the guess of u [s^2]. Where loads have just begun to
-    /// act it is that of the nodes that they act on, which neighbours soon hold
-    /// back: the solver takes it back, or all of the motion, where forces are
-    /// nearer to equilibrium so. Null: it takes the guess as it is.
+    /// The state that the guess starts from, and the factor of its acceleration
+    /// in the guess of u [s^2]. Where loads have just begun to act, only the
+    /// loaded nodes have an acceleration, and their neighbours soon hold them
+    /// back: the solver removes that from the guess, or all of the motion, if
+    /// forces are nearer to equilibrium then. Null: the solver takes the guess
+    /// as it is.
     const State *start        = nullptr;
     double       guess_factor = 0;
   };
 
   /**
-   * What a stage took.
+   * The effort of solving a stage.
    */
   struct StageReport
   {
@@ -74,8 +75,8 @@ namespace corotet
   };
 
   /**
-   * What a time integrator may ask of the system M a + C v + f(u) = g(t, u)
-   * whose unknowns are partly prescribed. All members are collective.
+   * The system M a + C v + f(u) = g(t, u), with unknowns that are partly
+   * prescribed, as time integrators use it. All members are collective.
    */
   class SecondOrderSystem
   {
@@ -89,8 +90,8 @@ namespace corotet
 
     /**
      * Sets the prescribed entries as prescribe() does, in statics, where the
-     * others may go along with them: @p state comes in as an equilibrium and
-     * goes out as a guess of the next one. Returns what that took. Throws
+     * other entries may follow them: @p state comes in as an equilibrium and
+     * goes out as a guess of the next one. Returns the effort. Throws
      * ComputationError.
      */
     virtual StageReport
@@ -110,11 +111,11 @@ namespace corotet
 
     /**
      * Sets a of @p state such that the equation holds at @p time with its u,
-     * and adds @p velocity_factor times a to v, both but for prescribed
-     * entries, which come in with the v that goes out. Damping is that of the
-     * v that comes in, of prescribed entries v - @p velocity_factor a; damping
-     * that is proportional to the mass or on the surface is that of the v that
-     * goes out. Throws ComputationError.
+     * and adds @p velocity_factor times a to v. Prescribed entries do not
+     * change; their v is that at the end. Damping takes the v before this
+     * addition, for prescribed entries v - @p velocity_factor a; damping that
+     * is proportional to the mass or on the surface takes the v after it.
+     * Throws ComputationError.
      */
     virtual StageReport
     solve_acceleration(State       &state,

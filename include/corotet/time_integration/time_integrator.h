@@ -17,24 +17,24 @@ namespace corotet
    */
   struct TimeStep
   {
-    /// [s].
+    /// Time at the start of the step, and its length [s].
     double time;
     double dt;
     /// Part of the whole run that is done after this step, in (0, 1].
     double done;
-    /// [s]. What the step's record says: time + dt may have another last digit,
-    /// and loads may jump there.
+    /// Time at the end [s] as in the step's record: time + dt may have another
+    /// last digit, and loads may jump there.
     double end = time + dt;
   };
 
   /**
-   * What a method that is stable for short steps only does about that.
+   * How a method that is stable only for short steps chooses and checks them.
    */
   struct StabilityControl
   {
     /// Part of the stable step that is taken if the step is not given.
     double safety_factor = 0.9;
-    /// After so many steps the stable step is estimated anew.
+    /// Number of steps after which the stable step is estimated anew.
     unsigned int steps_between_estimates = 1000;
     /// Whether steps above the stable one are refused.
     bool refuse = true;
@@ -68,8 +68,9 @@ namespace corotet
     reset()
     {}
 
-    /// What the method keeps from one step to the next beside the state, of
-    /// methods that use earlier steps: a run that is restarted goes on with it.
+    /// Transfers what the method keeps from one step to the next beside the
+    /// state, if it uses earlier steps: a run that is restarted goes on with
+    /// it.
     virtual void
     transfer(Archive & /*archive*/)
     {}
@@ -102,8 +103,9 @@ namespace corotet
       return false;
     }
 
-    /// Steps before the present one that a step uses beside the state at its
-    /// start: 0 for one-step methods. As many first ones are made otherwise.
+    /// Number of steps before the present one that a step uses beside the state
+    /// at its start: 0 for one-step methods. As many steps at the start of a
+    /// run are made otherwise.
     virtual unsigned int
     n_earlier_steps() const
     {

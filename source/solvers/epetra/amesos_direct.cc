@@ -25,7 +25,7 @@ namespace corotet
   void
   AmesosDirect::build(const EffectiveOperator &A, const Vector &)
   {
-    // What refers to the old matrix goes first.
+    // The old factors refer to the old matrix, so they go first.
     factors.reset();
     matrix = std::make_unique<EpetraMatrix>(A.matrix());
     // Amesos' interface has no constant matrices, but it only reads.

@@ -64,7 +64,7 @@ namespace corotet
     list.set("null space: vectors", rigid_body_modes.data());
     if (!matrix || !matrix->shows(A))
       {
-        // What refers to the old one goes first.
+        // The old amg refers to the old matrix, so it goes first.
         amg.clear();
         matrix = std::make_unique<EpetraMatrix>(A);
       }

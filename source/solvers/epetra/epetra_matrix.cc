@@ -33,7 +33,8 @@ namespace corotet
           columns.push_back(3 * graph.columns[k] + a);
     }
 
-    /// Columns are numbered as the pattern's are, and so in the same order.
+    /// The graph's columns are numbered as those of the pattern, and so have
+    /// the same order.
     Epetra_CrsGraph
     graph_of(const BlockPattern &pattern, const Epetra_Map &owned)
     {
@@ -75,7 +76,8 @@ namespace corotet
     for (int node = 0; node < pattern->n_owned(); ++node)
       {
         unknowns_of(columns, pattern->graph(), node);
-        // Epetra wants to be able to write; nobody here lets it.
+        // Epetra requires pointers to values that it may change, but nothing
+        // here changes them.
         for (int a = 0; a < 3; ++a)
           check(matrix->InsertMyValues(3 * node + a,
                                        columns.size(),

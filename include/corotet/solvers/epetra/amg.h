@@ -16,7 +16,8 @@
 namespace corotet
 {
   /**
-   * The parameters of AMG, also where it is the coarse solver of p-multigrid.
+   * The parameters of AMG, which are also used where it is the coarse solver of
+   * p-multigrid.
    */
   struct AMGParameters
   {
@@ -69,9 +70,9 @@ namespace corotet
   private:
     const std::shared_ptr<AMGParameters> parameters;
 
-    // What amg refers to lives longer.
+    // The matrix outlives amg, which refers to it.
     std::unique_ptr<EpetraMatrix> matrix;
-    /// Six vectors over the owned unknowns, one after another.
+    /// Six vectors of the owned unknowns, one after another.
     std::vector<double>                       rigid_body_modes;
     dealii::TrilinosWrappers::PreconditionAMG amg;
   };

@@ -15,16 +15,16 @@
 namespace corotet
 {
   /**
-   * A BlockMatrix as Trilinos' packages of the first generation see it: its
-   * numbers without a copy, so that they follow it, and a copy of its pattern.
+   * A BlockMatrix in the form of Trilinos' packages of the first generation.
+   * Its values are not copied, so that they follow it; its pattern is.
    */
   class EpetraMatrix
   {
   public:
-    /// @p A must live as long as the numbers are asked for. Collective.
+    /// @p A must live as long as values are used. Collective.
     explicit EpetraMatrix(const BlockMatrix &A);
 
-    /// Whether this is a view of what @p A has now.
+    /// Whether this is a view of the present values of @p A.
     bool
     shows(const BlockMatrix &A) const
     {
@@ -37,7 +37,7 @@ namespace corotet
       return *matrix;
     }
 
-    /// Rows, and entries of owned vectors.
+    /// The map of the rows, and of owned vectors.
     const Epetra_Map &
     rows() const
     {
@@ -49,7 +49,7 @@ namespace corotet
     vmult(Vector &dst, const Vector &src) const;
 
   private:
-    /// Kept, so that no other one has its address.
+    /// The pattern is kept so that no other one can get its address.
     const std::shared_ptr<const BlockPattern> pattern;
     const double *const                       values;
     const Epetra_MpiComm                      comm;
