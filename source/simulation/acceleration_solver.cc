@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/ghosted_copy.h>
+#include <corotet/discretization/values_by_place.h>
 #include <corotet/simulation/acceleration_solver.h>
 #include <corotet/solvers/largest_eigenvalue.h>
 
@@ -244,18 +245,14 @@ namespace corotet
       },
       [&](Vector &f, const Vector &v) { mass_solver().vmult(f, v); },
       [&](Vector &v, const Vector &f) { mass_solver().solve(v, f); }};
-    // The start vector has no pattern and is the same on any number of ranks.
-    Vector       start(state.u);
-    const double length = discretization.node_positions().linfty_norm();
-    for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-      for (unsigned int a = 0; a < 3; ++a)
-        {
-          const dealii::Point<3> x = discretization.node_position(n) / length;
-          const double           s =
-            std::sin(12.9898 * x[0] + 78.233 * x[1] + 37.719 * x[2] + a) *
-            43758.5453;
-          start.local_element(3 * n + a) = s - std::floor(s) - 0.5;
-        }
+    // Each unknown has an equal share of the start vector in the inner product
+    // of M. Otherwise light nodes had next to none, and their modes, which may
+    // be the fastest, came out last.
+    Vector start(state.u);
+    fill_by_place(start, discretization);
+    const Vector &inverse_mass = mass_solver().inverse_diagonal_vector();
+    for (unsigned int i = 0; i < start.locally_owned_size(); ++i)
+      start.local_element(i) *= std::sqrt(inverse_mass.local_element(i));
     body.motion.set_zero(start);
     constexpr double tolerance = 2e-3;
     Vector           vector    = start;

@@ -85,6 +85,7 @@ namespace corotet
     catch (const ComputationError &)
       {
         log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
+        warn_of_far_motion();
         if (report.iterations == 0 && !std::isfinite(residual_norm))
           throw ComputationError(
             "the forces are not finite where Newton's method starts" +

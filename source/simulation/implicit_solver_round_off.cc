@@ -29,18 +29,18 @@ namespace corotet
       4 * precision * force_scale +
       equation.terms.round_off(equation.last_motion(), external_force, noise);
     const double most = sure + noise.of_rotations();
-    has_run_away =
-      external_force > 0 && most > external_force && is_out_of_reach();
+    has_run_away      = external_force > 0 && most > external_force &&
+                   times_its_size() > far_away;
     force_noise = has_run_away ? 0. : sure;
     return {force_noise, has_run_away ? 0. : most};
   }
 
-  bool
-  ImplicitSolver::is_out_of_reach() const
+  double
+  ImplicitSolver::times_its_size() const
   {
     // In dynamics inertia resists, and bodies may move any distance.
     if (equation.is_dynamic)
-      return false;
+      return 0;
     const Vector &u           = equation.displacement();
     const auto   &prescribed  = body.motion.is_prescribed();
     double        of_supports = 0;
@@ -51,7 +51,23 @@ namespace corotet
       dealii::Utilities::MPI::max(of_supports,
                                   body.discretization.communicator());
     const auto [lower, upper] = body.discretization.bounding_box();
-    return u.linfty_norm() > far_away * (of_supports + lower.distance(upper));
+    return u.linfty_norm() / (of_supports + lower.distance(upper));
+  }
+
+  void
+  ImplicitSolver::warn_of_far_motion()
+  {
+    // Rubber is drawn to a few times its length, not more.
+    constexpr double too_far = 10;
+    if (has_warned_of_far_motion)
+      return;
+    const double distance    = times_its_size();
+    has_warned_of_far_motion = distance > too_far;
+    if (has_warned_of_far_motion)
+      log.warning(fmt::format("the loads move the body by {:.2g} times its "
+                              "size: are its lengths in m, Young's modulus in "
+                              "Pa and the loads in N, Pa and N/m^3?",
+                              distance));
   }
 
   void

@@ -297,6 +297,7 @@ namespace corotet
       {
         summary.errors                      = errors();
         summary.largest_rotation_difference = rotation_difference();
+        system.implicit_solver().warn_of_far_motion();
         if (status == "done" && !has_moved)
           log.warning("the displacement is zero everywhere: no load, no motion "
                       "of supports and no initial condition moves the body");

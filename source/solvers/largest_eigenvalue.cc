@@ -64,6 +64,10 @@ namespace corotet
     constexpr unsigned int max_steps = 300;
     // The small eigenvalue problem is not solved after every step.
     constexpr unsigned int steps_between_checks = 4;
+    // Where the start has little of the largest eigenvalue's direction, another
+    // eigenvalue settles first; two more checks bring the largest one to light.
+    constexpr unsigned int checks_to_settle = 3;
+    unsigned int           n_settled        = 0;
 
     Vector    &v = start;
     Vector     previous(v), w(v), z(v);
@@ -96,7 +100,8 @@ namespace corotet
         if (is_exhausted || (k + 1) % steps_between_checks == 0)
           {
             const auto [theta, last] = largest_of_tridiagonal(alphas, betas);
-            if (is_exhausted || beta * last <= tolerance * theta)
+            n_settled = beta * last <= tolerance * theta ? n_settled + 1 : 0;
+            if (is_exhausted || n_settled == checks_to_settle)
               return theta + beta * last;
           }
         betas.push_back(beta);

@@ -70,6 +70,11 @@ namespace corotet
       return linear_solver.preconditioner_builds();
     }
 
+    /// Warns, once, of statics that move the body many times its size, as wrong
+    /// units do. Collective.
+    void
+    warn_of_far_motion();
+
   private:
     Norm
     residual(Vector &r) override;
@@ -124,10 +129,10 @@ namespace corotet
     };
     RoundOffOfForces
     round_off();
-    /// Whether statics have moved the body so far that supports cannot hold it.
-    /// Collective.
-    bool
-    is_out_of_reach() const;
+    /// The largest displacement in statics over the body's size and that of the
+    /// supports [-]; 0 in dynamics. Collective.
+    double
+    times_its_size() const;
     /// Logs, once, that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
@@ -194,7 +199,8 @@ namespace corotet
 
     unsigned int clamped_cells = 0;
     /// The number of iterations of all slow linear solves.
-    unsigned int slow_iterations = 0;
+    unsigned int slow_iterations          = 0;
+    bool         has_warned_of_far_motion = false;
   };
 } // namespace corotet
 

@@ -29,12 +29,13 @@ namespace corotet
 
   /**
    * An upper bound of the largest eigenvalue by the Lanczos method in the inner
-   * product of M: the largest Ritz value theta plus its residual norm, as soon
-   * as that is below @p tolerance theta. There is an eigenvalue so near to
-   * theta [Parlett, The symmetric eigenvalue problem, 1998, theorem 4.5.1]; it
-   * is the largest one unless @p start lacks that direction. @p start comes out
-   * changed. Throws ComputationError if there is no convergence or a number is
-   * not finite. Collective.
+   * product of M: the largest Ritz value theta plus its residual norm, when
+   * that has been below @p tolerance theta for some steps. There is an
+   * eigenvalue so near to theta [Parlett, The symmetric eigenvalue problem,
+   * 1998, theorem 4.5.1]. It is the largest one unless @p start has next to
+   * nothing of that one's direction: let all unknowns have similar shares of
+   * the norm of @p start. @p start comes out changed. Throws ComputationError
+   * if there is no convergence or a number is not finite. Collective.
    */
   double
   largest_eigenvalue(const SymmetricPencil &pencil,
