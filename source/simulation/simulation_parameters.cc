@@ -127,7 +127,7 @@ namespace corotet
                         Double());
       prm.add_parameter("Time step",
                         time_step,
-                        "Length of time steps [s], of adaptive ones the first; "
+                        "Length of the steps [s] (of the first, if adaptive), "
                         "shortened a little to divide the duration. 0: 'Safety "
                         "factor' times the stable step, with 'central "
                         "difference' only. A run may have 4000000000 steps.",

@@ -15,11 +15,11 @@ namespace corotet
                     "Derivative of the internal forces that Newton's method "
                     "takes: 'consistent' is exact and converges quadratically; "
                     "'frozen rotation' leaves out the derivative of the "
-                    "rotations (for the hyperelastic laws it is the stiffness "
-                    "of linear elasticity, rotated with each cell), is never "
-                    "indefinite and converges linearly, if at all. Where the "
-                    "exact one leads nowhere, the program takes the other by "
-                    "itself.");
+                    "rotations (for 'Saint Venant-Kirchhoff' and 'neo-Hookean' "
+                    "it is the stiffness of linear elasticity, rotated with "
+                    "each cell), is never indefinite and converges linearly, "
+                    "if at all. Where the exact one leads nowhere, the program "
+                    "takes the other by itself.");
     prm.add_parameter("Residual tolerance",
                       residual_tolerance,
                       "Largest residual at which Newton's method has "

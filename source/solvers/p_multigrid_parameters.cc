@@ -33,17 +33,17 @@ namespace corotet
                       dealii::Patterns::Selection(names));
     prm.add_parameter("Vertex rotations",
                       vertex_rotations,
-                      "Whether the lowest level, degree 1, also has the "
-                      "rotations of the vertices as unknowns, so that it can "
-                      "bend: thin cells then need a fraction of the "
-                      "iterations, but the level has twice as many unknowns. "
-                      "'automatic': yes, if more than a tenth of the cells are "
-                      "flat or stretched by a factor above 4, on bodies of few "
-                      "layers of cells (more than one face of the surface for "
-                      "every four cells), and on other bodies of up to 'Direct "
-                      "limit' unknowns of degree 1 if the mean factor of their "
-                      "cells is above 15. No effect with 'Coarse solver = "
-                      "amg', which has none.",
+                      "Whether degree 1, the lowest level of elements of "
+                      "degree 2 and 3, also has the rotations of the vertices "
+                      "as unknowns, so that it can bend: thin cells then need "
+                      "a fraction of the iterations, but the level has twice "
+                      "as many unknowns. 'automatic': yes, if more than a "
+                      "tenth of the cells are flat or stretched by a factor "
+                      "above 4, on bodies of few layers of cells (more than "
+                      "one face of the surface for every four cells), and on "
+                      "other bodies of up to 'Direct limit' unknowns of degree "
+                      "1 if the mean factor of their cells is above 15. No "
+                      "effect with 'Coarse solver = amg', which has none.",
                       dealii::Patterns::Selection("automatic|true|false"));
     prm.add_parameter("Direct limit",
                       direct_limit,
