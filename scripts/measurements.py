@@ -171,7 +171,7 @@ def write_page(description, name, head, sections, **more_options):
     for option, settings in more_options.items():
         parser.add_argument(f"--{option}", **settings)
     names = [section.__name__[8:] for section in sections]
-    parser.add_argument("names", nargs="*", metavar="SECTION", help=", ".join(names) + "; default: all")
+    parser.add_argument("names", nargs="*", metavar="SECTION", help="parts to measure: " + ", ".join(names) + "; default: all")
     options = parser.parse_args()
     if unknown := set(options.names) - set(names):
         parser.error(f"found {', '.join(unknown)}; allowed: {', '.join(names)}")

@@ -106,17 +106,18 @@ namespace corotet
       "Linear",
       linear,
       "Functions of one argument, used as name(t) in all expressions, from "
-      "files relative to the folder of this file: 'name: file.csv, ...'. A file "
-      "has two columns, argument and value, separated by commas, semicolons or "
-      "blanks; arguments increase; a header and comments after # are skipped. "
-      "Straight lines between the rows, constant before the first and after "
-      "the last.",
+      "files relative to the folder of this file: 'name: file.csv, ...'. A "
+      "file has two columns, argument and value, separated by commas, "
+      "semicolons or blanks; arguments increase; a header and comments after # "
+      "are skipped. Values are interpolated linearly between the rows, and "
+      "constant before the first and after the last.",
       names_and_files);
     prm.add_parameter(
       "Cubic",
       cubic,
-      "The same with cubic polynomials between the rows: continuous slopes, as "
-      "moving supports need, and no overshoot, as what is monotone stays so.",
+      "Functions like those of Linear, but interpolated by cubic polynomials: "
+      "slopes are continuous, as moving supports need, and values do not "
+      "overshoot, as monotone data stay monotone.",
       names_and_files);
   }
 

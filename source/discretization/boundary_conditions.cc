@@ -26,24 +26,24 @@ namespace corotet
       "Fixed",
       fixed,
       "Boundaries, edges and corners that do not move: 'name, name'. 'name & "
-      "name' is the edge where two boundaries meet, a third name makes it a "
-      "corner; an edge and a boundary meet in points.");
+      "name' is what both have in common: two boundaries an edge, with a third "
+      "name a corner, an edge and a boundary points.");
     prm.add_parameter(
       "Displacement",
       displacement,
-      "Displacement [m] of boundaries: 'name: x; y; z, name: x; y; z', each "
-      "component an expression in x, y, z, t or 'free'; edges and corners as "
-      "in Fixed. A component that one place leaves free is what another one "
-      "with the same node says; where two say something, it must be the same. "
-      "Supports move with the expression's own velocity and "
-      "acceleration, its exact derivatives; at a kink those of what follows. "
-      "Let it have none, like smooth_step and cubic tables that begin and end "
-      "at rest.");
+      "Prescribed displacement [m] of boundaries: 'name: x; y; z, name: x; y; "
+      "z', each component an expression in x, y, z, t or 'free'; of edges and "
+      "corners as in Fixed. At a node of several of them, a component that one "
+      "leaves free is prescribed by another; if several prescribe it, their "
+      "values must be equal. The velocity and acceleration of supports are the "
+      "exact time derivatives of the expression, at a kink those of what "
+      "follows. Avoid kinks: smooth_step has none, nor have cubic tables that "
+      "begin and end at rest.");
     prm.add_parameter(
       "Traction",
       traction,
-      "Dead traction [Pa], force per area at rest: 'name: x; y; z, ...', "
-      "expressions in x, y, z, t.");
+      "Traction of fixed direction (dead load), force per area at rest [Pa], "
+      "on boundaries: 'name: x; y; z, ...', expressions in x, y, z, t.");
     prm.add_parameter(
       "Pressure",
       pressure,

@@ -137,24 +137,26 @@ namespace corotet
     prm.add_parameter(
       "Elastic",
       elastic,
-      "Springs between boundaries and the ground, by their stiffness per area "
-      "at rest [N/m^3]: 'name: k_x; k_y; k_z, ...', expressions in x, y, z, t, "
-      "not negative. Their energy counts as elastic energy; that of a change "
-      "of the stiffness in time as external work. Also on boundaries with "
-      "other conditions; where the displacement is prescribed, springs add to "
-      "the reaction only.");
+      "Springs between boundaries and the ground, by their stiffness in x, y "
+      "and z per area at rest [N/m^3]: 'name: k_x; k_y; k_z, ...', expressions "
+      "in x, y, z, t, not negative. Their energy counts as elastic energy; the "
+      "work of changing the stiffness in time counts as external work. The "
+      "boundaries may have other conditions, too; where the displacement is "
+      "prescribed, springs add to the reaction only.");
     prm.add_parameter(
       "Elastic normal",
       elastic_normal,
-      "The same along the surface's normal at rest [N/m^3]: 'name: k, ...'.");
+      "Springs like those of Elastic, but along the surface's normal at rest "
+      "only, by their stiffness per area at rest [N/m^3]: 'name: k, ...'.");
     prm.add_parameter(
       "Dashpots",
       dashpots,
-      "Dashpots between boundaries and the ground, by their damping per area "
-      "at rest [N s/m^3]: 'name: c_x; c_y; c_z, ...', expressions in x, y, z, "
-      "t, not negative. What they take is dissipated energy; with c = rho "
-      "times the speed of a wave, one that comes along the normal leaves the "
-      "body. No part of statics and modes.");
+      "Dashpots between boundaries and the ground, by their damping "
+      "coefficient in x, y and z per area at rest [N s/m^3]: 'name: c_x; c_y; "
+      "c_z, ...', expressions in x, y, z, t, not negative. The energy that "
+      "they take counts as dissipated energy. With c = density times wave "
+      "speed, a wave that arrives along the normal leaves the body without "
+      "reflection. No effect in statics and modes.");
     prm.leave_subsection();
   }
 

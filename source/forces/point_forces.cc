@@ -135,8 +135,8 @@ namespace corotet
     prm.add_parameter(
       "Point forces",
       forces,
-      "Forces [N] at the nodes nearest to points of the body at rest: 'x y z: "
-      "fx; fy; fz, ...', forces as expressions in x, y, z, t.");
+      "Forces [N], each on the node nearest to a point of the body at rest "
+      "[m]: 'x y z: fx; fy; fz, ...', forces as expressions in x, y, z, t.");
     prm.leave_subsection();
   }
 

@@ -31,27 +31,30 @@ namespace corotet
     using namespace dealii::Patterns;
     prm.add_parameter("Mass coefficient",
                       given.mass,
-                      "alpha_M [1/s] of Rayleigh damping C = alpha_M M + "
-                      "alpha_K K. It also brakes rigid motion.",
+                      "Coefficient alpha_M [1/s] of the mass in Rayleigh "
+                      "damping C = alpha_M M + alpha_K K. It also brakes rigid "
+                      "motion.",
                       Double(0));
     prm.add_parameter("Stiffness coefficient",
                       given.stiffness,
-                      "alpha_K [s] of Rayleigh damping, with K rotated like "
-                      "the stiffness.",
+                      "Coefficient alpha_K [s] of the stiffness in Rayleigh "
+                      "damping C = alpha_M M + alpha_K K, where K is the "
+                      "stiffness at rest, rotated with each cell.",
                       Double(0));
     const List none_or_two{Double(0), 0, 2};
     prm.add_parameter(
       "Frequencies",
       frequencies,
-      "In place of the coefficients: the two frequencies [Hz] "
-      "at which damping has the ratios given below. Between them "
-      "it is below the straight line through the ratios, "
-      "outside above it.",
+      "Two frequencies [Hz], the lower one first, at which vibrations have the "
+      "damping ratios of Ratios, in place of the two coefficients. Between "
+      "them damping is below the straight line through the ratios, outside "
+      "above it. Empty: the coefficients are used.",
       none_or_two);
     prm.add_parameter("Ratios",
                       ratios,
-                      "Damping ratios [-] at the two frequencies, 1 is "
-                      "critical.",
+                      "Damping ratios [-] at the two Frequencies; 1 is "
+                      "critical. The larger one is at most the smaller one "
+                      "times the ratio of the frequencies.",
                       none_or_two);
   }
 

@@ -56,9 +56,10 @@ namespace corotet
     prm.add_parameter(
       "Surface forces",
       forces,
-      "Forces [N] that are spread evenly over boundaries at rest: 'name: fx; "
-      "fy; fz, ...', expressions in t; of a name for several boundaries, over "
-      "all of them. Also on boundaries with other conditions.");
+      "Total forces [N] on boundaries, spread evenly over their area at rest: "
+      "'name: fx; fy; fz, ...', expressions in t. If several boundaries have "
+      "the name, the force is spread over all of them together. The boundaries "
+      "may have other conditions, too.");
     prm.leave_subsection();
   }
 

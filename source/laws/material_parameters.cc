@@ -92,36 +92,39 @@ namespace corotet
       "Law of elasticity: 'linear' is small-strain elasticity, right for small "
       "rotations only; 'corotational' takes the rotation of each cell out of "
       "the deformation gradient first, for small strains at any rotation; "
-      "'Saint Venant-Kirchhoff', linear in Green's strain, for moderate strains "
-      "without strong compression, in which it softens; 'neo-Hookean', "
+      "'Saint Venant-Kirchhoff', linear in Green's strain, for moderate "
+      "strains without strong compression, in which it softens; 'neo-Hookean', "
       "mu / 2 (tr C - 3) - mu ln J + lambda / 2 (ln J)^2, for large strains: "
       "no cell can be turned inside out. All are the same at small strains.");
     add_enumeration(prm,
                     "Rotation",
                     rotation,
                     rotations,
-                    "Where the rotation of corotational elasticity is taken: "
-                    "'cell centre', one per cell, which recovers best from "
-                    "crushed states; 'quadrature points', for thin parts "
-                    "that bend or twist far and for long motions: it "
-                    "conserves energy and angular momentum and keeps the "
-                    "full order at large rotations; 'cell centre, "
-                    "variational', one per cell with the true gradient of "
-                    "the energy. For degree 1 all are the same. Otherwise "
-                    "the log says at the end how far rotations differ "
-                    "inside of cells, and warns above 0.005 rad.");
+                    "Where 'corotational' elasticity takes the rotation out: "
+                    "'cell centre', one rotation per cell, which is fastest "
+                    "and recovers best from crushed states; 'quadrature "
+                    "points', one at each of them, for thin parts that bend or "
+                    "twist far and for long motions: it conserves energy and "
+                    "angular momentum and keeps the full order at large "
+                    "rotations; 'cell centre, variational', one per cell, with "
+                    "forces that are the exact gradient of the energy. For "
+                    "degree 1 all are the same. For degrees 2 and 3 with one "
+                    "rotation per cell, the log says at the end how far "
+                    "rotations differ inside of cells, and warns above 0.005 "
+                    "rad.");
     add_enumeration(prm,
                     "Dilatation",
                     dilatation,
                     dilatations,
-                    "Whose change of volume elements of degree 1 resist: "
-                    "'cells', that of each cell; 'vertices', the mean of the "
+                    "Change of volume that elements of degree 1 resist: "
+                    "'cells', that of each cell; 'vertices', the mean over the "
                     "cells around each vertex, so that nearly incompressible "
                     "bodies do not lock (Poisson's ratio above 0.4, say; with "
                     "'linear' and 'corotational' laws). Elements of degree 2 "
-                    "and 3 have 'cells' only.");
+                    "and 3 allow 'cells' only.");
     const std::string by_region =
-      " One number, or 'region: number, ...' with every region.";
+      " One number for the whole body, or 'region: number, ...' with every "
+      "region.";
     prm.add_parameter("Young's modulus",
                       youngs_modulus,
                       "Young's modulus [Pa], positive." + by_region);

@@ -22,20 +22,23 @@ namespace corotet
   {
     prm.add_parameter("Displacement",
                       displacement,
-                      "The body's exact displacement [m]: 'x; y; z', "
-                      "expressions in x, y, z, t that can be differentiated; "
-                      "then summary.json has the errors at the end of the run. "
-                      "Empty: not known.");
+                      "Exact displacement of the body, if it is known [m]: 'x; "
+                      "y; z', expressions in x, y, z, t that can be "
+                      "differentiated; then summary.json has the errors at the "
+                      "end of the run. Empty: not known.");
     prm.add_parameter("Manufacture",
                       manufacture,
                       "Whether body force, tractions, prescribed displacements "
-                      "and the initial state are made such that this is the "
-                      "solution. If not, those of this file must be.");
+                      "and the initial state are derived from the exact "
+                      "displacement, so that it is the solution. If not, the "
+                      "loads, supports and initial state of this file are "
+                      "used.");
     prm.add_parameter("Displacement boundary",
                       displacement_boundary,
-                      "Boundaries where the displacement is prescribed if data "
-                      "are made: 'name, name', 'all' or 'none'. The others get "
-                      "tractions.");
+                      "Boundaries where the exact displacement is prescribed "
+                      "if 'Manufacture' is true: 'name, name', 'all' or "
+                      "'none'. The others get the tractions of the exact "
+                      "solution.");
   }
 
   ExactSolution::ExactSolution(const std::string &text)

@@ -115,37 +115,46 @@ namespace corotet
     prm.add_parameter(
       "File",
       file,
-      "A mesh or a geometry, relative to the folder of this file: of gmsh "
-      "(.msh, version 2.2 to 4.1, ASCII or binary; .geo), Abaqus or CalculiX "
-      "(.inp), Nastran (.bdf), UNV, VTK (.vtk, .vtu), Medit, MED or CGNS, or "
-      "what corotet mesh has written (.h5); or STEP, IGES and BREP of CAD programs, or a closed surface of triangles "
-      "(STL, PLY, OBJ, OFF). The format is known by the content.",
+      "Name of the file with a mesh or a geometry, relative to the folder of "
+      "this file. Meshes: gmsh (.msh, version 2.2 to 4.1, ASCII or binary), "
+      "Abaqus or CalculiX (.inp), Nastran (.bdf), UNV, VTK (.vtk, .vtu), "
+      "Medit, MED, CGNS, or what 'corotet mesh --out' has written (.h5). "
+      "Geometries, which gmsh meshes: gmsh (.geo), CAD programs (STEP, IGES, "
+      "BREP), or a closed surface of triangles (STL, PLY, OBJ, OFF). The "
+      "format is recognized by the content, or else by the ending of the "
+      "name.",
       dealii::Patterns::FileName());
     prm.add_parameter(
       "Element size",
       element_size,
-      "Target length of edges for a geometry, in the unit of "
-      "the file (STEP and IGES: mm); 0 leaves it to a .geo, keeps the triangles of "
-      "a surface, and otherwise follows curvature and size. A "
-      "mesh needs 0.",
+      "Target length of the edges of cells that are made for a geometry, in "
+      "the unit of the file (STEP and IGES: mm). 0: a .geo has its own sizes, "
+      "a surface keeps its triangles, and for other geometries the length "
+      "follows the curvature and is at most a twentieth of the body's "
+      "diagonal. A mesh allows 0 only.",
       dealii::Patterns::Double(0));
     prm.add_parameter("Feature angle",
                       feature_angle,
-                      "Where a surface of triangles has an edge, which ends a "
-                      "boundary and is kept with another Element size: between "
-                      "normals that differ by more [degree].",
+                      "Angle between the normals of neighbouring triangles "
+                      "above which a surface of triangles (STL, PLY, OBJ, OFF) "
+                      "has an edge [degree]. Edges separate boundaries, and "
+                      "are kept when the surface gets new triangles by "
+                      "'Element size'.",
                       dealii::Patterns::Double(1, 180));
     prm.add_parameter(
       "Geometry degree",
       geometry_degree,
-      "Degree of the cells' maps for a geometry [-]: 1 for straight "
-      "cells, 2 or 3 for curved ones along curved surfaces. A mesh has that of "
-      "its cells, and needs 1 here. Elements of a lower degree interpolate the "
-      "geometry.",
+      "Polynomial degree of the shape of cells that are made for a geometry "
+      "[-]: 1, straight cells; 2 or 3, cells that are curved along curved "
+      "surfaces. Elements of a lower degree use shapes interpolated to their "
+      "own degree. A mesh, whose cells have a degree already, and a surface of "
+      "triangles allow 1 only.",
       dealii::Patterns::Integer(1, 3));
     prm.add_parameter("Time limit",
                       time_limit,
-                      "What gmsh may take to read or to mesh the file [s].",
+                      "Longest wall time that gmsh, or VTK for its own files, "
+                      "may take to read or mesh the file [s]. If it takes "
+                      "longer, the run ends with an error.",
                       dealii::Patterns::Double(1, 1e9));
   }
 

@@ -177,12 +177,19 @@ namespace corotet
   void
   MeshParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
-    source.declare_parameters(prm, "Where the mesh comes from.");
+    source.declare_parameters(
+      prm,
+      "Source of the mesh: 'box', a cuboid that the program meshes; 'file', a "
+      "file with a mesh or a geometry; 'gmsh', the former name of 'file'. The "
+      "parameters of each are in the subsection of its name.");
     prm.add_parameter("Refinements",
                       n_refinements,
-                      "How often every tetrahedron is cut into eight [-]. New "
-                      "vertices lie on a geometry (.geo, STEP, IGES, BREP; not "
-                      "always on triangles), parts of curved cells on these.",
+                      "Number of uniform refinements [-], each of which cuts "
+                      "every tetrahedron into eight. New vertices of a mesh "
+                      "that is made of a geometry lie on that (.geo, STEP, "
+                      "IGES, BREP; on a surface of triangles not always). "
+                      "Curved cells of a mesh are cut along their curved "
+                      "shape.",
                       dealii::Patterns::Integer(0, 9));
     prm.add_parameter("Scale",
                       scale,
@@ -192,10 +199,11 @@ namespace corotet
                     "Partitioner",
                     partitioner,
                     partitioners(),
-                    "How ranks get their cells, of equal work: 'Hilbert "
-                    "curve', a piece of the curve along which cells are "
-                    "sorted, which takes no time; 'PT-Scotch', parts with few "
-                    "faces between them, if corotet was built with it. "
+                    "How cells are distributed to ranks, with equal work for "
+                    "each: 'Hilbert curve', each rank gets a piece of the "
+                    "space-filling curve along which cells are sorted, at no "
+                    "cost; 'PT-Scotch', a graph partitioner makes parts with "
+                    "few faces between them, if corotet was built with it. "
                     "Results are the same but for round-off.");
   }
 

@@ -236,35 +236,47 @@ namespace corotet
   SelectionParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     const std::string shapes =
-      "shapes, combined by 'and', 'or', 'not' and (): 'box x y z x y z', "
-      "'sphere x y z r', 'cylinder x y z x y z r', ";
+      "shapes, combined by 'and', 'or', 'not' and parentheses: 'box x y z x y "
+      "z' (two opposite corners), 'sphere x y z r', 'cylinder x y z x y z r' "
+      "(two ends of the axis, radius), ";
     prm.add_parameter(
       "Boundaries",
       boundaries,
-      "Boundaries by place: 'name: selection, name: selection' of " + shapes +
-        "'plane x y z nx ny nz' [m], 'normal nx ny nz [angle]' (5 degrees), "
-        "'patch x y z [angle]' (the smooth patch nearest to a point, up to "
-        "edges of 40 degrees), and names. Faces with all corners there.");
+      "Names for parts of the surface, chosen by place: 'name: selection, "
+      "name: selection'. A selection is made of " +
+        shapes +
+        "'plane x y z nx ny nz' (point, normal), 'normal nx ny nz [angle]' "
+        "(faces whose outer normal has this direction within 5 degrees or an "
+        "angle), 'patch x y z [angle]' (the smooth part of the surface that is "
+        "nearest to a point, up to edges of 40 degrees or an angle), and names "
+        "of boundaries. Coordinates are those of the scaled mesh [m]. A face "
+        "is in a shape if all its corners are.");
     prm.add_parameter("Regions",
                       regions,
-                      "Regions by place, in the same way: " + shapes +
-                        "and names. Cells with their centre there.");
+                      "Names for parts of the body, chosen by place: 'name: "
+                      "selection, ...', made of " +
+                        shapes +
+                        "and names of regions. A cell is in a shape if its "
+                        "centre is.");
     const std::string of_faces =
-      "'normal' and 'patch' (of faces with such a normal or of the patch)";
+      "'normal' and 'patch' as for Boundaries (what is on such faces)";
     prm.add_parameter(
       "Edges",
       edges,
-      "Edges by place, for supports: " + shapes + "'plane x y z nx ny nz', " +
-        of_faces +
-        ", 'sharp [angle]' (between faces whose normals differ by "
-        "more than 40 degrees), and names of edges or of boundaries that they "
-        "are edges of. Edges of cells, on the surface, with both ends there.");
+      "Names for edges of cells on the surface, chosen by place, where the "
+      "body is to be supported: 'name: selection, ...', made of " +
+        shapes + "'plane x y z nx ny nz', " + of_faces +
+        ", 'sharp [angle]' (edges between faces whose normals differ by more "
+        "than 40 degrees or an angle), and names of edges, or of boundaries "
+        "whose edges are meant. An edge is in a shape if both its ends are.");
     prm.add_parameter("Corners",
                       corners,
-                      "Vertices of cells by place, for supports: " + shapes +
-                        "'plane x y z nx ny nz', " + of_faces +
+                      "Names for vertices of cells, on the surface or inside, "
+                      "chosen by place, where the body is to be supported: "
+                      "'name: selection, ...', made of " +
+                        shapes + "'plane x y z nx ny nz', " + of_faces +
                         ", and names of corners, or of edges or boundaries "
-                        "that they are on.");
+                        "whose vertices are meant.");
   }
 
 

@@ -113,24 +113,30 @@ namespace corotet
   {
     prm.add_parameter("Steps between checkpoints",
                       steps_between,
-                      "After the first step in the history at or after each "
-                      "multiple of this [-]. 0: none of that kind.",
+                      "Number of steps from one checkpoint to the next [-]: "
+                      "one is written after each step whose number is a "
+                      "multiple of this or, if that step has no row in "
+                      "history.csv, after the next step that has one. 0: none "
+                      "by the number of steps.",
                       dealii::Patterns::Integer(0));
     prm.add_parameter("Minutes between checkpoints",
                       minutes_between,
-                      "Wall time between checkpoints [min]. 0: none of that "
-                      "kind. With any checkpoints there is one at the end, "
-                      "too, from which a later end time can be reached.",
+                      "Wall time from one checkpoint to the next [min]. 0: "
+                      "none by time. If this or 'Steps between checkpoints' is "
+                      "not 0, there is also a checkpoint at the end of the "
+                      "run, from which it can go on to a later end time.",
                       dealii::Patterns::Double(0));
     prm.add_parameter("Keep",
                       keep,
-                      "How many checkpoints are kept, the newest ones [-].",
+                      "Number of checkpoints that are kept, the newest ones "
+                      "[-].",
                       dealii::Patterns::Integer(1, 1000));
     prm.add_parameter(
       "Wall time limit",
       wall_time_limit,
-      "Wall time [s] after which the run is saved and ends with "
-      "status 4; --restart goes on. 0: none.",
+      "Wall time since the start of the program [s] after which the run is "
+      "saved and ends with status 4; --restart goes on with it. 0: no limit. "
+      "No effect on modes.",
       dealii::Patterns::Double(0));
   }
 

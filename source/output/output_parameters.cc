@@ -125,25 +125,26 @@ namespace corotet
     prm.add_parameter(
       "States",
       n_states,
-      "Where 'Time between results' is 0: about how many states solution.vtkhdf "
-      "has, at equal distances in time [-]; steps do not change for them, and a "
-      "run with fewer steps has one of every step. 0: one of every step.",
+      "About how many states solution.vtkhdf has if 'Time between results' is "
+      "0, at equal distances in time [-]. They are taken at ends of steps, "
+      "which do not change for them; a run with fewer steps has one of every "
+      "step. 0: one of every step.",
       dealii::Patterns::Integer(0));
     prm.add_parameter(
       "Steps between rows",
       steps_between_rows,
-      "Every how many steps a row goes into history.csv and a state may go into "
-      "solution.vtkhdf [-]: for explicit runs, whose steps are many. Steps that "
-      "reach a multiple of 'Time between results' have a row in any case.",
+      "Number of steps from one row of history.csv to the next [-]; only steps "
+      "with a row may have a state in solution.vtkhdf. Increase it for "
+      "explicit runs, whose steps are many. The last step, and those that "
+      "reach a multiple of 'Time between results', have a row in any case.",
       dealii::Patterns::Integer(1));
     prm.add_parameter(
       "Probes",
       probes,
       "Points of the undeformed body [m] whose displacement goes into "
-      "history.csv: NAME: X Y Z, separated by commas, for example "
-      "'tip: 1 0.05 0.05, middle: 0.5 0.05 0.05'. Those a little outside, as "
-      "points of a curved surface are outside of its cells, are taken at the "
-      "nearest point of these, which the log says.",
+      "history.csv: NAME: X Y Z, separated by commas, for example 'tip: 1 0.05 "
+      "0.05, middle: 0.5 0.05 0.05'. A point slightly outside the cells, as on "
+      "a curved surface, is moved to their nearest point, as the log says.",
       dealii::Patterns::Anything());
     add_enumeration<StressOutput>(
       prm,
@@ -153,10 +154,10 @@ namespace corotet
        {"nodes", StressOutput::nodes},
        {"quadrature points", StressOutput::quadrature_points},
        {"both", StressOutput::both}},
-      "Where stress and strain are written [-]: 'none'; 'nodes', recovered, "
-      "with the estimated error of each cell, in solution.vtkhdf; 'quadrature "
-      "points', as computed, in stress_points.vtkhdf; 'both'. Results with it "
-      "are some times larger.");
+      "Where stress and strain are written [-]: 'none', nowhere; 'nodes', "
+      "recovered (smoothed), with the estimated error of each cell, in "
+      "solution.vtkhdf; 'quadrature points', as computed, in "
+      "stress_points.vtkhdf; 'both'. They make results some times larger.");
     prm.add_parameter(
       "Stress probes",
       stress_probes,
@@ -168,18 +169,18 @@ namespace corotet
       "Stress at probes",
       raw_stress_at_probes,
       {{"recovered", false}, {"raw", true}},
-      "Which stress 'Stress probes' show [-]: 'recovered', which is smooth and "
-      "in general more accurate; 'raw', that of the displacement in the cells "
-      "that have the point, their mean if there are several; of several "
-      "materials the mean of each counts once.");
+      "Which stress 'Stress probes' show [-]: 'recovered', smoothed and in "
+      "general more accurate; 'raw', that of the displacement in the cell that "
+      "has the point. If several cells have it, 'raw' is their mean, or the "
+      "mean of the means of each material.");
     prm.add_parameter(
       "Reactions",
       reactions,
-      "Supports whose force and moment on the body go into history.csv: 'NAME: "
-      "place, ...', places as in Boundary conditions/Fixed, for example "
-      "'clamp: x-min, rope: x-max & y-max & z-max'. What several have in "
-      "common counts for each. Nodes that are fixed or prescribed count, "
-      "springs do not.",
+      "Supports whose force and moment about the origin on the body go into "
+      "history.csv: 'NAME: place, ...', places as in Boundary "
+      "conditions/Fixed, for example 'clamp: x-min, rope: x-max & y-max & "
+      "z-max'. Nodes that several have in common count for each. Nodes that "
+      "are fixed or prescribed count, springs do not.",
       dealii::Patterns::Anything());
   }
 

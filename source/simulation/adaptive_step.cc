@@ -18,27 +18,29 @@ namespace corotet
     using dealii::Patterns::Double;
     prm.add_parameter("Enabled",
                       enabled,
-                      "Whether the length of steps follows the error that they "
-                      "make, with Newmark, HHT-alpha and generalized-alpha. "
-                      "Steps end at all multiples of 'Output/Time between "
-                      "results'.");
+                      "Whether the length of time steps follows from the error "
+                      "that they make; for HHT-alpha, generalized-alpha, and "
+                      "Newmark with gamma = 0.5 and beta >= 0.25. Steps end at "
+                      "all multiples of 'Output/Time between results'.");
     prm.add_parameter(
       "Target error",
       target_error,
-      "Error of the displacement that a step may make, relative "
-      "to the largest displacement so far, both as root mean "
-      "squares over the body [-]. A step that makes more is "
-      "repeated with a shorter one. (Below, the errors that Newton's method "
-      "and round-off leave look like those of steps.)",
+      "Largest error of the displacement that a step may make, relative to the "
+      "largest displacement so far, both as root mean squares over the body "
+      "[-]. A step with a larger error is repeated with a shorter length. "
+      "(Smaller targets than are allowed could not be told from the errors "
+      "that Newton's method and round-off leave.)",
       Double(1e-12, 1));
     prm.add_parameter("Smallest step",
                       smallest_step,
-                      "In s. A step of this length is taken whatever error it "
-                      "makes. 0: a millionth of 'Time step'.",
+                      "Length of the shortest steps [s], which are accepted "
+                      "whatever error they make. 0: a millionth of 'Time "
+                      "step', or of 'Largest step' if that is shorter.",
                       Double(0));
     prm.add_parameter("Largest step",
                       largest_step,
-                      "In s. 0: no limit.",
+                      "Length of the longest steps [s]. 0: no limit. Steps may "
+                      "miss a load pulse that is shorter than they are.",
                       Double(0));
   }
 

@@ -146,15 +146,16 @@ namespace corotet
           .add_option(
             "--print-parameters",
             command_line.print_parameters,
-            "List every entry: default or, as prm or json, the value in the "
-            "file, allowed values, units, meaning")
+            "List every entry with allowed values, unit, meaning and default; "
+            "as prm or json, with the values of FILE if it is given")
           ->expected(0, 1)
           ->type_name("[prm|json|markdown|schema]");
       app.add_flag(
         "--restart",
         command_line.restart,
         "Go on from the newest good checkpoint in the output directory, or "
-        "with a convergence study that was stopped: its finished runs are kept");
+        "with a convergence study that was stopped: its finished runs are "
+        "kept");
       app.add_flag("--report",
                    command_line.report,
                    "Also write the page of the run, report.html, into the "
@@ -182,14 +183,16 @@ namespace corotet
       command
         ->add_option("--size",
                      mesh.element_size,
-                     "Target length of edges, for a geometry")
+                     "Target length of edges in cells made for a geometry, in "
+                     "the unit of its file (STEP, IGES: mm)")
         ->check(number_check([](const double h) { return h > 0; },
                              "a number > 0"),
                 "> 0");
       command
         ->add_option("--degree",
                      mesh.geometry_degree,
-                     "Of the cells' maps, for a geometry")
+                     "Polynomial degree of the cells made for a geometry: 2 "
+                     "and 3 are curved along its surface (default: 1)")
         ->check(number_check(
                   [](const double p) { return p == 1 || p == 2 || p == 3; },
                   "1, 2 or 3"),
@@ -197,8 +200,9 @@ namespace corotet
       command
         ->add_option("--feature-angle",
                      mesh.feature_angle,
-                     "Where a surface of triangles has an edge: between "
-                     "normals that differ by more degrees (default: 40)")
+                     "Angle between normals of neighbours above which a "
+                     "surface of triangles has an edge, in degrees (default: "
+                     "40)")
         ->check(number_check(
                   [](const double angle) { return angle >= 1 && angle <= 180; },
                   "a number from 1 to 180"),

@@ -45,22 +45,25 @@ namespace corotet
     using namespace dealii::Patterns;
     prm.add_parameter("Number",
                       number,
-                      "Lowest modes to be computed, rigid body modes included "
-                      "[-]; at most a quarter of the unknowns.",
+                      "Number of lowest modes to be computed, rigid body modes "
+                      "included [-]; at most a quarter of the unknowns that "
+                      "are not prescribed.",
                       Integer(1));
     prm.add_parameter("Tolerance",
                       tolerance,
-                      "Largest residual |K phi - omega^2 M phi| of a mode, "
-                      "relative to |omega^2 M phi| (rigid body modes: with "
-                      "the lowest omega that is not zero) [-]. Frequencies are "
-                      "about as accurate as its square.",
+                      "Largest residual |K phi - omega^2 M phi| that a mode "
+                      "may have, relative to |omega^2 M phi| (for rigid body "
+                      "modes, with the lowest omega that is not zero) [-]. The "
+                      "relative error of frequencies is about its square.",
                       Double(1e-12, 0.1));
     prm.add_parameter("Shift",
                       shift,
-                      "s > 0 in K + s M [1/s^2], the matrix that is solved "
-                      "with; best somewhat smaller than omega^2 of the lowest "
-                      "mode that deforms the body, at most 10 times that. 0: a "
-                      "hundredth of it, after a first look.",
+                      "Shift s > 0 of the eigenvalue solver, which solves "
+                      "linear systems with K + s M [1/s^2]. Best is 1e-3 to "
+                      "0.1 times omega^2 of the lowest mode that deforms the "
+                      "body; more than 10 times that is an error. 0: the "
+                      "program estimates this omega^2 and chooses s, mostly a "
+                      "hundredth of it.",
                       Double(0));
   }
 
@@ -73,10 +76,9 @@ namespace corotet
       "Type",
       type,
       run_types,
-      "What is computed: 'simulation', the body's motion or its response to "
-      "load steps; 'modes', its lowest natural frequencies and shapes of "
-      "vibration; 'convergence study', many runs of either kind, to see what "
-      "their results converge to and how fast.");
+      "What is computed: 'simulation', the body's motion or response to load "
+      "steps; 'modes', its lowest natural frequencies and shapes; 'convergence "
+      "study', many runs of either kind, and how fast they converge.");
     declare_mesh_parameters(prm, mesh);
     section(prm, "Discretization", [&] {
       prm.add_parameter("Degree",
@@ -88,11 +90,10 @@ namespace corotet
         "Mass",
         mass,
         mass_types,
-        "Mass matrix: 'consistent'; 'diagonal scaling', diagonal, from the "
-        "consistent diagonal; 'row sum', diagonal, for degree 1 only; 'nodal "
-        "quadrature', diagonal and as accurate as 'consistent', for degree 2 "
-        "only: elements get five bubble functions more, with nodes on faces "
-        "and in cells.");
+        "Mass matrix: 'consistent', or diagonal, so that explicit steps solve "
+        "no linear system: 'diagonal scaling', from the diagonal of "
+        "'consistent'; 'row sum', for degree 1; 'nodal quadrature', for degree "
+        "2, with five bubble functions more, as accurate as 'consistent'.");
     });
     section(prm, "Material", [&] { material.declare_parameters(prm); });
     section(prm, "Tables", [&] { tables.declare_parameters(prm); });
@@ -103,38 +104,40 @@ namespace corotet
     section(prm, "Initial conditions", [&] {
       prm.add_parameter("Displacement",
                         initial_displacement,
-                        "At the start time [m]: 'x; y; z', expressions in x, "
-                        "y, z, t. It must agree with supports, and turn no "
-                        "cell inside out. Statics: the first guess.");
+                        "Displacement at the start [m]: 'x; y; z', expressions "
+                        "in x, y, z, t. It must agree with supports and turn "
+                        "no cell inside out. Statics: the first guess.");
       prm.add_parameter("Velocity",
                         initial_velocity,
-                        "At the start time [m/s]: 'x; y; z', expressions in x, "
-                        "y, z, t.");
+                        "Velocity at the start [m/s]: 'x; y; z', expressions "
+                        "in x, y, z, t.");
     });
     section(prm, "Exact solution", [&] {
       exact_solution.declare_parameters(prm);
     });
     section(prm, "Time integration", [&] {
       time_integrator.declare_parameters(
-        prm, "'static' steps loads without inertia; the others are dynamic.");
-      prm.add_parameter("Start time", start_time, "In s.", Double());
+        prm,
+        "Method: 'static', load steps without inertia; 'central difference', "
+        "explicit time steps; the others, implicit time steps.");
+      prm.add_parameter("Start time", start_time, "Start time [s].", Double());
       prm.add_parameter("End time",
                         end_time,
-                        "In s, after the start time.",
+                        "End of the run [s], after the start time.",
                         Double());
       prm.add_parameter("Time step",
                         time_step,
-                        "In s. It is shortened a little if the duration is not "
-                        "a multiple of it. 0: the program's choice, with "
-                        "'central difference' only. With an adaptive step the "
-                        "first one. A run may have 4000000000 steps.",
+                        "Length of the steps [s] (of the first, if adaptive), "
+                        "shortened a little to divide the duration. 0: 'Safety "
+                        "factor' times the stable step, with 'central "
+                        "difference' only. A run may have 4000000000 steps.",
                         Double(0));
       prm.add_parameter("Maximum halvings",
                         max_halvings,
-                        "How often a step that fails is halved before the run "
-                        "ends [-]. The states at the ends of the steps asked "
-                        "for are what is recorded, in how many parts ever a "
-                        "step was made. Not for explicit or adaptive steps.",
+                        "How often a load step or implicit time step that "
+                        "fails is halved, to be made in parts, before the run "
+                        "ends [-]. Results are those at the ends of whole "
+                        "steps. Not for explicit or adaptive steps.",
                         Integer(0, 30));
       section(prm, "Adaptive step", [&] {
         adaptive_step.declare_parameters(prm);

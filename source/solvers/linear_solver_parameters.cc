@@ -33,41 +33,49 @@ namespace corotet
     preconditioner.declare_parameters(
       prm,
       "Preconditioner: 'automatic', p-multigrid, or a sparse factorisation "
-      "where that is the faster way, as on thin bodies of few cells across; "
-      "'p-multigrid', over the degrees down to 1, matrix-free; 'amg', smoothed "
-      "aggregation with rigid body modes, on the assembled matrix (where "
-      "Trilinos has ML); 'jacobi', the diagonal; 'direct', a sparse "
-      "factorisation of the assembled matrix.");
+      "where that is faster, as on thin bodies of few cells across; "
+      "'p-multigrid', matrix-free multigrid over the polynomial degrees from "
+      "that of the elements down to 1; 'amg', smoothed aggregation with rigid "
+      "body modes by Trilinos ML, on the assembled matrix (where Trilinos has "
+      "ML); 'jacobi', the diagonal; 'direct', a sparse factorisation of the "
+      "assembled matrix.");
     add_enumeration(prm,
                     "Method",
                     method,
                     methods,
-                    "Krylov method. 'automatic': conjugate gradients for "
-                    "symmetric systems, MINRES where these turn out to be "
-                    "indefinite; for those that are not symmetric flexible "
-                    "conjugate gradients, and where these are slow GMRES "
-                    "(flexible, restarted after 30 iterations, up to 200 "
-                    "where its vectors take less than 64 MiB), whose "
-                    "vectors take nearly as much memory as all the rest.");
+                    "Krylov method. 'automatic': for symmetric systems "
+                    "conjugate gradients, and MINRES where these turn out to "
+                    "be indefinite; for other systems flexible conjugate "
+                    "gradients, and GMRES where these are slow. Other systems "
+                    "allow 'automatic' and 'gmres' only. GMRES is flexible and "
+                    "restarted after 30 iterations, or up to 200 where its "
+                    "vectors take less than 64 MiB; they take nearly as much "
+                    "memory as all the rest.");
     add_enumeration(prm,
                     "Operator",
                     is_assembled,
                     operators,
-                    "How the matrix is applied: cell by cell without "
-                    "storing it, or assembled.");
+                    "How the matrix is applied in the iterations: "
+                    "'matrix-free', cell by cell without storing it; "
+                    "'assembled', as a sparse matrix, which takes more memory "
+                    "and, except with linear elasticity, needs 'Newton/Tangent "
+                    "= frozen rotation' and rotations other than at quadrature "
+                    "points.");
     prm.add_parameter("Tolerance",
                       tolerance,
-                      "Residual at which iterations stop, relative to the "
-                      "right hand side [-]. Iterations of Newton's method "
-                      "that are not the last one, as the step before tells, "
-                      "and will leave more of it anyway get by with less.",
+                      "Residual at which the iterations stop, relative to the "
+                      "right hand side [-]. Linear systems of Newton "
+                      "iterations that are not expected to be the last are "
+                      "solved less accurately, as far as their convergence "
+                      "allows.",
                       dealii::Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       max_iterations,
-                      "A solve that needs more has failed [-]. With an exact "
-                      "tangent 1,000 are enough to fail (with factors of a "
-                      "matrix, 100 or as many as take as long): then the "
-                      "frozen one is asked.",
+                      "Largest number of iterations of a linear solve [-]. A "
+                      "solve that needs more has failed. With an exact tangent "
+                      "a solve has failed after 1,000 iterations already (with "
+                      "a factorisation as preconditioner after fewer, at least "
+                      "100); then the frozen tangent is used.",
                       dealii::Patterns::Integer(1));
   }
 

@@ -12,33 +12,42 @@ namespace corotet
                     "Tangent",
                     tangent,
                     tangents,
-                    "Derivative of the corotational forces: 'consistent' is "
-                    "exact and converges quadratically; 'frozen rotation' "
-                    "leaves out that of the rotations, is always positive "
-                    "and converges linearly, if at all.");
+                    "Derivative of the internal forces that Newton's method "
+                    "takes: 'consistent' is exact and converges quadratically; "
+                    "'frozen rotation' leaves out the derivative of the "
+                    "rotations (for 'Saint Venant-Kirchhoff' and 'neo-Hookean' "
+                    "it is the stiffness of linear elasticity, rotated with "
+                    "each cell), is never indefinite and converges linearly, "
+                    "if at all. Where the exact one leads nowhere, the program "
+                    "takes the other by itself.");
     prm.add_parameter("Residual tolerance",
                       residual_tolerance,
-                      "Residual at which iterations stop, relative to the "
-                      "largest of the internal, external, inertia and damping "
-                      "forces [-].",
+                      "Largest residual at which Newton's method has "
+                      "converged, relative to the largest of the internal, "
+                      "external, inertia and damping forces [-]. 'Increment "
+                      "tolerance' must be met, too.",
                       dealii::Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Increment tolerance",
                       increment_tolerance,
-                      "Estimated error of the displacement at which iterations "
-                      "stop, relative to the displacement [-].",
+                      "Largest estimated error of the displacement at which "
+                      "Newton's method has converged, relative to the "
+                      "displacement [-]. Linear problems need 'Residual "
+                      "tolerance' only.",
                       dealii::Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       max_iterations,
-                      "A step that needs more has failed [-].",
+                      "Largest number of Newton iterations in a step [-]. A "
+                      "step that needs more has failed, see 'Time "
+                      "integration/Maximum halvings'.",
                       dealii::Patterns::Integer(1));
     prm.add_parameter("Linearly implicit",
                       linearly_implicit,
-                      "Whether one iteration is all: steps of a fixed price "
-                      "that cannot fail, with an error that shrinks with the "
-                      "time step; as interactive codes do. With the tangent "
-                      "'frozen rotation' it brings back bodies whose cells are "
-                      "collapsed or inside out, where rotations jump. For "
-                      "dynamics only.");
+                      "Whether each time step makes a single Newton iteration: "
+                      "steps have a fixed price and cannot fail to converge, "
+                      "and their error shrinks with the time step. With the "
+                      "tangent 'frozen rotation' this brings back bodies whose "
+                      "cells are collapsed or inside out, where rotations "
+                      "jump. For dynamics only.");
     prm.add_parameter("Log every solve",
                       always_log,
                       "Whether the log shows the convergence history of every "

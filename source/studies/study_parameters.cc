@@ -75,7 +75,8 @@ namespace corotet
                              run,
                              {{"simulation", RunType::simulation},
                               {"modes", RunType::modes}},
-                             "What is run again and again: as in Type.");
+                             "What is run with all combinations of the values "
+                             "below: 'simulation' or 'modes', as in Type.");
     prm.add_parameter("Degrees",
                       degrees,
                       "Values of Discretization/Degree.",
@@ -104,25 +105,27 @@ namespace corotet
       "Reference",
       reference,
       study_references,
-      "What fields are compared with: 'exact solution', that of section Exact "
-      "solution; 'finer run', one of the highest degree on the finest mesh, "
-      "refined further, with the shortest time step, or where 'Time steps' has "
-      "several a quarter of that; 'none', only Quantities "
-      "are looked at.");
+      "What the fields of the runs are compared with: 'exact solution', that "
+      "of section Exact solution; 'finer run', a run of the highest degree on "
+      "the finest mesh, refined further, with the shortest time step, or a "
+      "quarter of it if 'Time steps' has several values; 'none', nothing: only "
+      "Quantities are compared.");
     prm.add_parameter("Further refinements",
                       further_refinements,
-                      "Of the finer run [-].",
+                      "Number of refinements that the finer run of 'Reference' "
+                      "has beyond the largest of 'Refinements' [-].",
                       Integer(0, 3));
     prm.add_parameter(
       "Quantities",
       quantities,
-      "Numbers to be compared, 'name, name: value': columns of history.csv, of "
-      "their last row, or frequency_1, frequency_2, ... [Hz] of modes, with "
-      "the value that they should have. Without it that of the finer run, if "
-      "there is one.");
+      "Numbers of each run that are compared: 'name, name: value', where a "
+      "name is a column of history.csv, of which the last row counts, or "
+      "frequency_1, frequency_2, ... [Hz] of modes, and the value is what it "
+      "should be. Without a value it is compared with the finer run, if there "
+      "is one.");
     prm.add_parameter("Pictures",
                       pictures,
-                      "Whether errors are drawn at the end, by Python and "
+                      "Whether errors are plotted at the end, by Python and "
                       "matplotlib.");
   }
 

@@ -94,20 +94,22 @@ namespace corotet
     prm.add_parameter(
       "Checks",
       checks_text,
-      "What the results are compared with; if a check fails, so does the run. "
-      "'NAME: STATISTIC FORMULA where CONDITION = REFERENCE +- TOLERANCE; "
-      "...': the first, last, min, max, mean or range (max - min) of a formula "
-      "in the columns of history.csv (or modes.csv, as Type has it) over the "
-      "rows where a condition holds, or all without 'where'. A tolerance may "
-      "be in %; '< REFERENCE' or '> REFERENCE' is a bound.",
+      "Comparisons of the results with references; if one fails, so does the "
+      "run. 'NAME: STATISTIC FORMULA where CONDITION = REFERENCE +- TOLERANCE; "
+      "...': the STATISTIC is the first, last, min, max, mean or range (max - "
+      "min) of a FORMULA in the columns of history.csv (of modes.csv or "
+      "study.csv, as Type has it) over the rows where a CONDITION holds, or "
+      "over all rows without 'where'. A TOLERANCE may be in %; '< REFERENCE' "
+      "or '> REFERENCE' is a bound.",
       anything);
     prm.add_parameter("Source",
                       source,
-                      "Where the references are from; needed with checks.",
+                      "Source of the reference values, such as a book or a "
+                      "paper; needed with checks.",
                       anything);
     prm.add_parameter("Tolerance reason",
                       tolerance_reason,
-                      "Why the tolerances are as they are; needed with "
+                      "Reason for the size of the tolerances; needed with "
                       "checks.",
                       anything);
   }

@@ -12,21 +12,23 @@ namespace corotet
   {
     prm.add_parameter("Safety factor",
                       control.safety_factor,
-                      "Part of the stable step that is taken if 'Time step' is "
-                      "0 [-].",
+                      "Ratio of the time step to the stable step if 'Time "
+                      "step' is 0 [-].",
                       dealii::Patterns::Double(0.01, 1));
     prm.add_parameter(
       "Steps between estimates",
       control.steps_between_estimates,
-      "The stable step is estimated at the start and then every "
-      "so many steps [-], from the largest eigenvalue of M^-1 "
-      "K with the rotations of that moment.",
+      "Number of steps from one estimate of the stable step to the next [-]; "
+      "the first is made at the start. It takes the largest eigenvalue of M^-1 "
+      "K in the state of that moment. Smaller values follow bodies that "
+      "quickly become stiffer.",
       dealii::Patterns::Integer(1));
     prm.add_parameter("Refuse unstable steps",
                       control.refuse,
-                      "Whether a 'Time step' above the stable one is refused. "
-                      "If not, there is only a warning, and the run ends when "
-                      "the motion has grown beyond all bounds.");
+                      "Whether a 'Time step' above the stable step ends the "
+                      "run with an error. If not, there is only a warning, and "
+                      "the run ends when the motion has grown beyond all "
+                      "bounds.");
   }
 
   StageReport

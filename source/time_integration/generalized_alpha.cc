@@ -10,9 +10,10 @@ namespace corotet
   {
     prm.add_parameter("Spectral radius",
                       spectral_radius,
-                      "Spectral radius at infinity [-]: the factor per step "
-                      "that is left of motion far too fast for the step. 1 "
-                      "dissipates nothing.",
+                      "Spectral radius at infinity, rho_infinity [-]: the "
+                      "factor by which each step multiplies motion that is far "
+                      "too fast for it. 1: no numerical damping; smaller "
+                      "values damp more.",
                       dealii::Patterns::Double(0, 1));
   }
 

@@ -10,9 +10,10 @@ namespace corotet
   {
     prm.add_parameter("Alpha",
                       alpha,
-                      "alpha [-]: the more negative, the more of the motion "
-                      "that is too fast for the step is dissipated. 0 is the "
-                      "trapezoidal rule.",
+                      "Parameter alpha of the method [-]: the more negative, "
+                      "the stronger the numerical damping of motion that is "
+                      "too fast for the time step. 0 is the trapezoidal rule, "
+                      "without damping.",
                       dealii::Patterns::Double(-1. / 3, 0));
   }
 } // namespace corotet

@@ -10,15 +10,16 @@ namespace corotet
   {
     prm.add_parameter("Load steps",
                       load_steps,
-                      "Number of equal steps from the start time to the end "
-                      "time [-]. The time step is not used. A step that fails "
-                      "is made in halves.",
+                      "Number of equal load steps from the start time to the "
+                      "end time [-]; 'Time step' is not used. A step that "
+                      "fails is made in halves.",
                       dealii::Patterns::Integer(1));
     prm.add_parameter("Proportional loading",
                       proportional,
                       "Whether all loads and prescribed displacements are also "
-                      "multiplied by the part of the steps that is done. If "
-                      "not, only their dependence on t changes them.");
+                      "multiplied by a load factor, which grows evenly from 0 "
+                      "at the start to 1 at the end. If not, only their "
+                      "dependence on t changes them.");
   }
 
   StageReport

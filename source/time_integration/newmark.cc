@@ -11,12 +11,15 @@ namespace corotet
     prm.add_parameter(
       "Beta",
       beta,
-      "beta [-]; 0.25 with gamma = 0.5 is the trapezoidal rule.",
+      "Parameter beta of Newmark's method [-]. 0.25 with gamma = 0.5 is the "
+      "trapezoidal rule.",
       dealii::Patterns::Double(1e-3, 1));
     prm.add_parameter("Gamma",
                       gamma,
-                      "gamma [-]; above 0.5 it damps and is of first order. "
-                      "Above 2 beta, long steps are unstable.",
+                      "Parameter gamma of Newmark's method [-]. 0.5 gives "
+                      "second order and no numerical damping; larger values "
+                      "damp and give first order. Above 2 beta, long steps are "
+                      "unstable.",
                       dealii::Patterns::Double(0.5, 1.5));
   }
 } // namespace corotet

@@ -13,8 +13,9 @@ namespace corotet
   {
     prm.add_parameter("Aggregation threshold",
                       aggregation_threshold,
-                      "Couplings weaker than this [-] are ignored when nodes "
-                      "are aggregated.",
+                      "Strength of a coupling between nodes, relative to the "
+                      "diagonal, below which it is ignored when nodes are "
+                      "aggregated [-].",
                       dealii::Patterns::Double(0, 1));
     prm.add_parameter("Smoother sweeps",
                       smoother_sweeps,
