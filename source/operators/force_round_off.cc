@@ -87,4 +87,19 @@ namespace corotet
            std::sqrt(
              dealii::Utilities::MPI::sum(sum, u.get_mpi_communicator()));
   }
+
+  double
+  ForceRoundOff::largest_cause(const Vector &r) const
+  {
+    double largest = 0;
+    for (unsigned int n = 0; n < by_displacement.size(); ++n)
+      {
+        double square = 0;
+        for (unsigned int a = 0; a < 3; ++a)
+          square += r.local_element(3 * n + a) * r.local_element(3 * n + a);
+        largest = std::max(largest, square / by_displacement[n]);
+      }
+    return std::sqrt(
+      dealii::Utilities::MPI::max(largest, r.get_mpi_communicator()));
+  }
 } // namespace corotet

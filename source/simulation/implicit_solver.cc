@@ -299,7 +299,7 @@ namespace corotet
         const double limit =
           is_linear() ? std::max({0.9 * parameters.residual_tolerance * scale,
                                   least_tolerance * norm(r),
-                                  0.9 * force_noise}) :
+                                  hides_parts ? 0. : 0.9 * force_noise}) :
                         std::numeric_limits<double>::infinity();
         const unsigned int n_builds     = preconditioner_builds();
         const unsigned int n_iterations = linear_solver.solve(

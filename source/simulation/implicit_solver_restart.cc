@@ -15,6 +15,7 @@ namespace corotet
   {
     archive.transfer("solved_scale", solved_scale);
     archive.transfer("slow_iterations", slow_iterations);
+    archive.transfer("hides_parts", hides_parts);
     std::vector<int> shown(shown_round_off.size());
     std::transform(shown_round_off.begin(),
                    shown_round_off.end(),

@@ -50,8 +50,29 @@ namespace corotet
     of_supports =
       dealii::Utilities::MPI::max(of_supports,
                                   body.discretization.communicator());
+    return u.linfty_norm() / (of_supports + size_of_body());
+  }
+
+  double
+  ImplicitSolver::size_of_body() const
+  {
     const auto [lower, upper] = body.discretization.bounding_box();
-    return u.linfty_norm() / (of_supports + lower.distance(upper));
+    return lower.distance(upper);
+  }
+
+  bool
+  ImplicitSolver::is_round_off_everywhere(const Vector &r)
+  {
+    // Round-off of a displacement, and of the rotation of a cell, which is no
+    // larger than the body; a number that is never exceeded by it.
+    constexpr double most = 16 * precision;
+    const double cause = effective_operator->force_round_off().largest_cause(r);
+    const double size  = equation.displacement().linfty_norm() + size_of_body();
+    // Forces of an assembled matrix have round-off that is not in balance: that
+    // of stiff parts moves soft ones.
+    const bool result = !linear_solver.is_assembled() && cause <= most * size;
+    hides_parts       = hides_parts || !result;
+    return result;
   }
 
   void
@@ -77,8 +98,8 @@ namespace corotet
     if (report.round_off == RoundOff::none ||
         !shown_round_off.insert(report.round_off).second)
       return;
-    const double size = equation.displacement().linfty_norm();
-    log.line(fmt::format(
+    const double      size = equation.displacement().linfty_norm();
+    const std::string text = fmt::format(
       "t = {:.6g}: round-off ended Newton's iterations, which is not said "
       "again: {}; the residual is {:.2g} of the forces",
       stage.time,
@@ -88,6 +109,14 @@ namespace corotet
                     size,
                     precision * size) :
         "an increment was no more than the round-off of the displacement",
-      report.final_residual));
+      report.final_residual);
+    constexpr double large = 1e-3;
+    if (report.iterations > 1 && report.history.back().increment > large)
+      log.warning(fmt::format("{}, and the last increment {:.2g} of the "
+                              "displacement",
+                              text,
+                              report.history.back().increment));
+    else
+      log.line(text);
   }
 } // namespace corotet

@@ -41,6 +41,12 @@ namespace corotet
       return by_rotations;
     }
 
+    /// The displacements that cause the forces @p r at single nodes [m]: the
+    /// largest of the forces over what of_displacement() has for 1 m.
+    /// Collective.
+    double
+    largest_cause(const Vector &r) const;
+
   private:
     /// For each owned node, the sum of the squares of the forces that cells
     /// exert if the displacements of their nodes are independent of each other,

@@ -78,6 +78,8 @@ namespace corotet
   private:
     Norm
     residual(Vector &r) override;
+    bool
+    is_round_off_everywhere(const Vector &r) override;
     Norm
     improve_guess(Vector &r, const Norm &at_guess) override;
     unsigned int
@@ -129,6 +131,9 @@ namespace corotet
     };
     RoundOffOfForces
     round_off();
+    /// The largest extent of the body at rest [m]. Collective.
+    double
+    size_of_body() const;
     /// The largest displacement in statics over the body's size and that of the
     /// supports [-]; 0 in dynamics. Collective.
     double
@@ -180,6 +185,10 @@ namespace corotet
     double stage_scale    = 0;
     /// The round-off that the last residual may have [N].
     double force_noise = 0;
+    /// Whether round-off of stiff parts of the body has hidden forces on
+    /// others: then linear solves do not end at the round-off of the whole
+    /// body.
+    bool hides_parts = false;
     /// Whether nothing resists the loads: the displacement is so large that its
     /// round-off exceeds them, and is far out of reach.
     bool has_run_away = false;

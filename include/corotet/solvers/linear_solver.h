@@ -102,6 +102,13 @@ namespace corotet
       stop_question = question;
     }
 
+    /// Whether systems with the effective operator are those of its matrix.
+    bool
+    is_assembled() const
+    {
+      return parameters.is_assembled;
+    }
+
     /// Lines for the log about the solution method, new since the last call.
     std::string
     take_news()

@@ -60,6 +60,15 @@ namespace corotet
     virtual Norm
     residual(Vector &r) = 0;
 
+    /// Whether each part of the body by itself has a residual @p r, that of the
+    /// last evaluation, which round-off explains. As a whole it does so: its
+    /// norm is no more than Norm::most_round_off.
+    virtual bool
+    is_round_off_everywhere(const Vector & /*r*/)
+    {
+      return true;
+    }
+
     /// Called with the residual @p r and its norm @p at_guess at the guess of
     /// x: may go to another guess. Leaves the residual there in @p r and
     /// returns its norm.
