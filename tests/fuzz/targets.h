@@ -25,7 +25,7 @@ namespace fuzz
 {
   using Target = void (*)(const std::string &input);
 
-  /// By name.
+  /// All targets, by their names.
   const std::map<std::string, Target> &
   targets();
 
@@ -62,7 +62,7 @@ namespace fuzz
   void
   read_unv_file(const std::string &input);
 
-  /// Whether @p action comes to its end without refusing its input.
+  /// Whether @p action ends without refusing its input.
   template <typename Action>
   bool
   is_accepted(const Action &action)
@@ -78,7 +78,8 @@ namespace fuzz
       }
   }
 
-  /// What must be so, whatever the input is.
+  /// Ends the process if @p is_so is false: a promise that must hold for any
+  /// input is broken.
   inline void
   require(const bool is_so, const std::string &what)
   {
@@ -88,7 +89,7 @@ namespace fuzz
     std::abort();
   }
 
-  /// A folder of this process.
+  /// A temporary folder of this process.
   inline const TemporaryFolder &
   scratch()
   {

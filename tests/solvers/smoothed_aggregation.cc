@@ -94,8 +94,7 @@ TEST(SmoothedAggregation, MoreLevels)
       EXPECT_EQ(n.front(), preconditioner.n_aggregates().front());
       EXPECT_LE(n.back(), most);
       EXPECT_GT(n[n.size() - 2], most);
-      // One further level costs one iteration on one rank, and on two ranks,
-      // too.
+      // More levels take one iteration more, on one rank and on two.
       EXPECT_LE(iterations(box, with_more), by_two + 3) << most;
     }
 }
