@@ -16,10 +16,10 @@
 #include "temporary_folder.h"
 
 /**
- * What reads files of others, as functions of bytes that may be anything. Each
- * may refuse them by the errors that a user is told; whatever else happens (a
- * crash, another exception, a broken promise, too much memory or time) is a
- * finding.
+ * The readers of files from outside, as functions of arbitrary bytes. Each may
+ * refuse its input by throwing an error for users; anything else that goes
+ * wrong (a crash, another exception, a broken promise, too much memory or time)
+ * is a finding.
  */
 namespace fuzz
 {

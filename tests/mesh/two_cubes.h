@@ -15,8 +15,9 @@
 #include "tools.h"
 
 /**
- * Two unit cubes side by side in x, of six tetrahedra each, and of two
- * triangles each the sides at x = 0 and x = 2, for the text of a mesh file.
+ * Two unit cubes side by side in x, for the text of a mesh file: six
+ * tetrahedra for each cube, and two triangles for each of the sides x = 0 and
+ * x = 2.
  */
 namespace corotet::tests::two_cubes
 {
