@@ -35,14 +35,14 @@ from readers import MESHED_BOX, gmsh  # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "scaling.md"
-# Degrees, and cuboids in each direction, each of six cells.
+# The degree, and the number of cuboids in each direction, of six cells each.
 BODIES = [(1, 68), (2, 34), (3, 23), (2, 62), (3, 41)]
-# By degree, for an unknown, on one rank.
+# The most bytes for an unknown on one rank, by degree.
 MOST_BYTES = {1: 1500, 2: 350, 3: 300}
 CUBOIDS_OF_LARGEST = 119
 MOST_SETUP = {1: 2, 2: 4, 3: 4}
 MOST_OVER_MEAN = 1.3
-# Starts a rank, and says what memory it had in the end.
+# Starts a rank, and writes how much memory it has used.
 RANK = """import os, resource, subprocess, sys
 status = subprocess.call(sys.argv[2:])
 open(f"{sys.argv[1]}/rank.{os.getpid()}", "w").write(str(1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss))
@@ -64,7 +64,7 @@ def run(program, folder, ranks):
 
 
 def judge(degree, ranks, summary, memory):
-    """What is not as it should be."""
+    """Lines on figures that exceed their limits."""
     times, found = summary["wall_time"], []
     setup = times["setup"] - times["read"]
     each = 1e6 * setup / summary["cells"]
@@ -92,7 +92,7 @@ def row(degree, ranks, fastest):
 
 
 def measure(options, folder):
-    """Rows of the table, and what is not as it should be."""
+    """The rows of the table, and lines on figures that exceed their limits."""
     heads = ["degree", "ranks", "cells", "unknowns", "iterations", "reading", "set-up", "for a million cells", "assembly", "solution",
              "output", "whole", "processor", "MB", "bytes for an unknown", "largest rank over mean"]
     lines, mistakes = ["| " + " | ".join(heads) + " |", "|" + "---:|" * len(heads)], []

@@ -21,7 +21,7 @@ from program_runs import BY_AGGREGATION, bent_body, box, document, solve  # pyli
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "algorithms.md"
-# Size, cuboids.
+# The size and the cuboids of each body.
 BODIES = {
     "well-shaped": [("4, 1, 1", "40, 10, 10"), ("4, 1, 1", "80, 20, 20"), ("4, 1, 1", "140, 35, 35")],
     "flat by 10": [("1, 1, 0.1", "16, 16, 16"), ("1, 1, 0.1", "32, 32, 32")],

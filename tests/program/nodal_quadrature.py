@@ -31,7 +31,7 @@ class NodalQuadrature(ProgramTest):
             plain, summary = self.tips(f"plain_{number}", rotation)
             found, with_bubbles = self.tips(f"bubbles_{number}", rotation, BUBBLES)
             self.assertEqual(with_bubbles["nodes"], summary["nodes"] + N_CELLS + N_FACES)
-            # Lumping keeps the whole: sums of 240 cells.
+            # Lumping keeps the total mass, to the round-off of sums over 240 cells.
             self.assertAlmostEqual(with_bubbles["total_mass"], 10, delta=1e-12)
             difference = max(abs(a - b) for a, b in zip(found, plain))
             print(f"{placement}: tip at {found[-1]:.6f} m, without bubbles at {plain[-1]:.6f} m, largest difference {difference:.2e} m")

@@ -31,7 +31,7 @@ class Shells(ProgramTest):
                 self.assertEqual({prefix + name.replace("\\", "") for name in found}, options)
 
     def complete(self, *words):
-        """What bash offers for the last word, "corotet" before it."""
+        """The completions that bash offers for the last of these words after "corotet"."""
         words = ("corotet", *words)
         script = ('source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); '
                   '_corotet corotet "${@: -1}" "${@: -2:1}"; printf "%s\\n" "${COMPREPLY[@]}"')

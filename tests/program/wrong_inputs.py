@@ -29,13 +29,13 @@ def write_files(row, folder):
 
 
 def start(row, folder):
-    """Runs the program; the exit status, what it has said, and the processor time."""
+    """Runs the program; returns its exit status, output and processor time."""
     run, used = run_alone(row.arguments, folder, 60, row.memory)
     return run.returncode, run.stdout, run.stderr.decode(errors="backslashreplace"), used
 
 
 def mistakes_of(row, seconds):
-    """What is not as it should be, and the processor time."""
+    """Lines on wrong results of a row, and the processor time."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         write_files(row, folder)
@@ -72,7 +72,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=2)
     parser.add_argument("--only", default="", help="rows whose name has this")
     options = parser.parse_args()
-    # A program with assertions or sanitizers needs more memory to begin with.
+    # A program with assertions or sanitizers needs more memory from the start.
     rows = [row for row in all_rows()[::options.every] if options.only in row.name and not (options.every > 1 and row.memory)]
     names = [row.name for row in rows]
     assert len(set(names)) == len(names), [name for name in names if names.count(name) > 1]
