@@ -77,8 +77,8 @@ TEST_F(AbaqusFile, TheRestHasANumber)
     }
   for (const SerialMesh &one : meshes)
     {
-      // gmsh has no group 0, so this region comes back at another place in the
-      // list.
+      // gmsh has no group 0: "0" comes back as the name of another group, so
+      // the order of names may differ.
       Known known = known_regions(one);
       std::sort(known.begin(), known.end());
       EXPECT_EQ(known, (Known{"0", "far"}));

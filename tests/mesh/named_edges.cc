@@ -20,8 +20,8 @@ using namespace corotet;
 using namespace corotet::tests;
 using dealii::Point;
 
-// Both halves of a refined edge have its names, no other edge gets one; corners
-// stay where they are.
+// The parts of a refined edge have its names, and no other edge gets one;
+// corners stay where they are.
 TEST(NamedEdges, SurviveRefinement)
 {
   SerialMesh mesh = box_with("belt: plane 0 0 0.5 0 0 1, part: belt and x-min",
