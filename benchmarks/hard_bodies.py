@@ -8,8 +8,8 @@ scripts/toolchain:
     benchmarks/hard_bodies.py [--program PROGRAM] [--repetitions 2] [--ranks 1] [--quick] [--document]
 
 Times are those of the matrix, the solver's set-up and the solution, of the fastest run; memory is the most that the process has had.
-`bent` are the iterations of the same solver where the body is bent to a quarter of a circle, along x: those of the first linear solve from
-there, with the rotations of cells (`corotational`); none where cells would be inside out.
+`bent` are the iterations of the same solver for the body bent to a quarter of a circle, along x, in the first linear solve from there,
+with the rotations of cells (`corotational`); there is no figure where cells would be inverted.
 `amg` gets 1,000 iterations, 20 seconds and one run; it and `direct` have no figures above 150,000 unknowns. --quick leaves out degree 3
 and large bodies. --document writes the table into doc/algorithms.md.
 """
@@ -97,7 +97,7 @@ Mesh.OptimizeNetgen = 0;
 
 def write_slivers(path, n_points):
     """Delaunay cells of random points in a box of 4 x 1 x 1 m, a quarter of them on its surface. Cells without volume are left out."""
-    vtkObject.GlobalWarningDisplayOff()  # of degenerate triangles
+    vtkObject.GlobalWarningDisplayOff()  # no warnings of degenerate triangles
     random, size = np.random.default_rng(1), np.array([4.0, 1.0, 1.0])
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size
     on_surface = random.random((n_points // 4, 3)) * size

@@ -113,9 +113,9 @@ RUNS = [
 @dataclass
 class Ratio:
     """
-    A required ratio. Numerator and denominator are benchmarks, "NAME@RANKS" on several ranks: their times, or with
-    ":COUNTER" one of their counters. Of a list it is the largest; without a denominator the numerator itself. With
-    `difference` the denominator is subtracted.
+    A required ratio. Numerator and denominator are benchmarks, "NAME@RANKS" on several ranks: their times, or with ":COUNTER" one of
+    their counters. A list stands for its largest value; without a denominator the ratio is the numerator. With `difference` the
+    denominator is subtracted.
     """
 
     name: str

@@ -6,10 +6,10 @@ gmsh and here, and read by `corotet mesh`. Run it inside of scripts/toolchain:
 
     benchmarks/readers.py [--cells N] [--program PROGRAM] [--keep FOLDER] [--document]
 
-Memory is the largest sum of what the processes that there are at once had at most, less that for a mesh of a few cells. Surfaces have
-a hole, so that they are read and checked, and refused before anything is meshed; shapes of CAD are meshed coarsely, which belongs to
-their figures. The status is 1 if reading takes more than ten times the file's size and 200 MB, or a file that was cut off in its middle
-is not refused in one line that names it.
+Memory is the sum of the peaks of all processes that exist at the same time, where it is largest, less that for a mesh of a few cells.
+Surfaces have a hole, so that they are read and checked, and refused before anything is meshed; shapes of CAD are meshed coarsely, which
+belongs to their figures. The status is 1 if reading takes more than ten times the file's size and 200 MB, or a file that was cut off in
+its middle is not refused in one line that names it.
 --document writes the table into doc/meshes.md.
 """
 

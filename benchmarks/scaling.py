@@ -5,9 +5,9 @@
 
     benchmarks/scaling.py [--program PROGRAM] [--most-ranks 16] [--cells 4] [--document]
 
-Linear statics of beams of --cells^3 times four cuboids for each rank, degrees 1 to 3, on 1, 2, 4, .. ranks, and on one; more than there are
-cores share these, so of them only iterations and memory count. The model takes the times of one rank and of two and computes those of
-up to 1,024 ranks for 1e9 unknowns; what it assumes is in doc/scaling.md, into which --document writes the tables.
+Linear statics of beams of --cells^3 times four cuboids for each rank, degrees 1 to 3, on 1, 2, 4, .. ranks, and on one. If there are more
+ranks than cores, ranks share them, and only iterations and memory count. The model takes the times of one rank and of two and computes
+those of up to 1,024 ranks for 1e9 unknowns; its assumptions are in doc/scaling.md, into which --document writes the tables.
 
 The status is 1 if a body takes more than two iterations more than on one rank, if the largest takes more than three more than the smallest, if
 one rank has more than 1.3 times the memory of the mean, or if the model is wrong by more than a third for two ranks.

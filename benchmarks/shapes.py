@@ -71,8 +71,8 @@ def number(value):
 
 
 def solid(rng, tag, cut):
-    """A primitive of OpenCASCADE as gmsh writes it. Its centre is in the upper part of the unit cube, on which all of them are put, so
-    that most of the bottom stays; what is cut is smaller than what is added."""
+    """A primitive of OpenCASCADE as gmsh writes it. Its centre is in the upper part of the unit cube, to which all primitives are
+    applied, so that most of the bottom stays; primitives that are cut out are smaller than those that are added."""
     size = rng.uniform(0.1, 0.25) if cut else rng.uniform(0.15, 0.4)
     x, y, z = rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0.55, 1)
     kind = rng.choice(("Box", "Cylinder", "Sphere", "Torus"))

@@ -1,22 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Random combinations of what can be combined, each computed twice: once on one rank with a direct solver, once on 1, 2 or 3
-ranks with another solver. Both must end with status 0 and agree to solver tolerance.
+"""Random combinations of entries, each computed twice: once on one rank with a direct solver, once on 1, 2 or 3 ranks with another
+solver. Both must end with status 0 and agree to solver tolerance.
 
 A combination is made by a number, its seed; `combinations.py --seeds 0 300` runs 300 of them and names those that disagree.
-The problem is posed in units of the body's length L, Young's modulus E and density rho, and then given to the program in random
-units, whose results are turned back.
+The problem is posed in units of the body's length L, Young's modulus E and density rho, and then given to the program in random units,
+from which the results are converted back.
 
 How close results must be: Newton's method and linear solvers have tolerances of 1e-10 and 1e-11 here, relative to the forces and
 the displacement; a soft direction of these bodies (length over thickness up to 3, strains down to 1e-6) makes at most some 1e3 of
 that, and so do some steps of dynamics. So displacements must agree to
 - 1e-7 of the largest difference of displacements in the body;
-- 1e4 roundings of the largest displacement, which is what strains are known to where a body has moved far;
+- 1e4 roundings of the largest displacement, to which strains are known where a body has moved far;
 - in static load steps whose support moves, to 1e-8 of the largest displacement, since linear solves begin with the forces of that
   motion: all of it if the material is linear; if not, no more than 1e4 roundings of the length, as Newton's method removes what is
   above its estimate of round-off, which is up to 700 times the true one.
-Energies must agree to what these make of them.
+The tolerances of energies follow from these.
 """
 
 import argparse

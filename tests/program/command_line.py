@@ -78,7 +78,7 @@ class CommandLine(ProgramTest):
             try:
                 while piece := os.read(main, 65536):
                     shown += piece
-            except OSError:  # that of a terminal whose other end is closed
+            except OSError:  # the error of a terminal whose other end is closed
                 pass
             os.close(main)
             self.assertEqual(run.wait(), 0)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/docs makes a site whose links lead somewhere and that wants no network; and its check of that finds what is wrong.
+"""scripts/docs makes a site whose links all have a target and that needs no network; and its check finds mistakes of both kinds.
 
-The site is made without gallery and API, which take longer and have nothing of pages in them. What it must have is what its pages say: a page for each
-section of parameters with the entries that the program has, equations, links from keys to references. In a browser, from the folder and so without any
-network: equations are drawn, the search finds the pages that have a word, the colours are those that the system asks for, and what is loaded is in the site.
+The site is made without gallery and API, which take longer and have no content of pages. It must have the content of the pages: a page
+for each section of parameters with the program's entries, equations, links from keys to references. In a browser, from the folder and
+without any network: equations are drawn, the search finds the pages that have a word, colours follow the system's setting, and all loaded
+files are in the site.
 """
 
 import os

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/export: what was written is read back, by VTK's, PyVista's and meshio's readers where there are, and compared with the run's own numbers, which
-VTK's reader of the time series and history.csv have."""
+"""scripts/export: written files are read back by VTK's, PyVista's and meshio's readers where these exist, and compared with the run's own
+numbers in history.csv and in the time series as VTK reads it."""
 
 import csv
 import importlib.util

@@ -92,9 +92,9 @@ class External(unittest.TestCase):
         return [float(row["top_z"]) for row in read_history(folder / "output" / "tethered_cube")]
 
     def test_own_force_and_integrator(self):
-        """A mass on a spring, from rest where the spring is slack: z = - m g / k (1 - cos omega t), omega^2 = k / m. The method is
-        of second order, the next term of its error of fourth, (omega dt)^2 = 0.02 of the first; the cube's own compliance,
-        k / (E L) = 1e-7, is far below."""
+        """A mass on a spring, from rest where the spring is slack: z = - m g / k (1 - cos omega t), omega^2 = k / m. The method is of
+        second order, and the next term of its error, of fourth order, is (omega dt)^2 = 0.02 of the first; the cube's own compliance, k /
+        (E L) = 1e-7, is far below."""
         errors = []
         for steps in (40, 80):
             z = self.tethered(steps)
@@ -116,8 +116,8 @@ class External(unittest.TestCase):
         self.assertIn("Tether", result.stderr)
 
     def test_step_by_step(self):
-        """From rest all modes of a bar have their largest elongation, twice that at rest, at 2 L / c (their frequencies are odd
-        multiples of c / 4 L), and without the load swing back to the opposite. The same load as an expression gives the same."""
+        """Starting at rest, all modes of a bar have their largest elongation, twice the static one, at 2 L / c (their frequencies are odd
+        multiples of c / 4 L), and without the load swing back to the opposite. The same load as an expression has the same result."""
         folder, text = self.run_here(self.build / "let_go", PROJECT / "bar.prm")
         let_go_at, highest, lowest = (float(word) for word in text.split())
         at_rest = 100 * 10**2 / (2 * 1e6)

@@ -3,9 +3,9 @@
 # Copyright (C) 2026 by the corotet authors
 """The quadratic element with bubbles and its diagonal mass, from the parameter file to the results.
 
-The mesh of the cantilever has 12 x 2 x 2 boxes with five cells each. With bubbles there are nodes on all faces and in all cells
-more, and what is written for VTK leaves them out. The beam falls as it does with the consistent mass on the same cells; the
-functions that it has more make it softer by what the error of the coarse mesh is. Two ranks agree with one as in ranks.py.
+The mesh of the cantilever has 12 x 2 x 2 boxes with five cells each. Bubbles add nodes on all faces and in all cells, which files for VTK
+leave out. The beam falls as with the consistent mass on the same cells; the additional functions make it softer, by about the error of
+the coarse mesh. Two ranks agree with one as in ranks.py.
 """
 
 import unittest

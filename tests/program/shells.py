@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What shells and man know of the command line: exactly the options that --help lists; bash completes options, styles, entries and
+"""Completions of shells and the manual page have exactly the options that --help lists; bash completes options, styles, entries and
 files. (The files for zsh and fish are compared with --help only.)"""
 
 import os

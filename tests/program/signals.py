@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Signals and limits of time: what ends a run leaves it saved, and what asks for a checkpoint ends nothing."""
+"""Signals and limits of time: one that ends a run leaves it saved, and one that requests a checkpoint does not end it."""
 
 import os
 import re

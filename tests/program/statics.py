@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Bodies that are held by little, or by nearly everything: springs that come and go, nodes that are all fixed but a few, cells without
-any thickness. What has a solution is solved, and what has none is no result.
+"""Bodies with few supports, or with nearly all nodes fixed: springs that appear and vanish, few free nodes, cells without thickness.
+Problems with a solution are solved, and those without one give no result.
 """
 
 import math
@@ -70,8 +70,8 @@ class Statics(ProgramTest):
 
     def test_preconditioner_of_another_shape(self):
         """
-        From the guess of a plate that is bent to a quarter of a circle, load steps are halved, as one iteration is not enough: no solve goes
-        on for long with the preconditioner of another shape. It took up to 4,835 iterations.
+        The guess is a plate bent to a quarter of a circle. One iteration is not enough there, so load steps are halved; no solve goes on
+        for long with the preconditioner of another shape, which took up to 4,835 iterations.
         """
         radius, middle = 2 / math.pi, 0.005
         bent = (f"({radius} - (z - {middle}))*sin(x/{radius}) - x; 0; "

@@ -3,8 +3,8 @@
 # Copyright (C) 2026 by the corotet authors
 """Stress in the results: at nodes, at quadrature points, at probes, and the estimate of its error.
 
-A block of linear elasticity, sheared in two load steps; what its files hold is checked by tests/output/check_stress.py. A bar
-under tension has the same stress everywhere, which all of them must show. Two ranks differ by the linear solver's error, 1e-12.
+A block of linear elasticity is sheared in two load steps; tests/output/check_stress.py checks its files. A bar under tension has the same
+stress everywhere, which all results must show. Two ranks differ by the linear solver's error, 1e-12.
 """
 
 import subprocess

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The table of wrong_inputs.py. What parameters may be is what the program lists of them; the rest is written down here and in
+"""The table of wrong_inputs.py. Allowed values of parameters are those that the program lists; other rows are in this file and in
 wrong_input_files.py.
 """
 

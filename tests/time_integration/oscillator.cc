@@ -184,7 +184,7 @@ TEST(Oscillator, EnergyIsKept)
 TEST(Oscillator, CentralDifference)
 {
   CentralDifference integrator;
-  Oscillator        system; // of angular frequency 2
+  Oscillator        system; // with the angular frequency 2
   EXPECT_NEAR(integrator.stable_step(2., 0.), 1, 1e-15);
   const auto energy = [&](const State &s, const double dt) {
     const double u = s.u.local_element(0), v = s.v.local_element(0),
