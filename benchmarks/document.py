@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""Writes doc/measurements.md and its pictures, using only the JSON file of a run."""
+"""Writes doc/measurements.md and its pictures, using only the JSON file of a
+run."""
 
 import shutil
 import textwrap

@@ -7,15 +7,20 @@ Run it inside of scripts/toolchain:
 
     benchmarks/end_to_end.py [--program PROGRAM] [--ranks 1 2] [--repetitions 2] [--quick] [--largest] [--document]
 
-Times are those of the fastest run; set-up goes from the arrays of the mesh to the first application of the operator, without reading. The
-processor's time is that of all processes, including the launcher and gmsh, which reads the file. Memory is the peak of each rank, or of
-gmsh's process, which rank 0 waits for, if that had more.
+Times are those of the fastest run; set-up goes from the arrays of the mesh to
+the first application of the operator, without reading. The processor's time is
+that of all processes, including the launcher and gmsh, which reads the file.
+Memory is the peak of each rank, or of gmsh's process, which rank 0 waits for,
+if that had more.
 
-The status is 1 if set-up on one rank takes more than 2 s for a million cells of degree 1, 4 s of degree 2 or 3; if at degree 2 or 3
-set-up and output take longer than the solution; if one rank has more than 1,500 bytes for an unknown of degree 1, 350 of degree 2, or 300
-of degree 3; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of an eighth and checks no limits.
---largest runs only ten million cells of degree 1, on the largest number in --ranks. --document writes the table, or with --largest that
-one, into doc/scaling.md.
+The status is 1 if set-up on one rank takes more than 2 s for a million cells of
+degree 1, 4 s of degree 2 or 3; if at degree 2 or 3 set-up and output take
+longer than the solution; if one rank has more than 1,500 bytes for an unknown
+of degree 1, 350 of degree 2, or 300 of degree 3; or if a rank has more than 1.3
+times the memory of the mean one. --quick takes meshes of an eighth and checks
+no limits. --largest runs only ten million cells of degree 1, on the largest
+number in --ranks. --document writes the table, or with --largest that one, into
+doc/scaling.md.
 """
 
 import argparse

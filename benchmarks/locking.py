@@ -81,13 +81,15 @@ def relative_error(found, exact):
 
 
 def last_state(results, series):
-    """Positions at rest, displacement and mean normal stress of the last state."""
+    """Positions at rest, displacement and mean normal stress of the last
+    state."""
     with h5py.File(results / series / "mesh.h5", "r") as mesh, h5py.File(max((results / series).glob("step_*.h5")), "r") as state:
         return mesh["Points"][:], state["PointData/displacement"][:], state["PointData/stress"][:, :3].mean(axis=1)
 
 
 def solve(program, folder, ratio, element):
-    """The number of unknowns, the iterations, and the errors of displacement, raw and recovered pressure."""
+    """The number of unknowns, the iterations, and the errors of displacement,
+    raw and recovered pressure."""
     degree, dilatation, refinements = element
     lame, mu = ratio / ((1 + ratio) * (1 - 2 * ratio)), 1 / (2 * (1 + ratio))
     half = PRESSURE / 2 / lame

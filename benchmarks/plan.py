@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""The cases and runs of `make bench`, and the ratios that it requires. To add one, add a line."""
+"""The cases and runs of `make bench`, and the ratios that it requires. To add
+one, add a line."""
 
 from dataclasses import dataclass, field
 
@@ -43,7 +44,8 @@ CASES = {
     "P2/840k-bracket": Case(2, element_size=0.0013),
 }
 
-# Bodies of some 60,000 unknowns that are hard to precondition, by name. The last one has cells of aspect ratio 10.
+# Bodies of some 60,000 unknowns that are hard to precondition, by name. The
+# last one has cells of aspect ratio 10.
 HARD = {
     "bent": ("--bend", "1.5707963"),
     "nu-0.45": ("--poissons-ratio", "0.45"),
@@ -112,10 +114,10 @@ RUNS = [
 
 @dataclass
 class Ratio:
-    """
-    A required ratio. Numerator and denominator are benchmarks, "NAME@RANKS" on several ranks: their times, or with ":COUNTER" one of
-    their counters. A list stands for its largest value; without a denominator the ratio is the numerator. With `difference` the
-    denominator is subtracted.
+    """ A required ratio. Numerator and denominator are benchmarks, "NAME@RANKS"
+    on several ranks: their times, or with ":COUNTER" one of their counters. A
+    list stands for its largest value; without a denominator the ratio is the
+    numerator. With `difference` the denominator is subtracted.
     """
 
     name: str
@@ -132,7 +134,8 @@ def iterations(labels, coarse="direct"):
 
 
 def hard(name):
-    """The iterations of a hard body, for both degrees and all coarse solvers."""
+    """The iterations of a hard body, for both degrees and all coarse
+    solvers."""
     return [term for coarse in COARSE for term in iterations([f"P3/60k-{name}", f"P2/60k-{name}"], coarse)]
 
 
@@ -177,8 +180,10 @@ RATIOS = [
           at_most=600),
 ]
 
-# The largest allowed relative difference between an operator and the same operator by quadrature.
+# The largest allowed relative difference between an operator and the same
+# operator by quadrature.
 DIFFERENCE = {"float": 1e-5, "": 1e-11}
-# The largest allowed residual of a solve to 1e-8: the residual that conjugate gradients update drifts from the true one, by round-off of
-# the forces of a stiff part that hangs on a soft one.
+# The largest allowed residual of a solve to 1e-8: the residual that conjugate
+# gradients update drifts from the true one, by round-off of the forces of a
+# stiff part that hangs on a soft one.
 RESIDUAL = {"jump": 5e-6, "": 2e-7}

@@ -22,7 +22,8 @@ SOLVERS = {"p-multigrid": "CG + p-multigrid", "cg_ml": "CG + ML, assembled", "ja
 
 
 def applications(results):
-    """Yields (degree, operator, result) of all operators that ran on one rank."""
+    """Yields (degree, operator, result) of all operators that ran on one
+    rank."""
     for name, result in results.items():
         operator = tables.operator_of(name)
         if operator is not None and result["ranks"] == 1:

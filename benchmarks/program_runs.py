@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Tools that the scripts of this folder share to run the program: cases, runs on several ranks, linear solves, and tables in pages."""
+"""Tools that the scripts of this folder share to run the program: cases, runs
+on several ranks, linear solves, and tables in pages."""
 
 import json
 import os
@@ -27,7 +28,8 @@ subsection Output
   set Overwrite = true
 end
 {more}"""
-# Entries to add to a case: degree 1 is solved like a large body, by aggregation.
+# Entries to add to a case: degree 1 is solved like a large body, by
+# aggregation.
 BY_AGGREGATION = """subsection Linear solver
   set Type = p-multigrid
   subsection p-multigrid
@@ -48,12 +50,14 @@ def file(name):
 
 
 def bent_body(mesh, degree, held, more=""):
-    """A parameter file for linear statics of a body that is held at one place and bent by its weight, with `more` sections added."""
+    """A parameter file for linear statics of a body that is held at one place
+    and bent by its weight, with `more` sections added."""
     return BENT_BODY.format(mesh=mesh, degree=degree, held=held, more=more)
 
 
 def launcher(ranks):
-    """The words before a program that start it on so many ranks. If there are more ranks than cores, waiting ranks yield to others."""
+    """The words before a program that start it on so many ranks. If there are
+    more ranks than cores, waiting ranks yield to others."""
     if ranks == 1:
         return []
     sharing = ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"] if ranks > os.cpu_count() else []
@@ -61,8 +65,9 @@ def launcher(ranks):
 
 
 def solve(program, folder, case, ranks, most_seconds=None):
-    """Runs the text of a parameter file. Returns unknowns, iterations, seconds of assembly, set-up of the solver and solution, and MB;
-    None if it takes too long, or too many iterations."""
+    """Runs the text of a parameter file. Returns unknowns, iterations, seconds
+    of assembly, set-up of the solver and solution, and MB; None if it takes too
+    long, or too many iterations."""
     (folder / "case.prm").write_text(case, encoding="utf-8")
     command = [*launcher(ranks), os.path.abspath(program), "case.prm", "--output", "results", "--quiet"]
     try:

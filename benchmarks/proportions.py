@@ -6,8 +6,10 @@ side and bent by their weight, statics to the program's tolerance. Run it inside
 
     benchmarks/proportions.py [--ranks 1] [--repetitions 2] [--programs PROGRAM [PROGRAM]] [--quick] [--document]
 
-Programs take turns, so that one can be compared with an older one; the table has the fastest run of each. --quick leaves out large
-bodies. --document writes the table of the first program into doc/algorithms.md. For all solvers and degrees see hard_bodies.py.
+Programs take turns, so that one can be compared with an older one; the table
+has the fastest run of each. --quick leaves out large bodies. --document writes
+the table of the first program into doc/algorithms.md. For all solvers and
+degrees see hard_bodies.py.
 """
 
 import argparse

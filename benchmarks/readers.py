@@ -6,11 +6,13 @@ gmsh and here, and read by `corotet mesh`. Run it inside of scripts/toolchain:
 
     benchmarks/readers.py [--cells N] [--program PROGRAM] [--keep FOLDER] [--document]
 
-Memory is the sum of the peaks of all processes that exist at the same time, where it is largest, less that for a mesh of a few cells.
-Surfaces have a hole, so that they are read and checked, and refused before anything is meshed; shapes of CAD are meshed coarsely, which
-belongs to their figures. The status is 1 if reading takes more than ten times the file's size and 200 MB, or a file that was cut off in
-its middle is not refused in one line that names it.
---document writes the table into doc/meshes.md.
+Memory is the sum of the peaks of all processes that exist at the same time,
+where it is largest, less that for a mesh of a few cells. Surfaces have a hole,
+so that they are read and checked, and refused before anything is meshed; shapes
+of CAD are meshed coarsely, which belongs to their figures. The status is 1 if
+reading takes more than ten times the file's size and 200 MB, or a file that was
+cut off in its middle is not refused in one line that names it. --document
+writes the table into doc/meshes.md.
 """
 
 import argparse
@@ -122,7 +124,8 @@ def box(n):
 
 
 def write_med(file, points, tetrahedra):
-    """Writes a mesh with one group of cells. The structure is that of MED 4.1 (https://docs.salome-platform.org)."""
+    """Writes a mesh with one group of cells. The structure is that of MED 4.1
+    (https://docs.salome-platform.org)."""
     step = "-0000000000000000001-0000000000000000001"
     with h5py.File(file, "w", track_order=True) as med:
         med.create_group("INFOS_GENERALES").attrs.update({"MAJ": np.int32(4), "MIN": np.int32(1), "REL": np.int32(0)})
@@ -182,7 +185,8 @@ def family(process):
 
 
 def peak(process, parent):
-    """The peak memory of a process [bytes]; 0 as long as it is a copy of its parent that is about to start another program."""
+    """The peak memory of a process [bytes]; 0 as long as it is a copy of its
+    parent that is about to start another program."""
     try:
         if process != parent and os.readlink(f"/proc/{process}/exe") == os.readlink(f"/proc/{parent}/exe"):
             return 0
@@ -195,7 +199,8 @@ def peak(process, parent):
 
 
 def read(program, file, *arguments):
-    """Exit status, error text, memory [bytes] and processor time [s] of reading a file."""
+    """Exit status, error text, memory [bytes] and processor time [s] of reading
+    a file."""
     with tempfile.TemporaryFile("w+", encoding="utf-8") as said:
         run = subprocess.Popen([program, "mesh", file, *arguments], stdout=subprocess.DEVNULL, stderr=said)
         most = 0
@@ -211,7 +216,8 @@ def read(program, file, *arguments):
 
 
 def tried(program, at_start, name, file, expected_status, *arguments):
-    """A row of the table, and whether all requirements are met. at_start is the memory for a small mesh."""
+    """A row of the table, and whether all requirements are met. at_start is the
+    memory for a small mesh."""
     status, said, memory, seconds = read(program, file, *arguments)
     memory -= at_start
     size = file.stat().st_size

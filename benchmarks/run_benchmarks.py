@@ -51,7 +51,8 @@ def command(run, options, output):
 
 
 def merge(document, ranks, results, failures):
-    """Adds the fastest repetition of each benchmark of a process to `results`, and failed ones to `failures`."""
+    """Adds the fastest repetition of each benchmark of a process to `results`,
+    and failed ones to `failures`."""
     for entry in document["benchmarks"]:
         if entry.get("run_type") != "iteration":
             continue
@@ -66,7 +67,8 @@ def merge(document, ranks, results, failures):
 
 
 def execute(options):
-    """Runs all processes. Returns results by name, the machine as Google Benchmark describes it, and failures."""
+    """Runs all processes. Returns results by name, the machine as Google
+    Benchmark describes it, and failures."""
     results, context, failures = {}, {}, []
     runs = [run for run in plan.RUNS if run.quick or not options.quick]
     for number, run in enumerate(runs, 1):
@@ -93,7 +95,8 @@ def execute(options):
 
 
 def value(term, results, quick):
-    """The number that a term of a ratio stands for, or None if it has not been measured."""
+    """The number that a term of a ratio stands for, or None if it has not been
+    measured."""
     if isinstance(term, list):
         values = [v for v in (value(t, results, quick) for t in term) if v is not None]
         return max(values) if values and (quick or len(values) == len(term)) else None
@@ -104,7 +107,8 @@ def value(term, results, quick):
 
 
 def split(name):
-    """The parts of a name: "P3/840k/solve/amg" has the case "P3/840k" and the benchmark "solve/amg"."""
+    """The parts of a name: "P3/840k/solve/amg" has the case "P3/840k" and the
+    benchmark "solve/amg"."""
     words = name.split("/")
     return "/".join(words[:2]), "/".join(words[2:])
 
@@ -118,7 +122,8 @@ def explain(term, amount):
 
 
 def judge(results, quick):
-    """The rows of the table of ratios: name, measured value, terms, prototype, requirement, verdict."""
+    """The rows of the table of ratios: name, measured value, terms, prototype,
+    requirement, verdict."""
     rows = []
     for ratio in plan.RATIOS:
         above = value(ratio.numerator, results, quick)

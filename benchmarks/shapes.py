@@ -71,8 +71,10 @@ def number(value):
 
 
 def solid(rng, tag, cut):
-    """A primitive of OpenCASCADE as gmsh writes it. Its centre is in the upper part of the unit cube, to which all primitives are
-    applied, so that most of the bottom stays; primitives that are cut out are smaller than those that are added."""
+    """A primitive of OpenCASCADE as gmsh writes it. Its centre is in the upper
+    part of the unit cube, to which all primitives are applied, so that most of
+    the bottom stays; primitives that are cut out are smaller than those that
+    are added."""
     size = rng.uniform(0.1, 0.25) if cut else rng.uniform(0.15, 0.4)
     x, y, z = rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0.55, 1)
     kind = rng.choice(("Box", "Cylinder", "Sphere", "Torus"))
@@ -92,7 +94,8 @@ def solid(rng, tag, cut):
 
 
 def geometry(seed):
-    """The text of a .geo file with a random shape, which prints the number of its pieces."""
+    """The text of a .geo file with a random shape, which prints the number of
+    its pieces."""
     rng = random.Random(seed)
     lines = ['SetFactory("OpenCASCADE");', "Box(1) = {0, 0, 0, 1, 1, 1};", "body() = {1};"]
     for i in range(rng.randint(1, 4)):
@@ -108,8 +111,9 @@ def geometry(seed):
 
 
 def make_files(number_of_shape, folder):
-    """Writes the shape as STEP and, as a surface mesh, as STL. Returns the formats that gmsh could make. A shape that falls into pieces,
-    one of which would have no support, is replaced by the next random one."""
+    """Writes the shape as STEP and, as a surface mesh, as STL. Returns the
+    formats that gmsh could make. A shape that falls into pieces, one of which
+    would have no support, is replaced by the next random one."""
     for attempt in range(100):
         (folder / f"shape_{number_of_shape}.geo").write_text(geometry(f"{number_of_shape} {attempt}"), encoding="utf-8")
         run = run_gmsh(number_of_shape, folder, "step", "-0")
@@ -162,7 +166,8 @@ def try_shape(program, seed, folder):
 
 
 def table(results):
-    """The lines of a table in Markdown, and whether all requirements are met."""
+    """The lines of a table in Markdown, and whether all requirements are
+    met."""
     lines = ["| format | shapes | solved | refused | lost | cells (median) | seconds (median, longest) |", "|---|---:|---:|---:|---:|---:|---:|"]
     good = True
     for suffix in FORMATS:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""Results of benchmarks as tables: their content, and their form as text and on a page."""
+"""Results of benchmarks as tables: their content, and their form as text and on
+a page."""
 
 from dataclasses import dataclass
 
@@ -20,7 +21,8 @@ class Table:
     note: str = ""
 
     def as_text(self):
-        """The table as text; columns are as wide as needed, the first one aligned to the left."""
+        """The table as text; columns are as wide as needed, the first one
+        aligned to the left."""
         rows = [[str(cell) for cell in row] for row in self.rows]
         widths = [max(len(row[i]) for row in [self.head] + rows) for i in range(len(self.head))]
 
@@ -36,7 +38,8 @@ class Table:
 
 
 def show(value, scale=1.0, form=".3g"):
-    """A number with three digits, without an exponent where it is readable without."""
+    """A number with three digits, without an exponent where it is readable
+    without."""
     if value is None:
         return "-"
     value *= scale

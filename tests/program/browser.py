@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Chromium without a window, which draws by software: what pages look like, what the browser reports about them, and what they load."""
+"""Chromium without a window, which draws by software: what pages look like,
+what the browser reports about them, and what they load."""
 
 import io
 import json
@@ -39,7 +40,8 @@ class Browser:
                                     {"features": [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]})
 
     def open(self, path):
-        """Opens a page and waits until its data are read and it is drawn. Returns how long reading took [s]."""
+        """Opens a page and waits until its data are read and it is drawn.
+        Returns how long reading took [s]."""
         self.driver.get_log("browser"), self.driver.get_log("performance")
         start = time.monotonic()
         self.driver.get(path.as_uri())
@@ -75,7 +77,8 @@ class Browser:
         return self.run("return [...document.querySelectorAll(arguments[0])].map((one) => one.textContent)", selector)
 
     def data(self):
-        """The numbers of the page by their names: the stored number and the text that is shown."""
+        """The numbers of the page by their names: the stored number and the
+        text that is shown."""
         found = self.run("return [...document.querySelectorAll('data[data-key]')].map((one) => [one.dataset.key, one.value, one.textContent])")
         return {key: (value, text) for key, value, text in found}
 
@@ -93,7 +96,8 @@ class Browser:
             self.settle()
 
     def set_value(self, name, value):
-        """Sets the value of an input or a choice with the events that a person causes."""
+        """Sets the value of an input or a choice with the events that a person
+        causes."""
         self.run("const e = document.getElementById(arguments[0]); e.value = arguments[1];"
                  "for (const type of ['input', 'change']) e.dispatchEvent(new Event(type, {bubbles: true}))", name, str(value))
         self.settle()
@@ -115,8 +119,8 @@ class Browser:
         self.settle()
 
     def picture(self, selector):
-        """The pixels of an element as numbers from 0 to 255 (rows x columns x 3), without elements that lie over it, whose texts
-        change."""
+        """The pixels of an element as numbers from 0 to 255 (rows x columns x
+        3), without elements that lie over it, whose texts change."""
         others = "for (const one of document.querySelector(arguments[0]).parentElement.children) if (!one.matches(arguments[0]))"
         self.run(others + "one.style.visibility = 'hidden'", selector)
         self.settle()
@@ -126,5 +130,6 @@ class Browser:
 
 
 def n_different(one, other):
-    """The number of pixels whose colours differ by more than antialiasing may cause."""
+    """The number of pixels whose colours differ by more than antialiasing may
+    cause."""
     return int((abs(one - other).max(axis=2) > 8).sum())

@@ -9,7 +9,8 @@
   one rank is reproducible to the last digit;
 - the file itself is short and begins with a comment.
 
-Modes have frequencies in summary.json and columns in modes.csv instead of a history.
+Modes have frequencies in summary.json and columns in modes.csv instead of a
+history.
 
 To be given the case as argument: cases.py Cases.test_NAME
 """

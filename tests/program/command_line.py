@@ -32,19 +32,22 @@ class CommandLine(ProgramTest):
         program = pathlib.Path(os.environ["COROTET_PROGRAM"])
         if not (program.parent / "lib" / "corotet" / "placeholders").exists():
             self.skipTest("built without placeholders")
-        # With this variable the dynamic loader lists the libraries that it would load.
+        # With this variable the dynamic loader lists the libraries that it
+        # would load.
         loaded = subprocess.run([program], env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"}, check=True, capture_output=True, text=True).stdout
         paths = dict(re.findall(r"(\S+) => (\S+)", loaded))
         placeholders = [name for name, path in paths.items() if "/placeholders/" in path]
         for name in ("libgmsh", "libTKernel", "libslepc", "libsundials"):
             self.assertTrue(any(placeholder.startswith(name) for placeholder in placeholders), name)
-        # Libraries that only these need, such as those of a CAD program's windows.
+        # Libraries that only these need, such as those of a CAD program's
+        # windows.
         for name in ("libfltk", "libGL.", "libvtk", "libarpack"):
             self.assertFalse([path for path in paths if path.startswith(name)], name)
         self.assertIn("/libdeal.ii", loaded)
 
     def test_huge_pages(self):
-        """Where Linux gives huge pages on request only, the program asks for them, unless the environment says otherwise."""
+        """Where Linux gives huge pages on request only, the program asks for
+        them, unless the environment says otherwise."""
         setting = pathlib.Path("/sys/kernel/mm/transparent_hugepage/enabled")
         if not setting.exists() or "[madvise]" not in setting.read_text(encoding="utf-8"):
             self.skipTest("huge pages are for all, or for none")
@@ -67,7 +70,8 @@ class CommandLine(ProgramTest):
             self.assertEqual(name, "corotet\n")
 
     def test_terminal(self):
-        """A terminal shows a live line with a bar, as wide as it allows, and last lines that tell where to look; never colours."""
+        """A terminal shows a live line with a bar, as wide as it allows, and
+        last lines that tell where to look; never colours."""
         for columns, pattern in ((120, r"step \d+, time [^\r]* left \[=* *\]$"), (60, r"step \d+, time [^\r\[]*$")):
             main, terminal = pty.openpty()
             fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
@@ -98,7 +102,8 @@ class CommandLine(ProgramTest):
         self.assertRegex(self.run_program("--version").stdout, r"corotet \d+\.\d+\.\d+.*deal\.II \d+\.\d+.*for \S+")
 
     def test_print_parameters(self):
-        # --print-parameters prints a file of defaults: prm and json can be read again, with the same values.
+        # --print-parameters prints a file of defaults: prm and json can be read
+        # again, with the same values.
         prm = self.run_program("--print-parameters", "prm").stdout
         self.assertEqual(self.run_program("--print-parameters").stdout, prm)
         self.assertIn("subsection Time integration", prm)
@@ -128,7 +133,8 @@ class CommandLine(ProgramTest):
         self.assertEqual(list(self.folder.iterdir()), [], "--validate must not leave anything behind")
 
     def test_validate_where_results_are(self):
-        """--validate accepts a case whose output directory has results, with a warning, and still reports mistakes."""
+        """--validate accepts a case whose output directory has results, with a
+        warning, and still reports mistakes."""
         (self.folder / "case.prm").write_text(parameter_text({**BEAM, "Type": "modes", "Modes/Number": "1"}), encoding="utf-8")
         self.run_program("case.prm", "--output", "results")
         run = self.run_program("case.prm", "--output", "results", "--validate")
@@ -156,7 +162,8 @@ class CommandLine(ProgramTest):
         self.assertEqual(run.stdout, "")
 
     def test_words_before_mesh(self):
-        """The command `mesh` must be the first word, as options before it would be lost."""
+        """The command `mesh` must be the first word, as options before it would
+        be lost."""
         mesh = ROOT / "meshes" / "l_block.msh"
         for word, found in (("--quiet", "--quiet"), (ROOT / "parameters" / "cantilever.prm", "FILE")):
             run = self.run_program(word, "mesh", mesh, status=1)
@@ -164,7 +171,8 @@ class CommandLine(ProgramTest):
         self.assertIn("99 cells", self.run_program("mesh", mesh).stdout)
 
     def test_mesh_for_a_folder_that_is_not_there(self):
-        """A missing folder is the user's mistake and reported before the mesh is made; so are numbers that are not numbers."""
+        """A missing folder is the user's mistake and reported before the mesh
+        is made; so are numbers that are not numbers."""
         mesh = ROOT / "meshes" / "l_block.msh"
         self.assertEqual(self.run_program("mesh", mesh, "--out", "no_where/x.msh", status=1).stderr,
                          "corotet: error: 'no_where/x.msh' cannot be written: there is no folder 'no_where'; allowed is a name in a folder that is there\n")
@@ -182,7 +190,8 @@ class CommandLine(ProgramTest):
                 self.assertEqual((run.returncode, run.stderr), (3, "corotet: error: the standard output cannot be written (is the disk full?)\n"))
 
     def test_entries_of_another_type(self):
-        """Entries for another type of run are a mistake if no type was chosen; otherwise there is a warning that they have no effect."""
+        """Entries for another type of run are a mistake if no type was chosen;
+        otherwise there is a warning that they have no effect."""
         (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
         for setting, kind in (("Modes/Number = 3", "modes"), ("Convergence study/Degrees = 1, 2", "convergence study")):
             run = self.run_program("beam.prm", "--validate", "--set", setting, status=1)
@@ -196,8 +205,8 @@ class CommandLine(ProgramTest):
             self.assertEqual(run.stdout.count('no effect on modes: "Checkpoint/Wall time limit"'), warned)
 
     def test_rotations_without_effect(self):
-        """The coarse solver amg has no rotations of vertices: if they are requested, there is a warning; other solvers have their own
-        warning."""
+        """The coarse solver amg has no rotations of vertices: if they are
+        requested, there is a warning; other solvers have their own warning."""
         (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
         section = "Linear solver/p-multigrid/"
         warning = f'no effect, as "{section}Coarse solver" is \'amg\': {section}Vertex rotations'
@@ -209,7 +218,8 @@ class CommandLine(ProgramTest):
                 self.assertEqual(out.count(warning), warned, out)
 
     def test_entries_without_effect(self):
-        """For entries that another entry switches off there is a warning with their place."""
+        """For entries that another entry switches off there is a warning with
+        their place."""
         (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
         static, adaptive = "Time integration/Type = static", "Time integration/Adaptive step/"
         for setting, unless in (("Time integration/Time step = 0.5", static), (f"{adaptive}Target error = 1e-5", f"{adaptive}Enabled = false"),
@@ -223,8 +233,9 @@ class CommandLine(ProgramTest):
                 self.assertNotIn(entry, out)
 
     def test_make(self):
-        """make passes names with spaces and quotes unchanged, and touches no other folder; a script that prints its arguments replaces
-        the toolchain."""
+        """make passes names with spaces and quotes unchanged, and touches no
+        other folder; a script that prints its arguments replaces the
+        toolchain."""
         toolchain = self.folder / "toolchain"
         toolchain.write_text("""#!/bin/sh\nprintf '[%s]' "$@"\necho\n""", encoding="utf-8")
         toolchain.chmod(0o755)
@@ -250,7 +261,8 @@ class CommandLine(ProgramTest):
         return run.stderr
 
     def test_parameters_to_xml(self):
-        """Parameter files in XML are replaced, other files only with --overwrite, and an old file stays if the new one cannot be written
+        """Parameter files in XML are replaced, other files only with
+        --overwrite, and an old file stays if the new one cannot be written
         completely."""
         case = self.folder / "case.prm"
         case.write_text("set Type = modes\n", encoding="utf-8")

@@ -39,7 +39,8 @@ SHORTER = {
     "study": ("Convergence study/Degrees = 1", "Mesh/file/Element size = 15", "Mesh/file/Geometry degree = 1"),
     "swing": ("Discretization/Degree = 1", "Mesh/file/Element size = 15", "Mesh/file/Geometry degree = 1", "Time integration/End time = 0.003"),
 }
-# Entries for a case on one page only: the run must reach the limit of time; the states that are drawn must exist.
+# Entries for a case on one page only: the run must reach the limit of time; the
+# states that are drawn must exist.
 SHORTER_ON_PAGE = {("doc/pictures.md", "spring"): ("Discretization/Degree = 1", "Time integration/Time step = 0.05", "Time integration/End time = 0.3"),
                    ("doc/command_line.md", "spring"): ("Discretization/Degree = 1", "Time integration/Maximum halvings = 2"),
                    ("doc/command_line.md", "cantilever"): ("Mesh/box/Cells = 6, 1, 1", "Time integration/End time = 0.4")}
@@ -79,7 +80,8 @@ def commands_of(text):
 
 
 def files_of(page):
-    """Returns {name: text} of the blocks that a sentence introduces as files."""
+    """Returns {name: text} of the blocks that a sentence introduces as
+    files."""
     text = (ROOT / page).read_text(encoding="utf-8")
     return dict(re.findall(r"[Aa]s\s`([\w./]+\.\w+)`[:,]\n\n```\w+\n(.*?)^```$", text, re.DOTALL | re.MULTILINE))
 
@@ -112,7 +114,8 @@ def settings_of(case):
 
 
 def for_test(text):
-    """The command without the toolchain, in which the test runs already, and with the tests' way to start ranks."""
+    """The command without the toolchain, in which the test runs already, and
+    with the tests' way to start ranks."""
     return re.sub(r"\bmpirun -n (\d+)", lambda match: shlex.join(launcher(int(match.group(1)))), text.replace("scripts/toolchain ", ""))
 
 
@@ -134,7 +137,8 @@ class DocumentedCommands(ProgramTest):
         return run.stdout
 
     def run_make(self, command, page):
-        """Checks that the target exists; returns the command that it runs after building."""
+        """Checks that the target exists; returns the command that it runs after
+        building."""
         words = shlex.split(without_comment(command)[0])
         dry = subprocess.run(["make", "--dry-run", *words[1:]], cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(dry.returncode, 0, f"{page}: {command}\n{dry.stderr}")

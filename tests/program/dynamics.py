@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Motions agree with theory for any degree and mass. doc/dynamics.md has all figures.
+"""Motions agree with theory for any degree and mass. doc/dynamics.md has all
+figures.
 
 - bar_step_load: the front, a jump in theory, is some cells wide, here of 0.04 L, and widens on its way, which rounds the corner
   of the tip's motion: its peak is 2 p L / E to 2 %, and comes at 2 L / c to 2 % and one step, 0.5 %. Behind the front the
@@ -22,7 +23,8 @@ import unittest
 
 from support import ROOT, ProgramTest, parameter_text, read_history, read_summary
 
-# Length 1 m, c = 1 m/s. Sides can only move along the bar, which makes it one-dimensional.
+# Length 1 m, c = 1 m/s. Sides can only move along the bar, which makes it
+# one-dimensional.
 LINEAR_BAR = """
 subsection Mesh
   subsection box
@@ -110,7 +112,8 @@ class Dynamics(ProgramTest):
                     difference = [float(row[f"right_{c}"]) - float(row[f"left_{c}"]) for c in "xyz"]
                     elongation = math.hypot(2 + difference[0], *difference[1:]) / 2 - 1
                     self.assertAlmostEqual(elongation, expected, delta=1e-3 * expected)
-                # The bar has made a whole revolution, less the lag of steps of theta = pi / 100: theta^2 / 12 of the angle.
+                # The bar has made a whole revolution, less the lag of steps of
+                # theta = pi / 100: theta^2 / 12 of the angle.
                 angle = math.atan2(difference[1], 2 + difference[0])
                 self.assertAlmostEqual(angle, -2 * math.pi * (math.pi / 100)**2 / 12, delta=1e-4)
 
@@ -161,8 +164,9 @@ class Dynamics(ProgramTest):
 
 
     def test_unstable_implicit_step(self):
-        """With beta just below 1/6 and steps far above the stable one, Newmark's method is unstable: the growth is noticed, as with
-        explicit steps."""
+        """With beta just below 1/6 and steps far above the stable one,
+        Newmark's method is unstable: the growth is noticed, as with explicit
+        steps."""
         (self.folder / "bar.prm").write_text(parameter_text(IMPLICIT_BAR), encoding="utf-8")
         run = self.run_program("bar.prm", "--output", "grown", status=2)
         summary = read_summary(self.folder / "grown")
@@ -175,7 +179,8 @@ class Dynamics(ProgramTest):
         self.run_program("bar.prm", "--output", "stable", "--set", "Time integration/Newmark/Beta = 0.25")
 
     def test_steps_held_at_the_smallest(self):
-        """Steps that would have to be shorter for their error are counted, and there is a warning."""
+        """Steps that would have to be shorter for their error are counted, and
+        there is a warning."""
         (self.folder / "bar.prm").write_text(parameter_text({
             "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "4, 1, 1", "Material/Young's modulus": "1e7", "Boundary conditions/Fixed": "x-min",
             "Loads/Gravity": "0; 0; -10", "Time integration/Type": "Newmark", "Time integration/Time step": "0.05",

@@ -39,7 +39,8 @@ class External(unittest.TestCase):
         cls.prefix = cls.folder / "moved"
         shutil.move(cls.folder / "made here", cls.prefix)
         cls.build = cls.folder / "build"
-        # The project is built without a build type, so that all flags come from the library's target and from this command.
+        # The project is built without a build type, so that all flags come from
+        # the library's target and from this command.
         run(CMAKE, "-G", "Ninja", "-S", PROJECT, "-B", cls.build, f"-DCMAKE_PREFIX_PATH={cls.prefix}", "-DCMAKE_BUILD_TYPE=",
             "-DCMAKE_CXX_FLAGS=-O1", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DCMAKE_UNITY_BUILD=ON")
         run(CMAKE, "--build", cls.build, "--parallel", "2")
@@ -49,14 +50,16 @@ class External(unittest.TestCase):
         return folder, run(*launcher(ranks), *words, cwd=folder)
 
     def test_flags_do_not_leak(self):
-        """Compile commands have the user's flags, the standard, deal.II's definitions, and no flags of the library's own build."""
+        """Compile commands have the user's flags, the standard, deal.II's
+        definitions, and no flags of the library's own build."""
         for command in json.loads((self.build / "compile_commands.json").read_text()):
             flags = [word for word in command["command"].split() if re.match("-[OWfgm]|-pedantic", word)]
             self.assertEqual(flags, ["-O1"])
             self.assertIn("-std=gnu++20", command["command"])
 
     def test_headers(self):
-        """Installed headers include only installed headers, and none that depends on the processor that the compiler targets."""
+        """Installed headers include only installed headers, and none that
+        depends on the processor that the compiler targets."""
         folder = self.prefix / "include"
         headers = list(folder.rglob("*.h"))
         self.assertIn(folder / "corotet" / "corotet.h", headers)
@@ -68,7 +71,8 @@ class External(unittest.TestCase):
         self.assertLess(len(headers), 40, "most headers are private")
 
     def test_no_paths_of_the_build(self):
-        """No installed file has the path of the sources or of the build folder."""
+        """No installed file has the path of the sources or of the build
+        folder."""
         for file in self.prefix.rglob("*"):
             if file.is_file() and "share" not in file.relative_to(self.prefix).parts:
                 content = file.read_bytes()
@@ -76,7 +80,8 @@ class External(unittest.TestCase):
                     self.assertNotIn(str(path).encode() + b"/", content, f"{file}: {path}")
 
     def test_own_law(self):
-        """The stretch of a bar in a smooth tube solves mu (s - 1 / s) + lambda (s - 1) = P, to Newton's tolerance."""
+        """The stretch of a bar in a smooth tube solves mu (s - 1 / s) + lambda
+        (s - 1) = P, to Newton's tolerance."""
         mu, lame, stress = 1e6 / 2.6, 3e5 / (1.3 * 0.4), 1e6
         a, b = mu + lame, -(lame + stress)
         stretch = (-b + math.sqrt(b * b + 4 * a * mu)) / (2 * a)
@@ -86,15 +91,17 @@ class External(unittest.TestCase):
             self.assertAlmostEqual(float(row["end_x"]), 2 * (stretch - 1), delta=1e-10)
 
     def tethered(self, steps, ranks=1):
-        """The heights of the cube's top at the end of each step, with so many steps in the period."""
+        """The heights of the cube's top at the end of each step, with so many
+        steps in the period."""
         folder, _ = self.run_here(self.build / "my_corotet", PROJECT / "tethered_cube.prm", "--set",
                                   f"Time integration/Time step = {math.pi / 5 / steps!r}", "--quiet", ranks=ranks)
         return [float(row["top_z"]) for row in read_history(folder / "output" / "tethered_cube")]
 
     def test_own_force_and_integrator(self):
-        """A mass on a spring, from rest where the spring is slack: z = - m g / k (1 - cos omega t), omega^2 = k / m. The method is of
-        second order, and the next term of its error, of fourth order, is (omega dt)^2 = 0.02 of the first; the cube's own compliance, k /
-        (E L) = 1e-7, is far below."""
+        """A mass on a spring, from rest where the spring is slack: z = - m g /
+        k (1 - cos omega t), omega^2 = k / m. The method is of second order, and
+        the next term of its error, of fourth order, is (omega dt)^2 = 0.02 of
+        the first; the cube's own compliance, k / (E L) = 1e-7, is far below."""
         errors = []
         for steps in (40, 80):
             z = self.tethered(steps)
@@ -116,8 +123,10 @@ class External(unittest.TestCase):
         self.assertIn("Tether", result.stderr)
 
     def test_step_by_step(self):
-        """Starting at rest, all modes of a bar have their largest elongation, twice the static one, at 2 L / c (their frequencies are odd
-        multiples of c / 4 L), and without the load swing back to the opposite. The same load as an expression has the same result."""
+        """Starting at rest, all modes of a bar have their largest elongation,
+        twice the static one, at 2 L / c (their frequencies are odd multiples of
+        c / 4 L), and without the load swing back to the opposite. The same load
+        as an expression has the same result."""
         folder, text = self.run_here(self.build / "let_go", PROJECT / "bar.prm")
         let_go_at, highest, lowest = (float(word) for word in text.split())
         at_rest = 100 * 10**2 / (2 * 1e6)
@@ -149,7 +158,8 @@ class External(unittest.TestCase):
             self.assertAlmostEqual(float(a), b, delta=1e-6 * abs(b))
 
     def test_installed_scripts(self):
-        """The installed program finds the script that draws a study after the installation was moved."""
+        """The installed program finds the script that draws a study after the
+        installation was moved."""
         study = "set Type = convergence study\n" \
                 "subsection Exact solution\nset Displacement = 0.1*x^2; 0; 0\nset Displacement boundary = x-min\nend\n" \
                 "subsection Time integration\nset Type = static\nset Time step = 1\nend\n" \
@@ -160,7 +170,8 @@ class External(unittest.TestCase):
         self.assertTrue((folder / "output" / "study" / "study_l2_over_h.svg").exists())
         with open(folder / "output" / "study" / "study.csv", newline="", encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), 2)
-        # The script for the page is installed as well, and finds the program beside it: it knows the defaults.
+        # The script for the page is installed as well, and finds the program
+        # beside it: it knows the defaults.
         subprocess.run([self.prefix / "share" / "corotet" / "scripts" / "report", folder / "output" / "study"], capture_output=True, check=True)
         page = (folder / "output" / "study" / "report.html").read_text(encoding="utf-8")
         self.assertIn("<code>Convergence study/Degrees</code>", page)

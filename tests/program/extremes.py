@@ -41,7 +41,8 @@ VIBRATING_SUPPORT = {**box("0.1, 0.01, 0.01", "10, 1, 1", 1, 7e10, 0.3, 2700), *
 class Extremes(ProgramTest):
 
     def run_entries(self, entries, name, ranks):
-        """Runs a parameter file with these entries; returns the run and its output directory."""
+        """Runs a parameter file with these entries; returns the run and its
+        output directory."""
         (self.folder / f"{name}.prm").write_text(parameter_text(entries), encoding="utf-8")
         output = self.folder / f"{name}_{ranks}"
         run = self.run_program(f"{name}.prm", "--output", output, ranks=ranks)
@@ -49,7 +50,8 @@ class Extremes(ProgramTest):
         return run, output
 
     def test_falling_steel(self):
-        # The block must have fallen by g t^2 / 2, to 1e-9, with at most one iteration for each step, as the rest is round-off.
+        # The block must have fallen by g t^2 / 2, to 1e-9, with at most one
+        # iteration for each step, as the rest is round-off.
         for ranks in RANKS:
             run, output = self.run_entries(FALLING_STEEL, "steel", ranks)
             rows = read_history(output)
@@ -71,10 +73,12 @@ class Extremes(ProgramTest):
             self.assertEqual(float(read_history(output)[-1]["parts"]), 1)
 
     def test_linear_statics_that_end_without_forces(self):
-        # Beam theory gives the deflection F L^3 / (3 E I), to which six quadratic cells are close.
+        # Beam theory gives the deflection F L^3 / (3 E I), to which six
+        # quadratic cells are close.
         deflection = 4 * 200 / (1e7 * 0.125 ** 2)
         conditions = "Boundary conditions/"
-        # If the support moves, forces of cells that are crushed at it do not count: further solves remove their rest.
+        # If the support moves, forces of cells that are crushed at it do not
+        # count: further solves remove their rest.
         cases = (("unload", {conditions + "Fixed": "x-min", conditions + "Traction": "x-max: 0; 0; 200 * triangle(t, 0, 1)"}, deflection, 0.05, {1}),
                  ("carry", {conditions + "Displacement": "x-min: 0; 0; 0.1 * triangle(t, 0, 1)"}, 0.1, 1e-11, {2, 3}))
         for name, conditions, largest, tolerance, solves in cases:
@@ -84,12 +88,15 @@ class Extremes(ProgramTest):
                 self.assertLessEqual({int(row["newton_iterations"]) for row in rows[1:]}, solves)
                 middle, last = (float(rows[k]["max_displacement"]) for k in (2, 4))
                 self.assertAlmostEqual(middle, largest, delta=tolerance * largest)
-                # The bound is the linear solver's tolerance, times the amplification of residuals in a slender body.
+                # The bound is the linear solver's tolerance, times the
+                # amplification of residuals in a slender body.
                 self.assertLessEqual(last, 1e-5 * largest)
 
     def test_long_explicit_steps(self):
-        # A bar that is pulled suddenly stretches to twice its static length and back, in 4 L / c. Cells of degree 1 smear the front of the
-        # wave, which reduces the peak by 2.3, 1.5, 1.0 % with 8, 16, 32 of them: the power 2/3 of their size.
+        # A bar that is pulled suddenly stretches to twice its static length and
+        # back, in 4 L / c. Cells of degree 1 smear the front of the wave, which
+        # reduces the peak by 2.3, 1.5, 1.0 % with 8, 16, 32 of them: the power
+        # 2/3 of their size.
         static = 1e4 * 2e6 / 5e10
         for ranks in RANKS:
             rows = read_history(self.run_entries(ROCK, "rock", ranks)[1])
@@ -107,7 +114,8 @@ class Extremes(ProgramTest):
         for ranks in RANKS:
             for small, large in zip(read_modes(self.run_entries(entries, "nanometres", ranks)[1]), metres, strict=True):
                 ratio = float(small["frequency"]) / float(large["frequency"])
-                # Residuals of 1e-6 are errors of 1e-12 in frequencies; files have ten digits or more.
+                # Residuals of 1e-6 are errors of 1e-12 in frequencies; files
+                # have ten digits or more.
                 self.assertAlmostEqual(ratio / unit, 1, delta=1e-9)
 
     def test_vibrating_support(self):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Whatever fails on one rank, or on all: the program ends with one message and the right exit status.
+"""Whatever fails on one rank, or on all: the program ends with one message and
+the right exit status.
 
 failing_files.cc lets the n-th operation on files and all later ones fail, on a chosen rank, as on a disk that is full from then on.
 Hanging is failing: each run has a minute.
@@ -37,7 +38,8 @@ class FailingRanks(ProgramTest):
         self.assertIn(text, run[1][0])
 
     def test_exceptions_on_some_ranks_only(self):
-        # The messages of each kind of error; where all ranks throw, only rank 0 writes.
+        # The messages of each kind of error; where all ranks throw, only rank 0
+        # writes.
         kinds = {"input": (1, "Section/Entry: of rank {}"), "computation": (2, "of rank {}"), "machine": (3, "of rank {}"),
                  "memory": (3, "memory is too short"), "bug": (3, "internal: of rank {}"), "number": (3, "internal: ")}
         for kind, ranks, rank in (("machine", 2, 0), ("machine", 2, 1), ("machine", 2, "all"), ("machine", 3, 2), ("input", 2, 1),
@@ -49,7 +51,8 @@ class FailingRanks(ProgramTest):
                 self.check((run.returncode, MESSAGE.findall(run.stderr), run.stderr), status, text.format(0 if rank == "all" else rank))
 
     def fail_everywhere(self, settings, ranks, rank, n_runs):
-        """Lets @p n_runs operations, evenly from the first to the last, be the first that fails."""
+        """Lets @p n_runs operations, evenly from the first to the last, be the
+        first that fails."""
         preload = {"LD_PRELOAD": os.environ["COROTET_FAILING_FILES"], "COROTET_TEST_RANK": rank, "COROTET_TEST_FILES": "/results",
                    "ASAN_OPTIONS": "verify_asan_link_order=0"}
         directory = self.folder / "results"
@@ -65,7 +68,8 @@ class FailingRanks(ProgramTest):
             with self.subTest(ranks=ranks, rank=rank, first=first, of=n):
                 shutil.rmtree(directory, ignore_errors=True)
                 run = self.start(command, ranks, COROTET_TEST_FROM=first, COROTET_TEST_MODE="from", **preload)
-                # If all results exist already, failing to write the last lines of the log is no error.
+                # If all results exist already, failing to write the last lines
+                # of the log is no error.
                 if run[0] == 0:
                     self.assertGreater(first, 0.9 * n)
                     self.assertEqual(read_summary(directory)["status"], "done")

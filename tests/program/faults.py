@@ -92,7 +92,8 @@ class Faults(ProgramTest):
             self.sample(mode, 2, 3)
 
     def test_no_locks(self):
-        """File systems of clusters may have no locks: the run warns and goes on."""
+        """File systems of clusters may have no locks: the run warns and goes
+        on."""
         (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in CASE.items() if value}), encoding="utf-8")
         status, errors = self.start(1, LD_PRELOAD=os.environ["COROTET_FAILING_FILES"], COROTET_TEST_RANK="all", COROTET_TEST_FROM=10**9,
                                     COROTET_TEST_FILES="/results", COROTET_TEST_MODE="no locks", ASAN_OPTIONS="verify_asan_link_order=0")
@@ -120,7 +121,8 @@ class Faults(ProgramTest):
         self.assertFalse(old.exists())
 
     def test_failed_step(self):
-        """If a step fails, and then a file cannot be written, both are reported, so that a user who makes room on the disk knows of the
+        """If a step fails, and then a file cannot be written, both are
+        reported, so that a user who makes room on the disk knows of the
         step."""
         case = {**CASE, "Newton/Maximum iterations": "1", "Loads/Gravity": "0; 0; -1e12"}
         (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in case.items() if value}), encoding="utf-8")

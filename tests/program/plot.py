@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/plot draws columns of history.csv, and scripts/draw_study those of study.csv."""
+"""scripts/plot draws columns of history.csv, and scripts/draw_study those of
+study.csv."""
 
 import csv
 import re
@@ -80,8 +81,8 @@ class Plot(ProgramTest):
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["begun", "empty", "modes", "one", "study"])
 
     def test_files_that_are_there(self):
-        """The script replaces its own files, other files only with --overwrite, and an old file stays if the new one cannot be written
-        completely."""
+        """The script replaces its own files, other files only with --overwrite,
+        and an old file stays if the new one cannot be written completely."""
         self.run_case("cantilever", "one", *CASE)
         for name in ("plot.png", "plot.pdf", "plot.svg"):
             with self.subTest(name=name):
@@ -114,7 +115,8 @@ class DrawStudy(ProgramTest):
         return {path.name: path.read_bytes() for path in (self.folder / "study").glob("study_*")}
 
     def write(self, **errors):
-        """Writes a table of two runs with these errors; the second run has cells of half the size."""
+        """Writes a table of two runs with these errors; the second run has
+        cells of half the size."""
         (self.folder / "study").mkdir()
         with open(self.folder / "study" / "study.csv", "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
@@ -123,7 +125,8 @@ class DrawStudy(ProgramTest):
                 table.writerow([1, i, "done", 1 / 2**i, 10 * 8**i, 1 + i, *(pair[i] for pair in errors.values())])
 
     def test_names(self):
-        """Names of files have norms in small letters; quantities keep their letters, as two may differ in capitals only."""
+        """Names of files have norms in small letters; quantities keep their
+        letters, as two may differ in capitals only."""
         self.write(L2=(1, 0.25), tip_z=(1, 0.5), TIP_z=(1, 0.125))
         self.draw()
         names = [f"study_{name}_over_{abscissa}.{ending}" for name in ("l2", "tip_z", "TIP_z") for abscissa in ("h", "dofs", "wall_time")
@@ -133,7 +136,8 @@ class DrawStudy(ProgramTest):
         self.assertNotEqual(pictures["study_tip_z_over_h.png"], pictures["study_TIP_z_over_h.png"])
 
     def test_errors_of_zero(self):
-        """Errors of zero have no place on a logarithmic scale: there is no picture and no message."""
+        """Errors of zero have no place on a logarithmic scale: there is no
+        picture and no message."""
         self.write(L2=(0, 0), tip_z=(0, 0.5))
         self.draw()
         self.assertEqual({name.split("_over_")[0] for name in self.pictures()}, {"study_tip_z"})

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Large rotations in the ready cases agree with theory. doc/rotations.md has all figures.
+"""Large rotations in the ready cases agree with theory. doc/rotations.md has
+all figures.
 
 - elastica: deflection and shortening of Bernoulli's elastica (elliptic integrals) to 1 %. The body is 20 times as long as
   thick: shear and stretch, which the elastica has not, change its deflection by 0.1 to 0.4 %.
@@ -33,7 +34,8 @@ BEND = (-13.4, -23.5, 53.4)
 
 
 def distance_from_rest(directory):
-    """The largest distance of a node from its position at rest in the last state, after the best rigid motion (Kabsch)."""
+    """The largest distance of a node from its position at rest in the last
+    state, after the best rigid motion (Kabsch)."""
     reader = vtkHDFReader()
     reader.SetFileName(str(directory / "solution.vtkhdf"))
     reader.UpdateInformation()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Signals and limits of time: one that ends a run leaves it saved, and one that requests a checkpoint does not end it."""
+"""Signals and limits of time: one that ends a run leaves it saved, and one that
+requests a checkpoint does not end it."""
 
 import os
 import re
@@ -24,7 +25,8 @@ SLOW = {**BEAM, "Mesh/box/Cells": "20, 4, 4", "Time integration/End time": "10",
 class Signals(ProgramTest):
 
     def test_signals(self):
-        """A stopped run tells so once on the terminal and once in its log, and its restart gives the results of an undisturbed run."""
+        """A stopped run tells so once on the terminal and once in its log, and
+        its restart gives the results of an undisturbed run."""
         reference = Run(self.folder / "reference", "generalized-alpha", 1)
         self.assertEqual(reference.finish()[0], 0)
         for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGHUP, 1), (signal.SIGXCPU, 1), (signal.SIGTERM, 2)):
@@ -79,7 +81,8 @@ class Signals(ProgramTest):
                                 stderr=subprocess.PIPE, text=True, **others)
 
     def signal_within_step(self, *numbers):
-        """Sends signals within the first step, each when the one before has arrived. Returns status and errors."""
+        """Sends signals within the first step, each when the one before has
+        arrived. Returns status and errors."""
         process = self.start(SLOW, "--set", "Output/Overwrite = true")
         while not (self.folder / "run" / "history.csv").exists() or len(read_history(self.folder / "run")) < 1:
             time.sleep(0.002)
@@ -90,7 +93,8 @@ class Signals(ProgramTest):
         return process.returncode, errors
 
     def test_second_signal(self):
-        """Launchers may send SIGTERM more than once, which must not lose the step; a second Ctrl-C ends the program at once."""
+        """Launchers may send SIGTERM more than once, which must not lose the
+        step; a second Ctrl-C ends the program at once."""
         status, errors = self.signal_within_step(signal.SIGTERM, signal.SIGTERM)
         self.assertEqual(status, 4, errors)
         self.assertIn("SIGTERM; the run is saved", errors)
@@ -98,7 +102,8 @@ class Signals(ProgramTest):
         self.assertEqual(self.signal_within_step(signal.SIGINT, signal.SIGINT)[0], -signal.SIGINT)
 
     def test_long_step(self):
-        """A step that would take minutes is given up; the restarted run makes it."""
+        """A step that would take minutes is given up; the restarted run makes
+        it."""
         entries = {**BEAM, "Time integration/Type": "static", "Discretization/Degree": "3", "Mesh/box/Size": "10, 0.1, 0.1",
                    "Mesh/box/Cells": "200, 2, 2", "Material/Young's modulus": "1e9", "Linear solver/Type": "jacobi", "Linear solver/Maximum iterations": "1000000"}
         process = self.start(entries)
@@ -117,13 +122,14 @@ class Signals(ProgramTest):
         self.assertEqual([row["step"] for row in read_history(self.folder / "run")], ["0", "1"])
 
     def test_hangup_that_is_ignored(self):
-        """A run that ignores SIGHUP, as with nohup, goes on: MPI's libraries handle that signal themselves, which must not change
-        this."""
+        """A run that ignores SIGHUP, as with nohup, goes on: MPI's libraries
+        handle that signal themselves, which must not change this."""
         for ignored in (True, False):
             with self.subTest(ignored=ignored):
                 process = self.start({**BEAM, "Time integration/End time": "0.4"}, "--set", "Output/Overwrite = true",
                                      preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL))
-                # Signals are sent from the first line of output on, while the body is made, and then during the steps.
+                # Signals are sent from the first line of output on, while the
+                # body is made, and then during the steps.
                 process.stdout.readline()
                 process.send_signal(signal.SIGHUP)
                 while process.poll() is None and ignored:
@@ -136,7 +142,8 @@ class Signals(ProgramTest):
                     self.assertIn(process.returncode, (4, -signal.SIGHUP))
 
     def test_closed_pipe(self):
-        """If the reader of the log ends, the run goes on to its end; a signal still ends it with all results saved."""
+        """If the reader of the log ends, the run goes on to its end; a signal
+        still ends it with all results saved."""
         for number, status in ((None, 0), (signal.SIGINT, 4)):
             with self.subTest(number=number):
                 entries = {**BEAM, "Newton/Log every solve": "true", **({"Time integration/End time": "1e4"} if number else {})}
@@ -154,7 +161,8 @@ class Signals(ProgramTest):
                 self.assertEqual(read_summary(self.folder / "run")["status"], "stopped" if number else "done")
 
     def test_limit_of_cpu_time(self):
-        """At the soft limit of CPU time, as set by "ulimit -S -t", a run is saved."""
+        """At the soft limit of CPU time, as set by "ulimit -S -t", a run is
+        saved."""
         process = self.start({**BEAM, "Time integration/End time": "1e4"},
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (1, resource.getrlimit(resource.RLIMIT_CPU)[1])))
         _, errors = process.communicate(timeout=60)
@@ -162,7 +170,8 @@ class Signals(ProgramTest):
         self.assertIn("the limit of CPU time (SIGXCPU); the run is saved", errors)
 
     def test_save_request_without_steps(self):
-        """During the set-up, and while modes are computed, there is nothing to save: a request to save does not end the program."""
+        """During the set-up, and while modes are computed, there is nothing to
+        save: a request to save does not end the program."""
         for kind, entries in (("simulation", {"Time integration/End time": "0.02"}), ("modes", {"Modes/Number": "1", "Loads/Gravity": "0; 0; 0"})):
             with self.subTest(kind=kind):
                 process = self.start({**LARGE, "Type": kind, **entries}, "--set", "Output/Overwrite = true")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Meshes in files that VTK has written, in all its formats, degrees 1 to 3; files without a mesh, or damaged ones, are refused."""
+"""Meshes in files that VTK has written, in all its formats, degrees 1 to 3;
+files without a mesh, or damaged ones, are refused."""
 
 import itertools
 import os
@@ -56,7 +57,8 @@ def two_cubes(degree, kind):
 
 
 def write(grid, path, settings):
-    """Writes a grid with VTK's writer; settings are names of its functions, and their arguments."""
+    """Writes a grid with VTK's writer; settings are names of its functions, and
+    their arguments."""
     writer = vtkXMLUnstructuredGridWriter() if path.suffix == ".vtu" else vtkUnstructuredGridWriter()
     writer.SetInputData(grid)
     writer.SetFileName(str(path))
@@ -77,7 +79,8 @@ FORMS = {"text_4.vtk": [("SetFileTypeToASCII",), ("SetFileVersion", 42)], "bytes
 class VtkFiles(ProgramTest):
 
     def volumes(self, file):
-        """The volumes of regions and areas of boundaries by name, from `corotet mesh`; and the number of cells."""
+        """The volumes of regions and areas of boundaries by name, from `corotet
+        mesh`; and the number of cells."""
         lines = self.run_program("mesh", file).stdout.splitlines()
         result, part = {}, None
         for line in lines:
@@ -96,7 +99,8 @@ class VtkFiles(ProgramTest):
                 self.assertEqual(self.volumes(file), ({"7": 1, "9": 1, "4": 1}, 12))
 
     def test_lagrange(self):
-        """Straight cells with Lagrange nodes in their places are recognised as straight."""
+        """Straight cells with Lagrange nodes in their places are recognised as
+        straight."""
         for degree in 1, 2, 3:
             with self.subTest(degree=degree):
                 file = self.folder / f"lagrange_{degree}.vtu"
@@ -105,7 +109,8 @@ class VtkFiles(ProgramTest):
                 self.assertNotIn("curved", self.run_program("mesh", file).stdout)
 
     def test_zero(self):
-        """0 is a number like others; without numbers there is one region, and triangles have no meaning."""
+        """0 is a number like others; without numbers there is one region, and
+        triangles have no meaning."""
         for numbers, expected in ((0, 1, 5), {"0": 1, "1": 1, "5": 1}), ((1, 2, 0), {"1": 1, "2": 1, "0": 1}), (None, {"0": 2}):
             with self.subTest(numbers=numbers):
                 grid = two_cubes(1, VTK_TETRA)
@@ -118,7 +123,8 @@ class VtkFiles(ProgramTest):
                 self.assertEqual(self.volumes(self.folder / "zero.vtu"), (expected, 12))
 
     def numbered(self, *arrays):
-        """The line of the log about numbers, for a file whose cells have these data: names, and values of the cubes and the triangles."""
+        """The line of the log about numbers, for a file whose cells have these
+        data: names, and values of the cubes and the triangles."""
         grid = two_cubes(1, VTK_TETRA)
         grid.GetCellData().Initialize()
         for name, values in arrays:
@@ -130,7 +136,8 @@ class VtkFiles(ProgramTest):
         return file
 
     def test_names_of_data(self):
-        """The log tells which data of cells give the numbers, and which others might have been meant."""
+        """The log tells which data of cells give the numbers, and which others
+        might have been meant."""
         for arrays, volumes, remark in (
             ([("Material", (7, 9, 4))], {"7": 1, "9": 1, "4": 1}, "regions and boundaries are numbered by the data of cells 'Material'"),
             ([("part", (7, 9, 4)), ("Region", (1., 2., 3.)), ("my id", (1, 2, 3)), ("stress", (1.5, 2., 3.))], {"1": 1, "2": 1, "3": 1},
@@ -146,7 +153,8 @@ class VtkFiles(ProgramTest):
                 self.assertIn(remark + "\n", self.run_program("mesh", file).stdout)
 
     def test_wrong_numbers(self):
-        """Data whose name is one of numbers, but whose values are not, are reported."""
+        """Data whose name is one of numbers, but whose values are not, are
+        reported."""
         for name, values, found in (("region", (-1, 4, 9), "-1"), ("region", (1, 2**31, 9), "2147483648"), ("Material", (1.5, 4., 9.), "1.5"),
                                     ("cell_tags", (-3, 4, -9), "-3"), ("part", (1., float("nan"), 9.), "nan")):
             with self.subTest(name, found=found):
@@ -217,14 +225,16 @@ class VtkFiles(ProgramTest):
         self.refuse(file)
 
     def test_full_disk(self):
-        """A full disk is reported for the program, with the status for errors of the machine."""
+        """A full disk is reported for the program, with the status for errors
+        of the machine."""
         write(two_cubes(3, VTK_LAGRANGE_TETRAHEDRON), self.folder / "part.vtu", [])
         run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "read_vtk", "part.vtu", "part.msh"], cwd=self.folder, capture_output=True, text=True,
                              check=False, preexec_fn=limit_files)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (3, "part.msh: File too large\n", ""))
 
     def test_no_python(self):
-        """Without Python files of VTK cannot be read; the message tells what is missing."""
+        """Without Python files of VTK cannot be read; the message tells what is
+        missing."""
         write(two_cubes(1, VTK_TETRA), self.folder / "part.vtu", [])
         run = subprocess.run([os.environ["COROTET_PROGRAM"], "mesh", "part.vtu"], cwd=self.folder, capture_output=True, text=True, check=False,
                              env={**os.environ, "PATH": str(self.folder)})

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Rows of wrong_inputs.py: wrong files, and the messages of the command line about them."""
+"""Rows of wrong_inputs.py: wrong files, and the messages of the command line
+about them."""
 
 from wrong_input_rows import SMALL, Row, parameter_file, wrong
 
@@ -10,8 +11,8 @@ TETRAHEDRON, TRIANGLE = 4, 2
 
 
 def mesh(elements, nodes=NODES, groups=(), version="2.2"):
-    """The text of a .msh file of version 2.2: elements are (type, physical group, surface or volume, node, node, ...), groups (dimension,
-    id, name)."""
+    """The text of a .msh file of version 2.2: elements are (type, physical
+    group, surface or volume, node, node, ...), groups (dimension, id, name)."""
     lines = ["$MeshFormat", f"{version} 0 8", "$EndMeshFormat"]
     if groups:
         lines += ["$PhysicalNames", str(len(groups)), *(f'{dimension} {number} "{name}"' for dimension, number, name in groups), "$EndPhysicalNames"]
@@ -200,7 +201,8 @@ def output_rows():
                       ["case.prm", "--quiet", "--output", directory, *validate], {"case.prm": text, **more}, status)
     yield Row("output: overwrite what is no result", ["holds no results of corotet"], "--output: Output/Directory: ",
               ["case.prm", "--quiet", "--output", "results", "--set", "Output/Overwrite = true"], {"case.prm": text, "results/letter.txt": ""})
-    # The second case makes its mesh until it runs out of memory: the limit is low, so that this takes far less than the two seconds.
+    # The second case makes its mesh until it runs out of memory: the limit is
+    # low, so that this takes far less than the two seconds.
     for name, memory, cells, *parts in (("of a box", 2**30, "2000, 100, 90", "2000 x 100 x 90 cuboids would need at least", "found are 1.07 GB"),
                                         ("that runs out", 3 * 2**28, "100, 50, 50", "this process has", "may have no more than 0.805 GB")):
         row = wrong(f"memory {name}", ("Discretization/Degree = 1", f"Mesh/box/Cells = {cells}"), status=3, memory=memory)

@@ -3,13 +3,16 @@
 # Copyright (C) 2026 by the corotet authors
 """Wrong inputs, each refused with its message: wrong_inputs.py [--count] [--every N] [--seconds LIMIT]
 
-The table is in wrong_input_rows.py: every parameter with values of the wrong type, out of range, not a number, infinite, empty or far too
-long; contradictions; files that are no meshes, tables or parameter files. For each row the exit status, the place (file and line, or
---set) and parts of the one line of the message must be right; nothing may be on standard output, no output directory may have been made,
-and the run may take no more than LIMIT seconds of processor time.
+The table is in wrong_input_rows.py: every parameter with values of the wrong
+type, out of range, not a number, infinite, empty or far too long;
+contradictions; files that are no meshes, tables or parameter files. For each
+row the exit status, the place (file and line, or --set) and parts of the one
+line of the message must be right; nothing may be on standard output, no output
+directory may have been made, and the run may take no more than LIMIT seconds of
+processor time.
 
-With --every N only each N-th row is run, with --only TEXT those whose name contains it. --count shows the number of rows. COROTET_PROGRAM
-is the program.
+With --every N only each N-th row is run, with --only TEXT those whose name
+contains it. --count shows the number of rows. COROTET_PROGRAM is the program.
 """
 
 import argparse

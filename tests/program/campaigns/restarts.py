@@ -36,7 +36,8 @@ def kill_many(test, n):
     try:
         while sum(counts.values()) < n:
             kind, ranks = random.choice(list(KINDS)), random.choice((1, 1, 1, 2, 2, 4))
-            # On several ranks the factorisation of Trilinos gives other last digits each time, also in undisturbed runs.
+            # On several ranks the factorisation of Trilinos gives other last
+            # digits each time, also in undisturbed runs.
             if ranks > 1 and KINDS[kind].get("Linear solver/Type") == "direct":
                 continue
             if (kind, ranks) not in references:
